@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+namespace ardrone_vslam {
+
+/// Pinhole camera with Brown's distortion (plumb_bob): k1, k2, k3 radial, p1, p2 tangential.
+struct CameraIntrinsics {
+  int width_px = 0;
+  int height_px = 0;
+  double fx_px = 0;
+  double fy_px = 0;
+  double cx_px = 0;
+  double cy_px = 0;
+  double k1 = 0;
+  double k2 = 0;
+  double p1 = 0;
+  double p2 = 0;
+  double k3 = 0;
+
+  bool operator==(const CameraIntrinsics& other) const;
+};
+
+enum class UndistortMethod { kExact, kClosedForm };
+
+/// Pixel <-> bearing in the optical frame (x right, y down, z forward). Immutable; safe to share between threads.
+class CameraModel {
+ public:
+  /// @throws std::invalid_argument naming the value that cannot be a camera (size, focal length, not finite).
+  explicit CameraModel(const CameraIntrinsics& intrinsics, UndistortMethod method = UndistortMethod::kExact);
+
+  /// Unit bearing of a (distorted) pixel. `kExact` inverts Brown's model by Newton's method to 1e-9 of the image plane;
+  /// `kClosedForm` is Drap & Lefevre's three-term series (5.6-5.11), radial only, a few pixels off for strong lenses.
+  /// @return nothing for pixels beyond the radius where the model folds back.
+  std::optional<Eigen::Vector3d> bearing(const Eigen::Vector2d& pixel_px) const;
+
+  /// Pixel of a point or direction in the optical frame; it may lie outside the image.
+  /// @return nothing behind the camera or beyond the fold.
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point_cam) const;
+
+  bool isInImage(const Eigen::Vector2d& pixel_px, double border_px = 0) const;
+
+  /// Geometric mean of fx and fy: one pixel is 1 / focalLength_px() rad at the centre.
+  double focalLength_px() const { return focal_length_px_; }
+  /// Undistorted radius on the image plane (z = 1) beyond which the radial model is no longer monotonic; infinity if it
+  /// never folds.
+  double foldRadius() const { return fold_radius_; }
+  const CameraIntrinsics& intrinsics() const { return intrinsics_; }
+
+ private:
+  Eigen::Vector2d distort(const Eigen::Vector2d& plane) const;
+  std::optional<Eigen::Vector2d> undistortExact(const Eigen::Vector2d& distorted) const;
+  std::optional<Eigen::Vector2d> undistortClosedForm(const Eigen::Vector2d& distorted) const;
+
+  CameraIntrinsics intrinsics_;
+  UndistortMethod method_;
+  double focal_length_px_;
+  double fold_radius_;
+  double fold_radius_distorted_;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace ardrone_vslam {
+
+/// What a user needs to know of one parameter. Its default is the value in the freshly constructed struct,
+/// so that it is written only once.
+struct ParameterInfo {
+  const char* name;
+  const char* unit;  ///< "px", "m", "rad", "-" ...; "choice" for enumerations, "switch" for bool
+  double min;        ///< smallest and largest valid value of a number; unused for choices and switches
+  double max;
+  const char* effect;
+};
+
+/// Specialised for every enumeration that is a parameter: `static constexpr std::array<const char*, N> kNames`,
+/// in the order of the enumerators, which count from 0.
+template <class Enum>
+struct EnumNames;
+
+template <class Enum>
+const char* nameOf(Enum value) {
+  return EnumNames<Enum>::kNames[static_cast<std::size_t>(value)];
+}
+
+/// Thrown once at construction or loading; lists every fault of the configuration.
+class ConfigError : public std::runtime_error {
+ public:
+  explicit ConfigError(const std::vector<std::string>& faults);
+  const std::vector<std::string>& faults() const { return faults_; }
+
+ private:
+  std::vector<std::string> faults_;
+};
+
+/// Every *Config struct S of the project has a free function
+///   template <class Visitor> void visitParameters(S& config, Visitor&& visit)
+/// that calls visit(const ParameterInfo&, member) for each member, nested structs included. Members are int, double,
+/// bool or an enumeration with EnumNames. Reading, validation, listing and the documentation test all use it.
+namespace detail {
+struct RangeCheck {
+  std::vector<std::string>* faults;
+
+  template <class T>
+  void operator()(const ParameterInfo& info, T& value) const {
+    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
+      check(info, static_cast<double>(value));
+    }
+  }
+  void check(const ParameterInfo& info, double value) const;
+};
+}  // namespace detail
+
+/// @return one sentence for each parameter outside its range (name, value, range); empty when all are valid.
+template <class Config>
+std::vector<std::string> rangeFaults(Config config) {
+  std::vector<std::string> faults;
+  visitParameters(config, detail::RangeCheck{&faults});
+  return faults;
+}
+
+/// @throws ConfigError listing every parameter of `config` that is outside its range.
+template <class Config>
+void validate(const Config& config) {
+  const auto faults = rangeFaults(config);
+  if (!faults.empty()) throw ConfigError(faults);
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/features.hpp"
+
+namespace ardrone_vslam {
+
+void Features::clear() {
+  pixel_px.clear();
+  bearing_cam.clear();
+  score.clear();
+  track_id.clear();
+  age_frames.clear();
+  descriptor.clear();
+}
+
+void Features::reserve(std::size_t count) {
+  pixel_px.reserve(count);
+  bearing_cam.reserve(count);
+  score.reserve(count);
+  track_id.reserve(count);
+  age_frames.reserve(count);
+  descriptor.reserve(count);
+}
+
+}  // namespace ardrone_vslam
