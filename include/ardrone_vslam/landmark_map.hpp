@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/parameters.hpp"
+
+namespace ardrone_vslam {
+
+/// A point of the world with known position.
+struct Landmark {
+  std::uint32_t id = 0;        ///< never used again in one run
+  std::uint32_t track_id = 0;  ///< of the feature that saw it last
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
+  Eigen::Vector3d view_direction_map =
+      Eigen::Vector3d::Zero();   ///< unit ray camera -> landmark when last described
+  double deviation_m = 0;        ///< sigma_l (5.19, 5.34)
+  double depth_deviation_m = 0;  ///< along the ray of its first triangulation
+  Descriptor descriptor;
+  int times_seen = 0;
+  int times_missed = 0;  ///< in view but not matched, since the last match
+  std::int64_t first_seen_ns = 0;
+  std::int64_t last_seen_ns = 0;
+};
+
+struct LandmarkMapConfig {
+  int max_landmarks = 200000;
+};
+
+template <class Visitor>
+void visitParameters(LandmarkMapConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"max_landmarks", "landmarks", 10, 10000000,
+                      "cap of the map; the ones not seen for longest go first"},
+        c.max_landmarks);
+}
+
+/// Storage of landmarks with stable ids.
+class LandmarkMap {
+ public:
+  explicit LandmarkMap(const LandmarkMapConfig& config);
+
+  /// Stores a landmark under a new id (its `id` is ignored). O(1).
+  std::uint32_t add(const Landmark& landmark);
+  /// Removes by id; unknown ids are ignored. O(1).
+  void remove(std::uint32_t id);
+  /// Removes the landmarks not seen for longest until the cap holds. @return how many were removed.
+  int enforceCap();
+
+  /// All landmarks, dense; order changes only by remove (the last one takes the place).
+  const std::vector<Landmark>& all() const { return landmarks_; }
+  std::size_t size() const { return landmarks_.size(); }
+  /// @param index  into all()
+  Landmark& at(std::size_t index) { return landmarks_[index]; }
+  /// @return nullptr when there is none of this id
+  const Landmark* find(std::uint32_t id) const;
+
+ private:
+  LandmarkMapConfig config_;
+  std::vector<Landmark> landmarks_;
+  std::unordered_map<std::uint32_t, std::size_t> index_of_id_;
+  std::uint32_t next_id_ = 1;
+};
+
+}  // namespace ardrone_vslam

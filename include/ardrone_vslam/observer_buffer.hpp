@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "ardrone_vslam/parameters.hpp"
+
+namespace ardrone_vslam {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// What the drone's observer says of one instant.
+struct ObserverState {
+  std::int64_t stamp_ns = 0;
+  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
+  /// Of position [m^2], then rotation vector [rad^2], axes of odom; all zero when the observer
+  /// gives none.
+  Matrix6d covariance = Matrix6d::Zero();
+};
+
+struct ObserverBufferConfig {
+  double buffer_s = 10.0;
+  double max_gap_s = 0.5;
+};
+
+template <class Visitor>
+void visitParameters(ObserverBufferConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"observer_buffer_s", "s", 0.1, 600.0,
+                      "odometry kept for images that arrive late"},
+        c.buffer_s);
+  visit(ParameterInfo{"observer_max_gap_s", "s", 0.001, 10.0,
+                      "longest hole in the odometry that is interpolated across"},
+        c.max_gap_s);
+}
+
+/// The observer's recent states, interpolated at image stamps (position linearly, orientation by
+/// slerp).
+class ObserverBuffer {
+ public:
+  enum class Push { kAccepted, kNotFinite, kDuplicateStamp, kBackwardStamp };
+  enum class Lookup { kFound, kEmpty, kTooOld, kNotYet, kGap };
+
+  explicit ObserverBuffer(const ObserverBufferConfig& config);
+
+  /// Appends a state; one that is refused changes nothing. The quaternion part is taken as
+  /// normalised.
+  Push push(const ObserverState& state);
+
+  /// @param state  set only when the answer is kFound
+  /// @return kNotYet while no state at or after the stamp has come; kTooOld before the first kept
+  /// one; kGap when the
+  ///   states on both sides are further apart than max_gap_s.
+  Lookup at(std::int64_t stamp_ns, ObserverState& state) const;
+
+  void clear() { states_.clear(); }
+  bool empty() const { return states_.empty(); }
+  std::int64_t newestStamp_ns() const { return states_.empty() ? 0 : states_.back().stamp_ns; }
+
+ private:
+  ObserverBufferConfig config_;
+  std::deque<ObserverState> states_;
+};
+
+/// Linear in position and covariance, slerp in orientation; `a` and `b` bracket the stamp.
+ObserverState interpolate(const ObserverState& a, const ObserverState& b, std::int64_t stamp_ns);
+
+}  // namespace ardrone_vslam

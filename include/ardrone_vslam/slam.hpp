@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/landmark_map.hpp"
+#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/slam_config.hpp"
+#include "ardrone_vslam/stages.hpp"
+
+namespace ardrone_vslam {
+
+/// What a frame's pose rests on; `explain` gives the sentence for users.
+enum class SlamState {
+  kBuildingMap,      ///< no landmark can be in view yet: the pose is the observer's
+  kLocalised,        ///< landmarks corrected the pose
+  kTooFewLandmarks,  ///< fewer matches than `min_landmarks`: the pose is the observer's increment
+  kFixRejected,   ///< the landmarks' position failed its gate: the pose is the observer's increment
+  kObserverOnly,  ///< `estimator: observer`
+};
+constexpr std::array<const char*, 5> kSlamStateNames{
+    "building_map", "localised", "too_few_landmarks", "fix_rejected", "observer_only"};
+
+/// One frame's answer.
+struct FrameResult {
+  std::int64_t stamp_ns = 0;  ///< the image's
+  SlamState state = SlamState::kBuildingMap;
+  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();  ///< fused
+  Eigen::Isometry3d T_odom_base =
+      Eigen::Isometry3d::Identity();  ///< the observer's pose it started from
+  Matrix6d covariance =
+      Matrix6d::Zero();    ///< of T_map_base: position [m^2], rotation vector [rad^2], axes of map
+  double deviation_m = 0;  ///< of the fused position, per axis (6.12)
+  /// Base position by the landmarks alone, before the fusion (6.4); nothing when there were too
+  /// few.
+  std::optional<Eigen::Vector3d> camera_position_map;
+  double camera_deviation_m = 0;  ///< of camera_position_map, per axis
+
+  int features = 0;
+  int landmarks_in_view = 0;    ///< landmarks that the prediction puts into the image
+  int landmark_candidates = 0;  ///< landmark matches before the removal of mismatches
+  int landmark_matches = 0;     ///< and after
+  int feature_candidates = 0;   ///< feature-map matches before the removal of mismatches
+  int feature_matches = 0;      ///< and after
+  int new_landmarks = 0;
+  int removed_landmarks = 0;
+  int landmarks = 0;     ///< in the map, after this frame
+  int map_features = 0;  ///< in the feature map, after this frame
+};
+
+/// Features and observer states -> fused poses and a map (thesis algorithm 5 in the order of
+/// algorithm.md 10).
+class Slam {
+ public:
+  /// @param T_base_cam  mounting of the camera: optical frame to base
+  /// @throws ConfigError listing every invalid parameter
+  Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam);
+  ~Slam();
+
+  /// One frame. Stamps must ascend and the observer state must be for the image's stamp (asserted).
+  /// At the first frame map equals odom.
+  const FrameResult& process(const Features& features, const ObserverState& observer,
+                             const StageHook& hook = {});
+
+  const LandmarkMap& landmarks() const;
+  /// REP-105: corrects the odometry's drift. Identity until the first correction.
+  Eigen::Isometry3d T_map_odom() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// A sentence for users: why the pose is only the observer's, and what helps.
+const char* explain(SlamState state);
+
+}  // namespace ardrone_vslam

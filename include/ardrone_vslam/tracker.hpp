@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "ardrone_vslam/camera_model.hpp"
+#include "ardrone_vslam/corner_detector.hpp"
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/frame_tracker.hpp"
+#include "ardrone_vslam/freak.hpp"
+#include "ardrone_vslam/stages.hpp"
+
+namespace ardrone_vslam {
+
+struct TrackerConfig {
+  CornerDetectorConfig corners;
+  FreakConfig freak;
+  FrameTrackerConfig tracks;
+  UndistortMethod undistort = UndistortMethod::kExact;
+};
+
+template <>
+struct EnumNames<UndistortMethod> {
+  static constexpr std::array<const char*, 2> kNames{"exact", "closed_form"};
+};
+
+template <class Visitor>
+void visitParameters(TrackerConfig& c, Visitor&& visit) {
+  visitParameters(c.corners, visit);
+  visitParameters(c.freak, visit);
+  visitParameters(c.tracks, visit);
+  visit(ParameterInfo{"undistort", "choice", 0, 0,
+                      "exact: Newton; closed_form: Drap & Lefevre's three terms"},
+        c.undistort);
+}
+
+/// Image -> Features: corners, descriptors, bearings, track ids (thesis algorithm 1). One instance
+/// per camera.
+class Tracker {
+ public:
+  /// @throws ConfigError listing every invalid parameter; std::invalid_argument for an impossible
+  /// camera.
+  Tracker(const TrackerConfig& config, const CameraIntrinsics& camera);
+  ~Tracker();
+
+  /// @param image  as large as the camera's calibration says (asserted)
+  /// @param features  cleared and filled; corners whose descriptor or bearing does not exist are
+  /// left out
+  /// @param hook  told which stage begins; may be empty
+  void process(const ImageView& image, std::int64_t stamp_ns, Features& features,
+               const StageHook& hook = {});
+
+  const CameraModel& camera() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace ardrone_vslam

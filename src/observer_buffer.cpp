@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/observer_buffer.hpp"
+
+#include <algorithm>
+
+namespace ardrone_vslam {
+namespace {
+
+bool isFinite(const ObserverState& state) {
+  return state.T_odom_base.matrix().allFinite() && state.covariance.allFinite();
+}
+
+std::int64_t toNanoseconds(double seconds) {
+  return static_cast<std::int64_t>(seconds * 1e9);
+}
+
+}  // namespace
+
+ObserverState interpolate(const ObserverState& a, const ObserverState& b, std::int64_t stamp_ns) {
+  const auto span = static_cast<double>(b.stamp_ns - a.stamp_ns);
+  const double s = span > 0 ? static_cast<double>(stamp_ns - a.stamp_ns) / span : 0.0;
+  const Eigen::Quaterniond q_a(a.T_odom_base.linear());
+  const Eigen::Quaterniond q_b(b.T_odom_base.linear());
+  ObserverState state;
+  state.stamp_ns = stamp_ns;
+  state.T_odom_base.linear() = q_a.slerp(s, q_b).normalized().toRotationMatrix();
+  state.T_odom_base.translation() =
+      (1 - s) * a.T_odom_base.translation() + s * b.T_odom_base.translation();
+  state.covariance = (1 - s) * a.covariance + s * b.covariance;
+  return state;
+}
+
+ObserverBuffer::ObserverBuffer(const ObserverBufferConfig& config) : config_(config) {
+  validate(config);
+}
+
+ObserverBuffer::Push ObserverBuffer::push(const ObserverState& state) {
+  if (!isFinite(state)) return Push::kNotFinite;
+  if (!states_.empty()) {
+    if (state.stamp_ns == states_.back().stamp_ns) return Push::kDuplicateStamp;
+    if (state.stamp_ns < states_.back().stamp_ns) return Push::kBackwardStamp;
+  }
+  states_.push_back(state);
+  const std::int64_t oldest_kept_ns = state.stamp_ns - toNanoseconds(config_.buffer_s);
+  while (states_.front().stamp_ns < oldest_kept_ns) states_.pop_front();
+  return Push::kAccepted;
+}
+
+ObserverBuffer::Lookup ObserverBuffer::at(std::int64_t stamp_ns, ObserverState& state) const {
+  if (states_.empty()) return Lookup::kEmpty;
+  if (stamp_ns < states_.front().stamp_ns) return Lookup::kTooOld;
+  if (stamp_ns > states_.back().stamp_ns) return Lookup::kNotYet;
+  const auto after =
+      std::lower_bound(states_.begin(), states_.end(), stamp_ns,
+                       [](const ObserverState& s, std::int64_t t) { return s.stamp_ns < t; });
+  if (after->stamp_ns == stamp_ns) {
+    state = *after;
+    return Lookup::kFound;
+  }
+  const auto before = std::prev(after);
+  if (after->stamp_ns - before->stamp_ns > toNanoseconds(config_.max_gap_s)) return Lookup::kGap;
+  state = interpolate(*before, *after, stamp_ns);
+  return Lookup::kFound;
+}
+
+}  // namespace ardrone_vslam

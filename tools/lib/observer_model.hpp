@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ardrone_vslam/observer_buffer.hpp"
+#include "trajectory.hpp"
+
+namespace ardrone_vslam {
+
+/// How an observer drifts (noise in the body frame). OU(s, T): Ornstein-Uhlenbeck process of
+/// deviation s, time constant T.
+struct ObserverProfile {
+  std::string name;
+  double rate_hz = 50;
+  double scale_deviation = 0;        ///< of the scale error, drawn once per run
+  double step_noise = 0;             ///< white, share of each step's length
+  double velocity_bias_m_s = 0;      ///< OU deviation per axis
+  double velocity_bias_time_s = 20;  ///< OU time constant
+  double velocity_noise_m_s = 0;     ///< white at 15 Hz, scaled by the root of the rate
+  double yaw_walk_rad_per_sqrt_m = 0;
+  double yaw_walk_rad_per_sqrt_s = 0;
+  double attitude_bias_rad = 0;  ///< OU deviation of roll and pitch
+  double attitude_bias_time_s = 30;
+  double attitude_noise_rad = 0;  ///< white, roll, pitch, yaw
+  double delay_s = 0;             ///< unknown to the user: stamps are late by this
+  double loss = 0;                ///< share of the states lost
+  bool bursts = false;            ///< bursts of states with equal stamps
+
+  bool isTruth() const { return name == "truth"; }
+};
+
+/// Reads one profile from config/observer_profiles.yaml. @throws std::runtime_error listing the
+/// known names
+ObserverProfile loadObserverProfile(const std::string& name, const std::string& profiles_yaml);
+
+struct ObserverRun {
+  std::vector<ObserverState> states;
+  double scale_error = 0;  ///< drawn; reported lengths are (1 + scale_error) times the true ones
+};
+
+/// Corrupts the true increments as `profile` says (evaluation.md) and integrates them with the
+/// corrupted attitude from the truth's first pose. Equal arguments give equal results on every
+/// machine with the same floating point.
+ObserverRun simulateObserver(const Trajectory& truth, const ObserverProfile& profile,
+                             std::uint64_t seed);
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ardrone_vslam/camera_model.hpp"
+#include "ardrone_vslam/observer_buffer.hpp"
+#include "trajectory.hpp"
+
+namespace ardrone_vslam {
+
+/// A recorded or rendered sequence of images: what replay runs on and what make_bag and make_world
+/// write. Images are asked for in ascending order, each once; `image` may be slow (decoding,
+/// rendering).
+class Sequence {
+ public:
+  virtual ~Sequence() = default;
+
+  virtual std::string name() const = 0;  ///< for messages: the folder, file or flight
+  virtual std::size_t size() const = 0;
+  virtual std::int64_t stamp_ns(std::size_t index) const = 0;
+  /// 8-bit grey, camera().width_px x height_px. @throws std::runtime_error naming the file and the
+  /// fault
+  virtual cv::Mat image(std::size_t index) = 0;
+  virtual const CameraIntrinsics& camera() const = 0;
+  virtual Eigen::Isometry3d T_base_cam() const = 0;
+  /// True poses of base, world = map of the first frame's convention; empty when unknown.
+  virtual const Trajectory& truth() const = 0;
+  /// The recorded observer; empty when there is none.
+  virtual const std::vector<ObserverState>& observer() const = 0;
+};
+
+/// T_base_cam of a forward camera with optical axes (x right, y down, z forward) at the base:
+/// REP-103.
+Eigen::Isometry3d forwardCamera();
+
+/// Which frames of a sequence, and in what order: --frames A:B:STEP and --ping-pong.
+struct FrameSelection {
+  std::size_t begin = 0;
+  std::optional<std::size_t> end;  ///< one past the last frame; nothing: all
+  std::size_t step = 1;
+  bool ping_pong = false;  ///< the selected frames 0, 2, 4 .. forward, then the odd ones backward;
+                           ///< stamps ascend at the nominal rate (the median interval of the
+                           ///< selected frames), truth follows the images
+
+  /// "A:B:STEP", each part optional. @throws std::invalid_argument that says what is wrong
+  static FrameSelection parse(const std::string& text, bool ping_pong);
+};
+
+/// View of a sequence through a selection. With ping-pong truth is re-stamped and a recorded
+/// observer is dropped.
+std::unique_ptr<Sequence> select(std::unique_ptr<Sequence> sequence,
+                                 const FrameSelection& selection);
+
+/// KITTI folder (image_0/, calib.txt, times.txt, poses.txt) or TUM-like folder (image/,
+/// camera.yaml, times.txt, poses_tum.txt, observer_tum.txt). @throws std::runtime_error naming the
+/// missing or wrong file and the remedy
+std::unique_ptr<Sequence> openFolder(const std::string& path);
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ardrone_vslam {
+
+struct StampedPose {
+  std::int64_t stamp_ns = 0;
+  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();
+};
+
+/// Poses with ascending stamps. Interpolation: position linearly, orientation by slerp.
+class Trajectory {
+ public:
+  Trajectory() = default;
+  /// @throws std::invalid_argument when the stamps do not ascend strictly
+  explicit Trajectory(std::vector<StampedPose> poses);
+
+  const std::vector<StampedPose>& poses() const { return poses_; }
+  bool empty() const { return poses_.empty(); }
+  std::size_t size() const { return poses_.size(); }
+  /// Pose at a stamp; the first or last pose outside the covered time. @pre not empty
+  Eigen::Isometry3d at(std::int64_t stamp_ns) const;
+  void append(const StampedPose& pose);
+
+ private:
+  std::vector<StampedPose> poses_;
+};
+
+/// TUM format, a line each: stamp[s] tx ty tz[m] qx qy qz qw. '#' begins a comment.
+/// @throws std::runtime_error naming file, line and fault
+Trajectory readTum(const std::string& path);
+/// Nine decimals for stamps and positions. @throws std::runtime_error when the file cannot be
+/// written
+void writeTum(const std::string& path, const Trajectory& trajectory);
+
+}  // namespace ardrone_vslam
