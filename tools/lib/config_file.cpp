@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "config_file.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <map>
+
+namespace ardrone_vslam {
+namespace {
+
+using Section = std::map<std::string, std::string>;  // key -> value as written
+
+/// Takes the values out of a section, parameter by parameter; what is left over is unknown.
+struct SectionReader {
+  const char* section_name;
+  Section* values;
+  std::vector<std::string>* known;
+  std::vector<std::string>* faults;
+
+  template <class T>
+  void operator()(const ParameterInfo& info, T& value) const {
+    known->push_back(info.name);
+    const auto entry = values->find(info.name);
+    if (entry == values->end()) return;
+    const std::string text = entry->second;
+    values->erase(entry);
+    if constexpr (std::is_enum_v<T>) {
+      readChoice(info, text, value);
+    } else {
+      try {
+        value = YAML::Load(text).as<T>();
+      } catch (const YAML::Exception&) {
+        faults->push_back(std::string(section_name) + "/" + info.name + " is '" + text +
+                          "' but must be a " +
+                          (std::is_same_v<T, bool> ? "switch (true or false)" : "number") + " [" +
+                          info.unit + "]");
+      }
+    }
+  }
+
+  template <class Enum>
+  void readChoice(const ParameterInfo& info, const std::string& text, Enum& value) const {
+    std::string choices;
+    for (std::size_t i = 0; i < EnumNames<Enum>::kNames.size(); ++i) {
+      if (text == EnumNames<Enum>::kNames[i]) {
+        value = static_cast<Enum>(i);
+        return;
+      }
+      choices += std::string(choices.empty() ? "" : ", ") + EnumNames<Enum>::kNames[i];
+    }
+    faults->push_back(std::string(section_name) + "/" + info.name + " is '" + text +
+                      "' but must be one of: " + choices);
+  }
+};
+
+std::map<std::string, Section> readSections(const std::string& path,
+                                            std::vector<std::string>& faults) {
+  std::map<std::string, Section> sections;
+  if (path.empty()) return sections;
+  try {
+    const YAML::Node root = YAML::LoadFile(path);
+    for (const auto& section : root) {
+      const auto name = section.first.as<std::string>();
+      if (!section.second.IsMap()) {
+        faults.push_back(path + ": '" + name + "' must be a section of keys (tracker: or mapper:)");
+        continue;
+      }
+      for (const auto& entry : section.second) {
+        sections[name][entry.first.as<std::string>()] =
+            entry.second.IsScalar() ? entry.second.as<std::string>() : YAML::Dump(entry.second);
+      }
+    }
+  } catch (const YAML::BadFile&) {
+    faults.push_back(path + ": cannot be read; check the path");
+  } catch (const YAML::Exception& e) {
+    faults.push_back(path + ": not valid YAML: " + e.what());
+  }
+  return sections;
+}
+
+template <class Config>
+bool hasParameter(Config config, const std::string& key) {
+  bool found = false;
+  visitParameters(config,
+                  [&](const ParameterInfo& info, auto&) { found = found || key == info.name; });
+  return found;
+}
+
+void applyOverride(const std::string& text, std::map<std::string, Section>& sections,
+                   std::vector<std::string>& faults) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    faults.push_back("--set '" + text + "' must be key=value, for example features_per_frame=500");
+    return;
+  }
+  std::string key = text.substr(0, equals);
+  const std::string value = text.substr(equals + 1);
+  const auto slash = key.find('/');
+  std::string section = hasParameter(TrackerConfig{}, key) ? "tracker" : "mapper";
+  if (slash != std::string::npos) {
+    section = key.substr(0, slash);
+    key = key.substr(slash + 1);
+  }
+  sections[section][key] = value;
+}
+
+/// Keys that the nodelets read beside the stages' parameters (topics, frames); the offline tools
+/// pass over them.
+bool isNodeKey(const std::string& section, const std::string& key) {
+  static const std::map<std::string, std::vector<std::string>> kNodeKeys{
+      {"tracker", {"queue_size", "image_transport"}},
+      {"mapper",
+       {"map_frame", "odom_frame", "base_frame", "odometry_wait_s", "publish_tf",
+        "publish_cloud_hz", "queue_size"}}};
+  const auto found = kNodeKeys.find(section);
+  if (found == kNodeKeys.end()) return false;
+  for (const auto& name : found->second) {
+    if (name == key) return true;
+  }
+  return false;
+}
+
+template <class Config>
+void readSection(const char* name, std::map<std::string, Section>& sections, Config& config,
+                 std::vector<std::string>& faults) {
+  Section values = sections[name];
+  sections.erase(name);
+  std::vector<std::string> known;
+  visitParameters(config, SectionReader{name, &values, &known, &faults});
+  for (const auto& leftover : values) {
+    if (isNodeKey(name, leftover.first)) continue;
+    std::string hint;
+    for (const auto& candidate : known) {
+      if (candidate.find(leftover.first) != std::string::npos ||
+          leftover.first.find(candidate) != std::string::npos) {
+        hint += std::string(hint.empty() ? "; did you mean " : " or ") + candidate;
+      }
+    }
+    faults.push_back(std::string(name) + "/" + leftover.first + " is not a parameter" + hint +
+                     " (docs/parameters.md lists all)");
+  }
+  const auto range_faults = rangeFaults(config);
+  faults.insert(faults.end(), range_faults.begin(), range_faults.end());
+}
+
+}  // namespace
+
+PipelineConfig loadConfig(const std::string& path, const std::vector<std::string>& overrides) {
+  std::vector<std::string> faults;
+  auto sections = readSections(path, faults);
+  for (const auto& text : overrides) applyOverride(text, sections, faults);
+  PipelineConfig config;
+  readSection("tracker", sections, config.tracker, faults);
+  readSection("mapper", sections, config.mapper, faults);
+  for (const auto& section : sections) {
+    faults.push_back("unknown section '" + section.first + "'; known are tracker and mapper");
+  }
+  if (!faults.empty()) throw ConfigError(faults);
+  return config;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ardrone_vslam/slam_config.hpp"
+#include "ardrone_vslam/tracker.hpp"
+
+namespace ardrone_vslam {
+
+/// What config/*.yaml holds: sections `tracker` and `mapper`, the same files that roslaunch loads
+/// for the nodelets.
+struct PipelineConfig {
+  TrackerConfig tracker;
+  SlamConfig mapper;
+};
+
+/// Reads the file (an empty path: the defaults), then applies each "key=value" or
+/// "section/key=value" of `overrides`.
+/// @throws ConfigError listing every fault: unreadable file, unknown key (with the nearest known
+/// ones), wrong type, range
+PipelineConfig loadConfig(const std::string& path, const std::vector<std::string>& overrides);
+
+}  // namespace ardrone_vslam
