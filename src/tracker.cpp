@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/tracker.hpp"
+
+#include <cassert>
+
+namespace ardrone_vslam {
+
+struct Tracker::State {
+  State(const TrackerConfig& config, const CameraIntrinsics& intrinsics)
+      : camera(intrinsics, config.undistort), detector(config.corners), describer(config.freak), frame_tracker(config.tracks) {}
+
+  CameraModel camera;
+  CornerDetector detector;
+  FreakDescriber describer;
+  FrameTracker frame_tracker;
+
+  std::vector<Corner> corners;
+  std::vector<Eigen::Vector3f> bearings;  // of the keypoints
+  std::vector<std::uint8_t> scores;       // of the keypoints
+  std::vector<FreakKeypoint> keypoints;   // corners that have a bearing
+  std::vector<int> described;             // indices into keypoints
+
+  void keepCornersWithBearing();
+  void collect(const ImageView& image, std::int64_t stamp_ns, Features& features) const;
+};
+
+Tracker::Tracker(const TrackerConfig& config, const CameraIntrinsics& camera) {
+  validate(config);
+  state_ = std::make_unique<State>(config, camera);
+}
+
+Tracker::~Tracker() = default;
+
+const CameraModel& Tracker::camera() const { return state_->camera; }
+
+void Tracker::process(const ImageView& image, std::int64_t stamp_ns, Features& features, const StageHook& hook) {
+  State& s = *state_;
+  assert(image.width_px == s.camera.intrinsics().width_px && image.height_px == s.camera.intrinsics().height_px &&
+         "the image is not as large as the calibration says");
+  const auto enter = [&hook](Stage stage) {
+    if (hook) hook(stage);
+  };
+  features.clear();
+
+  enter(Stage::kDetect);
+  s.detector.detect(image, s.corners);
+  s.keepCornersWithBearing();
+
+  enter(Stage::kDescribe);
+  s.describer.describe(image, s.keypoints, s.described, features.descriptor);
+  s.collect(image, stamp_ns, features);
+
+  enter(Stage::kTrack);
+  s.frame_tracker.assign(features);
+  enter(Stage::kIdle);
+}
+
+void Tracker::State::keepCornersWithBearing() {
+  keypoints.clear();
+  bearings.clear();
+  scores.clear();
+  for (const Corner& corner : corners) {
+    const auto bearing = camera.bearing({corner.x_px, corner.y_px});
+    if (!bearing) continue;
+    keypoints.push_back({corner.x_px, corner.y_px});
+    bearings.push_back(bearing->cast<float>());
+    scores.push_back(corner.score);
+  }
+}
+
+void Tracker::State::collect(const ImageView& image, std::int64_t stamp_ns, Features& features) const {
+  features.stamp_ns = stamp_ns;
+  features.width_px = image.width_px;
+  features.height_px = image.height_px;
+  features.focal_length_px = static_cast<float>(camera.focalLength_px());
+  for (const int index : described) {
+    const auto i = static_cast<std::size_t>(index);
+    features.pixel_px.emplace_back(static_cast<float>(keypoints[i].x_px), static_cast<float>(keypoints[i].y_px));
+    features.bearing_cam.push_back(bearings[i]);
+    features.score.push_back(scores[i]);
+  }
+}
+
+}  // namespace ardrone_vslam
