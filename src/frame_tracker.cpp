@@ -54,14 +54,16 @@ void FrameTracker::assign(Features& features) {
   features.age_frames.resize(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
     const BestTwo& best = s.of_present[i];
-    const bool tracked = accept(best, s.matcher) &&
-                         s.of_previous[static_cast<std::size_t>(best.index)].index == static_cast<int>(i);
+    const bool tracked =
+        accept(best, s.matcher) &&
+        s.of_previous[static_cast<std::size_t>(best.index)].index == static_cast<int>(i);
     if (tracked) {
       const auto j = static_cast<std::size_t>(best.index);
       constexpr auto kOldest = std::numeric_limits<std::uint16_t>::max();
       features.track_id[i] = s.previous.track_id[j];
-      features.age_frames[i] =
-          s.previous.age_frames[j] == kOldest ? kOldest : static_cast<std::uint16_t>(s.previous.age_frames[j] + 1);
+      features.age_frames[i] = s.previous.age_frames[j] == kOldest
+                                   ? kOldest
+                                   : static_cast<std::uint16_t>(s.previous.age_frames[j] + 1);
     } else {
       features.track_id[i] = s.next_id++;
       features.age_frames[i] = 0;

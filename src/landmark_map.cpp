@@ -5,7 +5,9 @@
 
 namespace ardrone_vslam {
 
-LandmarkMap::LandmarkMap(const LandmarkMapConfig& config) : config_(config) { validate(config); }
+LandmarkMap::LandmarkMap(const LandmarkMapConfig& config) : config_(config) {
+  validate(config);
+}
 
 std::uint32_t LandmarkMap::add(const Landmark& landmark) {
   const std::uint32_t id = next_id_++;

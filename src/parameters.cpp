@@ -20,8 +20,8 @@ ConfigError::ConfigError(const std::vector<std::string>& faults)
 void detail::RangeCheck::check(const ParameterInfo& info, double value) const {
   if (value >= info.min && value <= info.max) return;  // false for NaN, as it must be
   std::ostringstream fault;
-  fault << info.name << " is " << value << " but must be between " << info.min << " and " << info.max << " [" << info.unit
-        << "]";
+  fault << info.name << " is " << value << " but must be between " << info.min << " and "
+        << info.max << " [" << info.unit << "]";
   faults->push_back(fault.str());
 }
 

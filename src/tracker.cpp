@@ -7,7 +7,10 @@ namespace ardrone_vslam {
 
 struct Tracker::State {
   State(const TrackerConfig& config, const CameraIntrinsics& intrinsics)
-      : camera(intrinsics, config.undistort), detector(config.corners), describer(config.freak), frame_tracker(config.tracks) {}
+      : camera(intrinsics, config.undistort),
+        detector(config.corners),
+        describer(config.freak),
+        frame_tracker(config.tracks) {}
 
   CameraModel camera;
   CornerDetector detector;
@@ -31,11 +34,15 @@ Tracker::Tracker(const TrackerConfig& config, const CameraIntrinsics& camera) {
 
 Tracker::~Tracker() = default;
 
-const CameraModel& Tracker::camera() const { return state_->camera; }
+const CameraModel& Tracker::camera() const {
+  return state_->camera;
+}
 
-void Tracker::process(const ImageView& image, std::int64_t stamp_ns, Features& features, const StageHook& hook) {
+void Tracker::process(const ImageView& image, std::int64_t stamp_ns, Features& features,
+                      const StageHook& hook) {
   State& s = *state_;
-  assert(image.width_px == s.camera.intrinsics().width_px && image.height_px == s.camera.intrinsics().height_px &&
+  assert(image.width_px == s.camera.intrinsics().width_px &&
+         image.height_px == s.camera.intrinsics().height_px &&
          "the image is not as large as the calibration says");
   const auto enter = [&hook](Stage stage) {
     if (hook) hook(stage);
@@ -68,14 +75,16 @@ void Tracker::State::keepCornersWithBearing() {
   }
 }
 
-void Tracker::State::collect(const ImageView& image, std::int64_t stamp_ns, Features& features) const {
+void Tracker::State::collect(const ImageView& image, std::int64_t stamp_ns,
+                             Features& features) const {
   features.stamp_ns = stamp_ns;
   features.width_px = image.width_px;
   features.height_px = image.height_px;
   features.focal_length_px = static_cast<float>(camera.focalLength_px());
   for (const int index : described) {
     const auto i = static_cast<std::size_t>(index);
-    features.pixel_px.emplace_back(static_cast<float>(keypoints[i].x_px), static_cast<float>(keypoints[i].y_px));
+    features.pixel_px.emplace_back(static_cast<float>(keypoints[i].x_px),
+                                   static_cast<float>(keypoints[i].y_px));
     features.bearing_cam.push_back(bearings[i]);
     features.score.push_back(scores[i]);
   }

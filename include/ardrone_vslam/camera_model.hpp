@@ -26,14 +26,18 @@ struct CameraIntrinsics {
 
 enum class UndistortMethod { kExact, kClosedForm };
 
-/// Pixel <-> bearing in the optical frame (x right, y down, z forward). Immutable; safe to share between threads.
+/// Pixel <-> bearing in the optical frame (x right, y down, z forward). Immutable; safe to share
+/// between threads.
 class CameraModel {
  public:
-  /// @throws std::invalid_argument naming the value that cannot be a camera (size, focal length, not finite).
-  explicit CameraModel(const CameraIntrinsics& intrinsics, UndistortMethod method = UndistortMethod::kExact);
+  /// @throws std::invalid_argument naming the value that cannot be a camera (size, focal length,
+  /// not finite).
+  explicit CameraModel(const CameraIntrinsics& intrinsics,
+                       UndistortMethod method = UndistortMethod::kExact);
 
-  /// Unit bearing of a (distorted) pixel. `kExact` inverts Brown's model by Newton's method to 1e-9 of the image plane;
-  /// `kClosedForm` is Drap & Lefevre's three-term series (5.6-5.11), radial only, a few pixels off for strong lenses.
+  /// Unit bearing of a (distorted) pixel. `kExact` inverts Brown's model by Newton's method to 1e-9
+  /// of the image plane; `kClosedForm` is Drap & Lefevre's three-term series (5.6-5.11), radial
+  /// only, a few pixels off for strong lenses.
   /// @return nothing for pixels beyond the radius where the model folds back.
   std::optional<Eigen::Vector3d> bearing(const Eigen::Vector2d& pixel_px) const;
 
@@ -45,8 +49,8 @@ class CameraModel {
 
   /// Geometric mean of fx and fy: one pixel is 1 / focalLength_px() rad at the centre.
   double focalLength_px() const { return focal_length_px_; }
-  /// Undistorted radius on the image plane (z = 1) beyond which the radial model is no longer monotonic; infinity if it
-  /// never folds.
+  /// Undistorted radius on the image plane (z = 1) beyond which the radial model is no longer
+  /// monotonic; infinity if it never folds.
   double foldRadius() const { return fold_radius_; }
   const CameraIntrinsics& intrinsics() const { return intrinsics_; }
 

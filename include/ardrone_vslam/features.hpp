@@ -15,7 +15,8 @@ struct Corner {
   std::uint8_t score = 0;  ///< largest threshold at which the pixel is still a corner, 0..254
 };
 
-/// 512-bit binary descriptor; `words` read as bytes in memory order (little endian) are OpenCV contrib's FREAK bytes.
+/// 512-bit binary descriptor; `words` read as bytes in memory order (little endian) are OpenCV
+/// contrib's FREAK bytes.
 struct alignas(64) Descriptor {
   std::array<std::uint64_t, 8> words{};
 
@@ -29,13 +30,16 @@ struct Features {
   std::int64_t stamp_ns = 0;  ///< the image's time stamp
   int width_px = 0;
   int height_px = 0;
-  float focal_length_px = 0.F;  ///< geometric mean of fx and fy; one pixel is 1 / focal_length_px rad
+  float focal_length_px =
+      0.F;  ///< geometric mean of fx and fy; one pixel is 1 / focal_length_px rad
 
-  std::vector<Eigen::Vector2f> pixel_px;     ///< as detected (distorted), column and row
-  std::vector<Eigen::Vector3f> bearing_cam;  ///< unit vectors in the optical frame (x right, y down, z forward)
-  std::vector<std::uint8_t> score;           ///< corner score, Corner::score
-  std::vector<std::uint32_t> track_id;       ///< stable from frame to frame; never 0, never used again in one run
-  std::vector<std::uint16_t> age_frames;     ///< frames since the track began, 0 for a new one
+  std::vector<Eigen::Vector2f> pixel_px;  ///< as detected (distorted), column and row
+  std::vector<Eigen::Vector3f>
+      bearing_cam;  ///< unit vectors in the optical frame (x right, y down, z forward)
+  std::vector<std::uint8_t> score;  ///< corner score, Corner::score
+  std::vector<std::uint32_t>
+      track_id;  ///< stable from frame to frame; never 0, never used again in one run
+  std::vector<std::uint16_t> age_frames;  ///< frames since the track began, 0 for a new one
   std::vector<Descriptor> descriptor;
 
   std::size_t size() const { return pixel_px.size(); }

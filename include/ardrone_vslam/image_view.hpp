@@ -7,8 +7,8 @@
 
 namespace ardrone_vslam {
 
-/// A borrowed 8-bit grey image: row y starts at `data + y * stride_bytes`. Owns nothing; the pixels must
-/// outlive the view.
+/// A borrowed 8-bit grey image: row y starts at `data + y * stride_bytes`. Owns nothing; the pixels
+/// must outlive the view.
 struct ImageView {
   const std::uint8_t* data = nullptr;
   int width_px = 0;

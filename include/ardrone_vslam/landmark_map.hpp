@@ -21,6 +21,8 @@ struct Landmark {
   double deviation_m = 0;        ///< sigma_l (5.19, 5.34)
   double depth_deviation_m = 0;  ///< along the ray of its first triangulation
   Descriptor descriptor;
+  double elevation =
+      0;  ///< tangent of the last ray's elevation; used in 2-D mode, where positions have no height
   int times_seen = 0;
   int times_missed = 0;  ///< in view but not matched, since the last match
   std::int64_t first_seen_ns = 0;

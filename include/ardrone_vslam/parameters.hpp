@@ -11,18 +11,18 @@
 
 namespace ardrone_vslam {
 
-/// What a user needs to know of one parameter. Its default is the value in the freshly constructed struct,
-/// so that it is written only once.
+/// What a user needs to know of one parameter. Its default is the value in the freshly constructed
+/// struct, so that it is written only once.
 struct ParameterInfo {
   const char* name;
   const char* unit;  ///< "px", "m", "rad", "-" ...; "choice" for enumerations, "switch" for bool
-  double min;        ///< smallest and largest valid value of a number; unused for choices and switches
+  double min;  ///< smallest and largest valid value of a number; unused for choices and switches
   double max;
   const char* effect;
 };
 
-/// Specialised for every enumeration that is a parameter: `static constexpr std::array<const char*, N> kNames`,
-/// in the order of the enumerators, which count from 0.
+/// Specialised for every enumeration that is a parameter: `static constexpr std::array<const char*,
+/// N> kNames`, in the order of the enumerators, which count from 0.
 template <class Enum>
 struct EnumNames;
 
@@ -43,8 +43,9 @@ class ConfigError : public std::runtime_error {
 
 /// Every *Config struct S of the project has a free function
 ///   template <class Visitor> void visitParameters(S& config, Visitor&& visit)
-/// that calls visit(const ParameterInfo&, member) for each member, nested structs included. Members are int, double,
-/// bool or an enumeration with EnumNames. Reading, validation, listing and the documentation test all use it.
+/// that calls visit(const ParameterInfo&, member) for each member, nested structs included. Members
+/// are int, double, bool or an enumeration with EnumNames. Reading, validation, listing and the
+/// documentation test all use it.
 namespace detail {
 struct RangeCheck {
   std::vector<std::string>* faults;
@@ -59,7 +60,8 @@ struct RangeCheck {
 };
 }  // namespace detail
 
-/// @return one sentence for each parameter outside its range (name, value, range); empty when all are valid.
+/// @return one sentence for each parameter outside its range (name, value, range); empty when all
+/// are valid.
 template <class Config>
 std::vector<std::string> rangeFaults(Config config) {
   std::vector<std::string> faults;

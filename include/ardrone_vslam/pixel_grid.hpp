@@ -8,11 +8,13 @@
 
 namespace ardrone_vslam {
 
-/// Buckets the pixels of one image into square cells, for searches in windows. Buffers are kept from frame to frame.
+/// Buckets the pixels of one image into square cells, for searches in windows. Buffers are kept
+/// from frame to frame.
 class PixelGrid {
  public:
   /// O(pixels + cells). Pixels outside the image count to the nearest cell.
-  void build(const std::vector<Eigen::Vector2f>& pixels_px, int width_px, int height_px, float cell_px = 32.F) {
+  void build(const std::vector<Eigen::Vector2f>& pixels_px, int width_px, int height_px,
+             float cell_px = 32.F) {
     cell_px_ = cell_px;
     columns_ = std::max(1, static_cast<int>(std::ceil(static_cast<float>(width_px) / cell_px)));
     rows_ = std::max(1, static_cast<int>(std::ceil(static_cast<float>(height_px) / cell_px)));
@@ -26,8 +28,9 @@ class PixelGrid {
     }
   }
 
-  /// Calls visit(index) for every pixel in the cells that touch the square of half side `radius_px` around the centre: a
-  /// superset of the window, in a fixed order. The caller tests the exact distance.
+  /// Calls visit(index) for every pixel in the cells that touch the square of half side `radius_px`
+  /// around the centre: a superset of the window, in a fixed order. The caller tests the exact
+  /// distance.
   template <class Visitor>
   void visit(const Eigen::Vector2f& centre_px, float radius_px, Visitor&& visitor) const {
     const int left = column(centre_px.x() - radius_px);
@@ -35,14 +38,18 @@ class PixelGrid {
     const int top = row(centre_px.y() - radius_px);
     const int bottom = row(centre_px.y() + radius_px);
     for (int r = top; r <= bottom; ++r) {
-      const auto begin = static_cast<std::size_t>(first_[static_cast<std::size_t>(r * columns_ + left)]);
-      const auto end = static_cast<std::size_t>(first_[static_cast<std::size_t>(r * columns_ + right) + 1]);
+      const auto begin =
+          static_cast<std::size_t>(first_[static_cast<std::size_t>(r * columns_ + left)]);
+      const auto end =
+          static_cast<std::size_t>(first_[static_cast<std::size_t>(r * columns_ + right) + 1]);
       for (std::size_t i = begin; i < end; ++i) visitor(indices_[i]);
     }
   }
 
  private:
-  int column(float x_px) const { return std::clamp(static_cast<int>(x_px / cell_px_), 0, columns_ - 1); }
+  int column(float x_px) const {
+    return std::clamp(static_cast<int>(x_px / cell_px_), 0, columns_ - 1);
+  }
   int row(float y_px) const { return std::clamp(static_cast<int>(y_px / cell_px_), 0, rows_ - 1); }
   std::size_t cellOf(const Eigen::Vector2f& p) const {
     return static_cast<std::size_t>(row(p.y()) * columns_ + column(p.x()));

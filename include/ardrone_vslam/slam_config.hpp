@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+
+#include "ardrone_vslam/association.hpp"
+#include "ardrone_vslam/feature_map.hpp"
 #include "ardrone_vslam/landmark_map.hpp"
+#include "ardrone_vslam/mapper.hpp"
+#include "ardrone_vslam/observer_buffer.hpp"
 #include "ardrone_vslam/parameters.hpp"
+#include "ardrone_vslam/thesis_filter.hpp"
 
 namespace ardrone_vslam {
 
@@ -12,8 +19,15 @@ struct EnumNames<Estimator> {
   static constexpr std::array<const char*, 2> kNames{"thesis", "observer"};
 };
 
+/// Everything of the mapper / localiser.
 struct SlamConfig {
   Estimator estimator = Estimator::kThesis;
+  bool planar = false;
+  ObserverBufferConfig observer;
+  AssociationConfig association;
+  ThesisFilterConfig thesis_filter;
+  MapperConfig mapper;
+  FeatureMapConfig feature_map;
   LandmarkMapConfig landmark_map;
 };
 
@@ -22,6 +36,16 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"estimator", "choice", 0, 0,
                       "thesis: weighted mean and scalar fusion; observer: passes the odometry on"},
         c.estimator);
+  visit(
+      ParameterInfo{
+          "planar", "switch", 0, 0,
+          "2-D mode: all z are zero, for a front camera when height and tilt are unknown"},
+      c.planar);
+  visitParameters(c.observer, visit);
+  visitParameters(c.association, visit);
+  visitParameters(c.thesis_filter, visit);
+  visitParameters(c.mapper, visit);
+  visitParameters(c.feature_map, visit);
   visitParameters(c.landmark_map, visit);
 }
 

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "ardrone_vslam/descriptor_matcher.hpp"
+#include "ardrone_vslam/feature_map.hpp"
+#include "ardrone_vslam/frame_view.hpp"
+#include "ardrone_vslam/landmark_map.hpp"
+#include "ardrone_vslam/parameters.hpp"
+
+namespace ardrone_vslam {
+
+struct AssociationConfig {
+  double search_radius_px = 30.0;
+  double landmark_threshold_px = 8.0;
+  double epipolar_threshold_px = 2.0;
+  double threshold_deviations = 0.0;
+  double max_view_angle_deg = 60.0;
+  MatcherConfig matcher;
+};
+
+template <class Visitor>
+void visitParameters(AssociationConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"search_radius_px", "px", 1, 2000,
+                      "window around the predicted pixel in which descriptors are compared"},
+        c.search_radius_px);
+  visit(ParameterInfo{"landmark_threshold_px", "px", 0.1, 2000,
+                      "a landmark match further from its prediction is a mismatch (5.36)"},
+        c.landmark_threshold_px);
+  visit(ParameterInfo{"epipolar_threshold_px", "px", 0.1, 2000,
+                      "a feature match further from its epipolar line is a mismatch (5.44)"},
+        c.epipolar_threshold_px);
+  visit(ParameterInfo{"threshold_deviations", "-", 0, 20,
+                      "adds this many deviations of the pose, seen at the landmark's distance, to "
+                      "window and threshold; 0: fixed"},
+        c.threshold_deviations);
+  visit(ParameterInfo{"max_view_angle_deg", "deg", 1, 180,
+                      "landmarks last seen from a direction further off are not searched"},
+        c.max_view_angle_deg);
+  visitParameters(c.matcher, visit);
+}
+
+/// `target` is the index of a landmark or map feature, `feature` of the frame's feature.
+struct Association {
+  int target = 0;
+  int feature = 0;
+};
+
+/// What one search found, before and after the removal of mismatches.
+struct AssociationResult {
+  std::vector<Association> matches;
+  int in_view = 0;          ///< targets that the prediction puts into the image
+  int candidates = 0;       ///< descriptor or track matches
+  int mismatches = 0;       ///< removed of them
+  std::vector<int> missed;  ///< targets in view without a match
+};
+
+/// Finds the landmarks and map features that a frame shows, and removes mismatches (algorithm.md 8,
+/// thesis 5.3).
+class Associator {
+ public:
+  explicit Associator(const AssociationConfig& config);
+
+  /// Landmarks seen by the frame: those that the predicted pose puts into the image, by track or by
+  /// the best descriptor within a window; a match whose ray is off the prediction by more than the
+  /// threshold is a mismatch (5.36). Each landmark and each feature at most once. O(landmarks +
+  /// pairs inside windows).
+  void matchLandmarks(const FrameView& view, const LandmarkMap& map, double position_deviation_m,
+                      AssociationResult& result);
+
+  /// Map features seen again by those of the frame's features that `taken` does not mark: by track,
+  /// else by descriptor around where rotation alone would put them; matches off the epipolar plane
+  /// are mismatches (5.37-5.44).
+  void matchMapFeatures(const FrameView& view, const FeatureMap& map,
+                        const std::vector<bool>& taken, double position_deviation_m,
+                        AssociationResult& result);
+
+ private:
+  struct Window {
+    Eigen::Vector2f centre_px = Eigen::Vector2f::Zero();  // ideal pixel
+    float radius_px = 0.F;
+  };
+
+  void begin(const FrameView& view, std::size_t target_count);
+  int featureOfTrack(std::uint32_t track_id) const;
+  void search(const FrameView& view, const Descriptor& descriptor, const Window& window,
+              int target);
+  int mutualBest(int target) const;
+  bool isLandmarkMismatch(const FrameView& view, const Landmark& landmark, int feature,
+                          double margin_px) const;
+  bool isEpipolarMismatch(const FrameView& view, const MapFeature& first, int feature,
+                          double position_deviation_m) const;
+
+  AssociationConfig config_;
+  std::vector<BestTwo> best_of_target_;
+  std::vector<BestTwo> best_of_feature_;
+  std::vector<bool> feature_taken_;
+  std::vector<int> targets_in_view_;
+  std::vector<Window> window_of_target_;
+  std::unordered_map<std::uint32_t, int> feature_of_track_;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/parameters.hpp"
+#include "ardrone_vslam/triangulation.hpp"
+
+namespace ardrone_vslam {
+
+/// Something seen once, without depth yet: waits for a second view from elsewhere.
+struct MapFeature {
+  std::uint32_t track_id = 0;
+  Ray ray;  ///< from where and in which direction it was seen
+  double elevation =
+      0;  ///< tangent of the ray's elevation; used in 2-D mode, where rays have no height
+  double position_deviation_m = 0;  ///< of ray.origin_map at that time
+  std::int64_t stamp_ns = 0;
+  Descriptor descriptor;
+};
+
+struct FeatureMapConfig {
+  int max_map_features = 4000;
+  double max_feature_age_s = 10.0;
+};
+
+template <class Visitor>
+void visitParameters(FeatureMapConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"max_map_features", "features", 1, 1000000,
+                      "cap of the map of features without depth; the oldest go"},
+        c.max_map_features);
+  visit(ParameterInfo{"max_feature_age_s", "s", 0.01, 1e6,
+                      "features without a second view are dropped after this time"},
+        c.max_feature_age_s);
+}
+
+/// Storage of features in the order they came, with look-up by track.
+class FeatureMap {
+ public:
+  explicit FeatureMap(const FeatureMapConfig& config);
+
+  /// Stores a feature; one of the same track that is there already loses its track and waits for a
+  /// match by descriptor.
+  void add(const MapFeature& feature);
+  /// Marks an entry for removal; indices stay valid until `compact`.
+  void remove(std::size_t index);
+  /// Drops what was removed, is too old or above the cap (the oldest first). O(size). @return
+  /// entries aged or capped out
+  int compact(std::int64_t now_ns);
+
+  /// Index of the entry that follows a track, -1 when there is none.
+  int indexOfTrack(std::uint32_t track_id) const;
+  bool isRemoved(std::size_t index) const { return removed_[index]; }
+  const std::vector<MapFeature>& all() const { return features_; }
+  std::size_t size() const { return features_.size(); }
+
+ private:
+  FeatureMapConfig config_;
+  std::vector<MapFeature> features_;
+  std::vector<bool> removed_;
+  std::unordered_map<std::uint32_t, std::size_t> index_of_track_;
+};
+
+}  // namespace ardrone_vslam

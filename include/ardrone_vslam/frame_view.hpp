@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/pixel_grid.hpp"
+#include "ardrone_vslam/triangulation.hpp"
+
+namespace ardrone_vslam {
+
+/// One frame's features as rays in the map, seen from a predicted camera pose. Needs no camera
+/// model: windows are searched on the ideal image plane, f * (x / z, y / z) of the bearings ("ideal
+/// pixels", the origin is the optical axis).
+class FrameView {
+ public:
+  /// @param planar  2-D mode: the rays lose their z component and are normalised again (thesis 7.2)
+  /// @pre features outlives the view
+  void reset(const Features& features, const Eigen::Isometry3d& T_map_cam, bool planar);
+
+  const Features& features() const { return *features_; }
+  std::size_t size() const { return rays_map_.size(); }
+  Ray ray(std::size_t index) const { return {origin_map_, rays_map_[index]}; }
+  const Eigen::Vector3d& origin_map() const { return origin_map_; }
+  /// Moves all rays to another camera position (after the fusion); directions and windows stay.
+  void setOrigin(const Eigen::Vector3d& origin_map) { origin_map_ = origin_map; }
+  double focalLength_px() const { return features_->focal_length_px; }
+  bool planar() const { return planar_; }
+
+  /// Ideal pixel of a direction in the map frame.
+  /// @param elevation  tangent of the elevation, used in 2-D mode only, where directions are
+  /// horizontal
+  /// @return false when it is behind the camera or outside all that the camera has shown so far
+  bool idealPixel(const Eigen::Vector3d& direction_map, double elevation,
+                  Eigen::Vector2f& pixel_px) const;
+  /// Tangent of a feature's elevation above the horizontal plane of the map; 0 outside the 2-D
+  /// mode.
+  double elevation(std::size_t index) const { return planar_ ? elevations_[index] : 0.0; }
+
+  /// Calls visit(feature index) for every feature within the radius of an ideal pixel, in a fixed
+  /// order.
+  template <class Visitor>
+  void visit(const Eigen::Vector2f& ideal_px, float radius_px, Visitor&& visitor) const {
+    grid_.visit(ideal_px - lower_px_, radius_px, [&](int index) {
+      const Eigen::Vector2f offset =
+          ideal_px_[static_cast<std::size_t>(index)] + lower_px_ - ideal_px;
+      if (offset.squaredNorm() <= radius_px * radius_px) visitor(index);
+    });
+  }
+
+ private:
+  const Features* features_ = nullptr;
+  bool planar_ = false;
+  Eigen::Vector3d origin_map_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d R_cam_map_ = Eigen::Matrix3d::Identity();
+  std::vector<Eigen::Vector3d> rays_map_;
+  std::vector<double> elevations_;                      // 2-D mode only
+  std::vector<Eigen::Vector2f> ideal_px_;               // relative to lower_px_
+  Eigen::Vector2f lower_px_ = Eigen::Vector2f::Zero();  // box of all ideal pixels since the start
+  Eigen::Vector2f upper_px_ = Eigen::Vector2f::Zero();
+  PixelGrid grid_;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "ardrone_vslam/association.hpp"
+#include "ardrone_vslam/feature_map.hpp"
+#include "ardrone_vslam/frame_view.hpp"
+#include "ardrone_vslam/landmark_map.hpp"
+#include "ardrone_vslam/parameters.hpp"
+
+namespace ardrone_vslam {
+
+struct MapperConfig {
+  double angle_deviation_px = 1.0;
+  double min_parallax_deg = 1.0;
+  double max_depth_m = 1000.0;
+  int drop_unconfirmed_after = 5;
+};
+
+template <class Visitor>
+void visitParameters(MapperConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"angle_deviation_px", "px", 0.01, 100,
+                      "deviation of a measured direction, sigma_a times the focal length"},
+        c.angle_deviation_px);
+  visit(ParameterInfo{"min_parallax_deg", "deg", 0.01, 90,
+                      "angle between the first and the present view that makes a landmark"},
+        c.min_parallax_deg);
+  visit(ParameterInfo{"max_depth_m", "m", 0.1, 1e5, "points further away do not become landmarks"},
+        c.max_depth_m);
+  visit(
+      ParameterInfo{
+          "drop_unconfirmed_after", "frames", 1, 1000000,
+          "a landmark seen at most twice is dropped after so many frames in view without a match"},
+      c.drop_unconfirmed_after);
+}
+
+/// Makes, refines and removes landmarks (algorithm.md 6, 7, 10; thesis 5.2, 5.4) from a pose that
+/// is known.
+class Mapper {
+ public:
+  explicit Mapper(const MapperConfig& config);
+
+  /// sigma_a for a camera of this focal length.
+  double angleDeviation_rad(double focal_length_px) const {
+    return config_.angle_deviation_px / focal_length_px;
+  }
+
+  /// Scalar Kalman update of each matched landmark (5.20-5.22, 5.30-5.34).
+  /// @param view  rays from the FUSED camera position
+  void refine(const FrameView& view, const std::vector<Association>& matches,
+              double position_deviation_m, LandmarkMap& map) const;
+
+  /// Counts the landmarks that should have been seen; drops those never confirmed. Invalidates
+  /// landmark indices.
+  /// @return landmarks removed
+  int countMissed(const std::vector<int>& missed, LandmarkMap& map) const;
+
+  /// Matched map features with enough parallax become landmarks and leave the feature map; those
+  /// with too little wait.
+  /// @param used  set for the frame's features that need not be stored: those that became landmarks
+  /// and those whose track waits
+  /// @return new landmarks
+  int triangulateMatches(const FrameView& view, const std::vector<Association>& matches,
+                         double position_deviation_m, FeatureMap& features, LandmarkMap& landmarks,
+                         std::vector<bool>& used) const;
+
+  /// Stores the frame's features that `used` does not mark.
+  void storeRest(const FrameView& view, const std::vector<bool>& used, double position_deviation_m,
+                 FeatureMap& features) const;
+
+ private:
+  MapperConfig config_;
+};
+
+}  // namespace ardrone_vslam

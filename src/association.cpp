@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/association.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kNobody = -1;
+constexpr double kSmallestDistance_m = 1e-3;
+
+double radians(double degrees) {
+  return degrees * M_PI / 180.0;
+}
+
+}  // namespace
+
+Associator::Associator(const AssociationConfig& config) : config_(config) {
+  validate(config);
+}
+
+void Associator::begin(const FrameView& view, std::size_t target_count) {
+  best_of_target_.assign(target_count, BestTwo{});
+  best_of_feature_.assign(view.size(), BestTwo{});
+  feature_taken_.assign(view.size(), false);
+  targets_in_view_.clear();
+  feature_of_track_.clear();
+  for (std::size_t i = 0; i < view.size(); ++i)
+    feature_of_track_[view.features().track_id[i]] = static_cast<int>(i);
+}
+
+int Associator::featureOfTrack(std::uint32_t track_id) const {
+  const auto entry = feature_of_track_.find(track_id);
+  return entry == feature_of_track_.end() ? kNobody : entry->second;
+}
+
+void Associator::search(const FrameView& view, const Descriptor& descriptor, const Window& window,
+                        int target) {
+  view.visit(window.centre_px, window.radius_px, [&](int feature) {
+    const auto f = static_cast<std::size_t>(feature);
+    if (feature_taken_[f]) return;
+    const int distance = hammingDistance(descriptor, view.features().descriptor[f]);
+    best_of_target_[static_cast<std::size_t>(target)].offer(feature, distance);
+    best_of_feature_[f].offer(target, distance);
+  });
+}
+
+int Associator::mutualBest(int target) const {
+  const BestTwo& best = best_of_target_[static_cast<std::size_t>(target)];
+  if (!accept(best, config_.matcher)) return kNobody;
+  return best_of_feature_[static_cast<std::size_t>(best.index)].index == target ? best.index
+                                                                                : kNobody;
+}
+
+void Associator::matchLandmarks(const FrameView& view, const LandmarkMap& map,
+                                double position_deviation_m, AssociationResult& result) {
+  result = {};
+  begin(view, map.size());
+  const double smallest_cosine = std::cos(radians(config_.max_view_angle_deg));
+  const auto marginAt = [&](double distance_m) {
+    return config_.threshold_deviations * view.focalLength_px() * position_deviation_m / distance_m;
+  };
+  const auto distanceTo = [&](int target) {
+    return (map.all()[static_cast<std::size_t>(target)].position_map - view.origin_map()).norm();
+  };
+  const auto decide = [&](int target, int feature) {
+    ++result.candidates;
+    if (isLandmarkMismatch(view, map.all()[static_cast<std::size_t>(target)], feature,
+                           marginAt(distanceTo(target)))) {
+      ++result.mismatches;
+      return;
+    }
+    result.matches.push_back({target, feature});
+    feature_taken_[static_cast<std::size_t>(feature)] = true;
+  };
+
+  // Tracks first: they need no search, and their features are not offered to other landmarks.
+  window_of_target_.clear();
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const Landmark& landmark = map.all()[i];
+    const Eigen::Vector3d offset = landmark.position_map - view.origin_map();
+    const double distance = offset.norm();
+    Window window;
+    if (distance < kSmallestDistance_m ||
+        landmark.view_direction_map.dot(offset) < smallest_cosine * distance)
+      continue;
+    if (!view.idealPixel(offset, landmark.elevation, window.centre_px)) continue;
+    window.radius_px = static_cast<float>(config_.search_radius_px + marginAt(distance));
+    ++result.in_view;
+    const int feature = featureOfTrack(landmark.track_id);
+    if (feature != kNobody && !feature_taken_[static_cast<std::size_t>(feature)]) {
+      const std::size_t matches_before = result.matches.size();
+      decide(static_cast<int>(i), feature);
+      if (result.matches.size() > matches_before) continue;
+    }
+    targets_in_view_.push_back(static_cast<int>(i));
+    window_of_target_.push_back(window);
+  }
+  for (std::size_t k = 0; k < targets_in_view_.size(); ++k) {
+    const int target = targets_in_view_[k];
+    search(view, map.all()[static_cast<std::size_t>(target)].descriptor, window_of_target_[k],
+           target);
+  }
+  for (const int target : targets_in_view_) {
+    const int feature = mutualBest(target);
+    const std::size_t matches_before = result.matches.size();
+    if (feature != kNobody) decide(target, feature);
+    if (result.matches.size() == matches_before) result.missed.push_back(target);
+  }
+}
+
+bool Associator::isLandmarkMismatch(const FrameView& view, const Landmark& landmark, int feature,
+                                    double margin_px) const {
+  const Ray ray = view.ray(static_cast<std::size_t>(feature));
+  const Eigen::Vector3d predicted = (landmark.position_map - ray.origin_map).normalized();
+  const double angle = (config_.landmark_threshold_px + margin_px) / view.focalLength_px();
+  return !(predicted.dot(ray.direction_map) > std::cos(std::min(angle, M_PI)));  // (5.36)
+}
+
+void Associator::matchMapFeatures(const FrameView& view, const FeatureMap& map,
+                                  const std::vector<bool>& taken, double position_deviation_m,
+                                  AssociationResult& result) {
+  result = {};
+  begin(view, map.size());
+  std::copy(taken.begin(), taken.end(), feature_taken_.begin());
+  const auto decide = [&](int target, int feature) {
+    ++result.candidates;
+    feature_taken_[static_cast<std::size_t>(feature)] = true;
+    const MapFeature& first = map.all()[static_cast<std::size_t>(target)];
+    if (isEpipolarMismatch(view, first, feature, position_deviation_m)) {
+      ++result.mismatches;
+      return;
+    }
+    result.matches.push_back({target, feature});
+  };
+
+  for (std::size_t f = 0; f < view.size(); ++f) {
+    if (feature_taken_[f]) continue;
+    const int target = map.indexOfTrack(view.features().track_id[f]);
+    if (target != kNobody) decide(target, static_cast<int>(f));
+  }
+  // Entries whose track has ended are looked for by descriptor. A near point moves away from where
+  // rotation alone puts it, hence the window.
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const MapFeature& entry = map.all()[i];
+    if (map.isRemoved(i) || featureOfTrack(entry.track_id) != kNobody) continue;
+    Window window;
+    if (!view.idealPixel(entry.ray.direction_map, entry.elevation, window.centre_px)) continue;
+    window.radius_px = static_cast<float>(config_.search_radius_px);
+    ++result.in_view;
+    targets_in_view_.push_back(static_cast<int>(i));
+    search(view, entry.descriptor, window, static_cast<int>(i));
+  }
+  for (const int target : targets_in_view_) {
+    const int feature = mutualBest(target);
+    if (feature != kNobody) decide(target, feature);
+  }
+}
+
+bool Associator::isEpipolarMismatch(const FrameView& view, const MapFeature& first, int feature,
+                                    double position_deviation_m) const {
+  const Ray present = view.ray(static_cast<std::size_t>(feature));
+  const auto offset = epipolarOffset(first.ray, present);
+  if (!offset) return false;  // no baseline yet: nothing to test, and nothing to triangulate either
+  // An uncertain baseline turns the epipolar plane about the first ray.
+  const double baseline_m = (present.origin_map - first.ray.origin_map).norm();
+  const double turn_rad = std::hypot(position_deviation_m, first.position_deviation_m) /
+                          baseline_m * std::abs(offset->along);
+  const double threshold = config_.epipolar_threshold_px / view.focalLength_px() +
+                           config_.threshold_deviations * turn_rad;
+  return offset->across > threshold || offset->along < -threshold;
+}
+
+}  // namespace ardrone_vslam

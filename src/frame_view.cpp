@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/frame_view.hpp"
+
+#include <algorithm>
+
+namespace ardrone_vslam {
+
+void FrameView::reset(const Features& features, const Eigen::Isometry3d& T_map_cam, bool planar) {
+  features_ = &features;
+  planar_ = planar;
+  origin_map_ = T_map_cam.translation();
+  R_cam_map_ = T_map_cam.linear().transpose();
+  rays_map_.clear();
+  elevations_.clear();
+  ideal_px_.clear();
+  const Eigen::Matrix3d R_map_cam = T_map_cam.linear();
+  for (const Eigen::Vector3f& bearing : features.bearing_cam) {
+    Eigen::Vector3d ray = R_map_cam * bearing.cast<double>();
+    if (planar) {
+      elevations_.push_back(ray.z() / std::max(ray.head<2>().norm(), 1e-6));
+      ray.z() = 0;
+    }
+    rays_map_.push_back(ray.normalized());
+    ideal_px_.push_back(features.focal_length_px * bearing.head<2>() / bearing.z());
+    lower_px_ = lower_px_.cwiseMin(ideal_px_.back());
+    upper_px_ = upper_px_.cwiseMax(ideal_px_.back());
+  }
+  for (Eigen::Vector2f& pixel : ideal_px_) pixel -= lower_px_;
+  const Eigen::Vector2f extent = upper_px_ - lower_px_;
+  grid_.build(ideal_px_, static_cast<int>(extent.x()) + 1, static_cast<int>(extent.y()) + 1);
+}
+
+bool FrameView::idealPixel(const Eigen::Vector3d& direction_map, double elevation,
+                           Eigen::Vector2f& pixel_px) const {
+  constexpr double kFlattest = 0.05;  // 87 degrees off the axis
+  Eigen::Vector3d direction = direction_map;
+  if (planar_) direction.z() = elevation * direction.head<2>().norm();
+  const Eigen::Vector3d direction_cam = R_cam_map_ * direction;
+  if (!(direction_cam.z() > kFlattest * direction_cam.norm())) return false;
+  const Eigen::Vector2d plane = direction_cam.head<2>() / direction_cam.z();
+  pixel_px = features_->focal_length_px * plane.cast<float>();
+  return (pixel_px.array() >= lower_px_.array()).all() &&
+         (pixel_px.array() <= upper_px_.array()).all();
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/mapper.hpp"
+
+#include <cmath>
+
+namespace ardrone_vslam {
+namespace {
+
+/// The feature that saw a landmark last stands for it: its descriptor, track and direction.
+void rememberSighting(const FrameView& view, std::size_t feature, Landmark& landmark) {
+  landmark.track_id = view.features().track_id[feature];
+  landmark.descriptor = view.features().descriptor[feature];
+  landmark.view_direction_map = view.ray(feature).direction_map;
+  landmark.elevation = view.elevation(feature);
+  landmark.last_seen_ns = view.features().stamp_ns;
+  landmark.times_missed = 0;
+  ++landmark.times_seen;
+}
+
+}  // namespace
+
+Mapper::Mapper(const MapperConfig& config) : config_(config) {
+  validate(config);
+}
+
+void Mapper::refine(const FrameView& view, const std::vector<Association>& matches,
+                    double position_deviation_m, LandmarkMap& map) const {
+  const double sigma_a = angleDeviation_rad(view.focalLength_px());
+  for (const Association& match : matches) {
+    const auto feature = static_cast<std::size_t>(match.feature);
+    Landmark& landmark = map.at(static_cast<std::size_t>(match.target));
+    const Ray ray = view.ray(feature);
+    const double depth = (landmark.position_map - ray.origin_map).dot(ray.direction_map);  // (5.20)
+    const Eigen::Vector3d measured = ray.origin_map + depth * ray.direction_map;           // (5.21)
+    const double sigma =
+        measurementDeviation_m(position_deviation_m, std::abs(depth), sigma_a);  // (5.22)
+    const double variance = landmark.deviation_m * landmark.deviation_m;
+    const double gain = variance / (variance + sigma * sigma);           // (5.30-5.32)
+    landmark.position_map += gain * (measured - landmark.position_map);  // (5.33)
+    landmark.deviation_m = std::sqrt((1 - gain) * variance);             // (5.34)
+    rememberSighting(view, feature, landmark);
+  }
+}
+
+int Mapper::countMissed(const std::vector<int>& missed, LandmarkMap& map) const {
+  std::vector<std::uint32_t> dropped;
+  for (const int index : missed) {
+    Landmark& landmark = map.at(static_cast<std::size_t>(index));
+    ++landmark.times_missed;
+    if (landmark.times_seen <= 2 && landmark.times_missed >= config_.drop_unconfirmed_after)
+      dropped.push_back(landmark.id);
+  }
+  for (const std::uint32_t id : dropped) map.remove(id);
+  return static_cast<int>(dropped.size());
+}
+
+int Mapper::triangulateMatches(const FrameView& view, const std::vector<Association>& matches,
+                               double position_deviation_m, FeatureMap& features,
+                               LandmarkMap& landmarks, std::vector<bool>& used) const {
+  const double sigma_a = angleDeviation_rad(view.focalLength_px());
+  const double min_parallax_rad = config_.min_parallax_deg * M_PI / 180;
+  int made = 0;
+  for (const Association& match : matches) {
+    const auto feature = static_cast<std::size_t>(match.feature);
+    const auto entry = static_cast<std::size_t>(match.target);
+    const MapFeature& first = features.all()[entry];
+    const bool same_track = first.track_id == view.features().track_id[feature];
+    const auto point = triangulate(first.ray, view.ray(feature));
+    if (!point || point->parallax_rad < min_parallax_rad) {
+      if (same_track)
+        used[feature] = true;  // the older view has the longer baseline: it stays and waits
+      continue;
+    }
+    features.remove(entry);
+    if (point->depth_m > config_.max_depth_m) continue;
+    used[feature] = true;
+    Landmark landmark;
+    landmark.position_map = point->position_map;
+    landmark.deviation_m =
+        measurementDeviation_m(position_deviation_m, point->depth_m, sigma_a);  // (5.19)
+    landmark.depth_deviation_m = depthDeviation_m(landmark.deviation_m, point->parallax_rad);
+    landmark.first_seen_ns = first.stamp_ns;
+    landmark.times_seen = 1;
+    rememberSighting(view, feature, landmark);
+    landmarks.add(landmark);
+    ++made;
+  }
+  return made;
+}
+
+void Mapper::storeRest(const FrameView& view, const std::vector<bool>& used,
+                       double position_deviation_m, FeatureMap& features) const {
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    if (used[i]) continue;
+    MapFeature entry;
+    entry.track_id = view.features().track_id[i];
+    entry.ray = view.ray(i);
+    entry.elevation = view.elevation(i);
+    entry.position_deviation_m = position_deviation_m;
+    entry.stamp_ns = view.features().stamp_ns;
+    entry.descriptor = view.features().descriptor[i];
+    features.add(entry);
+  }
+}
+
+}  // namespace ardrone_vslam

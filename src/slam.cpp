@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/slam.hpp"
+
+#include <cassert>
+#include <cmath>
+
+#include "ardrone_vslam/association.hpp"
+#include "ardrone_vslam/frame_view.hpp"
+#include "ardrone_vslam/mapper.hpp"
+#include "ardrone_vslam/thesis_filter.hpp"
+
+namespace ardrone_vslam {
+
+struct Slam::State {
+  State(const SlamConfig& c, const Eigen::Isometry3d& T_base_camera)
+      : config(c),
+        T_base_cam(T_base_camera),
+        associator(c.association),
+        filter(c.thesis_filter),
+        mapper(c.mapper),
+        feature_map(c.feature_map),
+        landmark_map(c.landmark_map) {}
+
+  SlamConfig config;
+  Eigen::Isometry3d T_base_cam;
+  Associator associator;
+  ThesisFilter filter;
+  Mapper mapper;
+  FeatureMap feature_map;
+  LandmarkMap landmark_map;
+
+  bool started = false;
+  Eigen::Vector3d offset_map = Eigen::Vector3d::Zero();  // base -> camera, at the present attitude
+  FrameView view;
+  AssociationResult landmark_matches;
+  AssociationResult feature_matches;
+  std::vector<Sighting> sightings;
+  std::vector<bool> used;  // the frame's features that need not be stored
+  FrameResult result;
+
+  void predict(const Features& features, const ObserverState& observer);
+  void localise();
+  void refineAndMap();
+  void report(const ObserverState& observer);
+};
+
+Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
+  validate(config);
+  state_ = std::make_unique<State>(config, T_base_cam);
+}
+
+Slam::~Slam() = default;
+
+const LandmarkMap& Slam::landmarks() const {
+  return state_->landmark_map;
+}
+
+Eigen::Isometry3d Slam::T_map_odom() const {
+  return state_->result.T_map_base * state_->result.T_odom_base.inverse();
+}
+
+const FrameResult& Slam::process(const Features& features, const ObserverState& observer,
+                                 const StageHook& hook) {
+  State& s = *state_;
+  assert(observer.stamp_ns == features.stamp_ns &&
+         "the observer state must be for the image's stamp");
+  const auto enter = [&hook](Stage stage) {
+    if (hook) hook(stage);
+  };
+  s.result = {};
+  s.result.features = static_cast<int>(features.size());
+
+  enter(Stage::kLocalise);
+  s.predict(features, observer);
+  if (s.config.estimator == Estimator::kObserver) {
+    s.result.state = SlamState::kObserverOnly;
+  } else {
+    enter(Stage::kAssociate);
+    s.associator.matchLandmarks(s.view, s.landmark_map, s.filter.deviation_m(), s.landmark_matches);
+    enter(Stage::kLocalise);
+    s.localise();
+    enter(Stage::kMap);
+    s.refineAndMap();
+  }
+  s.report(observer);
+  enter(Stage::kIdle);
+  return s.result;
+}
+
+void Slam::State::predict(const Features& features, const ObserverState& observer) {
+  if (started) {
+    filter.predict(observer);
+  } else {
+    filter.start(observer.T_odom_base.translation(), observer);  // map equals odom
+    started = true;
+  }
+  Eigen::Isometry3d T_map_base = observer.T_odom_base;  // orientation: the observer's, drift-free
+  T_map_base.translation() = filter.position_map();
+  offset_map = T_map_base.linear() * T_base_cam.translation();
+  Eigen::Isometry3d T_map_cam = T_map_base * T_base_cam;
+  if (config.planar) {
+    T_map_cam.translation().z() = 0;
+    offset_map.z() = 0;
+  }
+  view.reset(features, T_map_cam, config.planar);
+}
+
+void Slam::State::localise() {
+  sightings.clear();
+  for (const Association& match : landmark_matches.matches) {
+    const Landmark& landmark = landmark_map.all()[static_cast<std::size_t>(match.target)];
+    sightings.push_back({landmark.position_map,
+                         view.ray(static_cast<std::size_t>(match.feature)).direction_map,
+                         landmark.deviation_m});
+  }
+  auto fix =
+      filter.locate(sightings, view.origin_map(), mapper.angleDeviation_rad(view.focalLength_px()));
+  if (!fix) {
+    result.state = landmark_map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTooFewLandmarks;
+    return;
+  }
+  fix->position_map -= offset_map;  // of the base
+  if (config.planar) fix->position_map.z() = filter.position_map().z();
+  result.camera_position_map = fix->position_map;
+  result.camera_deviation_m = std::sqrt(fix->covariance.trace() / 3);
+  result.state = filter.fuse(*fix) ? SlamState::kLocalised : SlamState::kFixRejected;
+}
+
+void Slam::State::refineAndMap() {
+  const double deviation_m = filter.deviation_m();
+  Eigen::Vector3d camera_map = filter.position_map() + offset_map;
+  if (config.planar) camera_map.z() = 0;
+  view.setOrigin(camera_map);
+  used.assign(view.size(), false);
+  for (const Association& match : landmark_matches.matches)
+    used[static_cast<std::size_t>(match.feature)] = true;
+  mapper.refine(view, landmark_matches.matches, deviation_m, landmark_map);
+  result.removed_landmarks = mapper.countMissed(landmark_matches.missed, landmark_map);
+
+  associator.matchMapFeatures(view, feature_map, used, deviation_m, feature_matches);
+  result.new_landmarks = mapper.triangulateMatches(view, feature_matches.matches, deviation_m,
+                                                   feature_map, landmark_map, used);
+  mapper.storeRest(view, used, deviation_m, feature_map);
+  feature_map.compact(view.features().stamp_ns);
+  result.removed_landmarks += landmark_map.enforceCap();
+}
+
+void Slam::State::report(const ObserverState& observer) {
+  const double attitude_rad = config.thesis_filter.attitude_deviation_deg * M_PI / 180;
+  result.stamp_ns = observer.stamp_ns;
+  result.T_odom_base = observer.T_odom_base;
+  result.T_map_base = observer.T_odom_base;
+  result.T_map_base.translation() = filter.position_map();
+  result.covariance.topLeftCorner<3, 3>() = filter.covariance();
+  result.covariance.bottomRightCorner<3, 3>() =
+      attitude_rad * attitude_rad * Eigen::Matrix3d::Identity();
+  result.deviation_m = filter.deviation_m();
+  if (config.estimator != Estimator::kObserver) {
+    result.landmarks_in_view = landmark_matches.in_view;
+    result.landmark_candidates = landmark_matches.candidates;
+    result.landmark_matches = static_cast<int>(landmark_matches.matches.size());
+    result.feature_candidates = feature_matches.candidates;
+    result.feature_matches = static_cast<int>(feature_matches.matches.size());
+  }
+  result.landmarks = static_cast<int>(landmark_map.size());
+  result.map_features = static_cast<int>(feature_map.size());
+}
+
+const char* explain(SlamState state) {
+  switch (state) {
+    case SlamState::kBuildingMap:
+      return "no landmark yet: they appear when the camera has moved sideways by a few hundredths "
+             "of the distance to what it sees";
+    case SlamState::kLocalised:
+      return "";
+    case SlamState::kTooFewLandmarks:
+      return "fewer landmarks recognised than min_landmarks: the view is new, blurred, dark or "
+             "plain; the pose follows the odometry";
+    case SlamState::kFixRejected:
+      return "the landmarks' position disagrees with the odometry by more than gate_deviations; "
+             "the pose follows the odometry";
+    case SlamState::kObserverOnly:
+      return "estimator is set to observer: the odometry is passed on without correction";
+  }
+  return "";
+}
+
+}  // namespace ardrone_vslam

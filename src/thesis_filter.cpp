@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/thesis_filter.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "ardrone_vslam/triangulation.hpp"
+
+namespace ardrone_vslam {
+
+ThesisFilter::ThesisFilter(const ThesisFilterConfig& config) : config_(config) {
+  validate(config);
+}
+
+void ThesisFilter::start(const Eigen::Vector3d& position_map, const ObserverState& observer) {
+  observer_ = observer;
+  position_map_ = position_map;
+  covariance_ =
+      config_.initial_deviation_m * config_.initial_deviation_m * Eigen::Matrix3d::Identity();
+}
+
+void ThesisFilter::predict(const ObserverState& observer) {
+  const Eigen::Vector3d increment =
+      observer.T_odom_base.translation() - observer_.T_odom_base.translation();
+  const double seconds = static_cast<double>(observer.stamp_ns - observer_.stamp_ns) * 1e-9;
+  const double growth =
+      (observer.covariance - observer_.covariance).topLeftCorner<3, 3>().trace() / 3;
+  double variance = growth;
+  if (!(growth > 0)) {
+    variance = config_.observer_noise_m_per_sqrt_m * config_.observer_noise_m_per_sqrt_m *
+                   increment.norm() +
+               config_.observer_noise_m_per_sqrt_s * config_.observer_noise_m_per_sqrt_s * seconds;
+  }
+  position_map_ += increment;
+  covariance_ += variance * Eigen::Matrix3d::Identity();
+  observer_ = observer;
+}
+
+std::optional<PositionFix> ThesisFilter::locate(const std::vector<Sighting>& sightings,
+                                                const Eigen::Vector3d& predicted_camera_map,
+                                                double angle_deviation_rad) const {
+  if (static_cast<int>(sightings.size()) < config_.min_landmarks) return std::nullopt;
+  std::optional<PositionFix> fix =
+      config_.mean == MeanKind::kPrinted
+          ? printedMean(sightings, predicted_camera_map, angle_deviation_rad)
+          : exactMean(sightings, predicted_camera_map, angle_deviation_rad);
+  if (!fix || !fix->position_map.allFinite()) return std::nullopt;
+  fix->covariance +=
+      config_.fix_deviation_floor_m * config_.fix_deviation_floor_m * Eigen::Matrix3d::Identity();
+  return fix;
+}
+
+PositionFix ThesisFilter::printedMean(const std::vector<Sighting>& sightings,
+                                      const Eigen::Vector3d& predicted, double sigma_a) const {
+  Eigen::Vector3d weighted_sum = Eigen::Vector3d::Zero();
+  double weight_sum = 0;
+  for (const Sighting& s : sightings) {
+    const double d = (s.landmark_map - predicted).dot(s.direction_map);     // (6.2)
+    const Eigen::Vector3d position = s.landmark_map - d * s.direction_map;  // (6.1)
+    const double weight =
+        1 / measurementDeviation_m(s.landmark_deviation_m, std::abs(d), sigma_a);  // (6.3)
+    weighted_sum += weight * position;
+    weight_sum += weight;
+  }
+  // The deviation of this mean for independent inputs; (6.5) as printed does not shrink with their
+  // number.
+  const double deviation = std::sqrt(static_cast<double>(sightings.size())) / weight_sum;
+  return {weighted_sum / weight_sum, deviation * deviation * Eigen::Matrix3d::Identity()};  // (6.4)
+}
+
+std::optional<PositionFix> ThesisFilter::exactMean(const std::vector<Sighting>& sightings,
+                                                   const Eigen::Vector3d& predicted,
+                                                   double sigma_a) const {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d weighted_sum = Eigen::Vector3d::Zero();
+  for (const Sighting& s : sightings) {
+    const double d = (s.landmark_map - predicted).dot(s.direction_map);
+    const double sigma = measurementDeviation_m(s.landmark_deviation_m, std::abs(d), sigma_a);
+    const Eigen::Matrix3d across =
+        (Eigen::Matrix3d::Identity() - s.direction_map * s.direction_map.transpose()) /
+        (sigma * sigma);
+    information += across;
+    weighted_sum += across * s.landmark_map;
+  }
+  // Landmarks in one direction alone leave the position along it open.
+  constexpr double kSmallestEigenvalueRatio = 1e-6;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
+  if (!(eigen.eigenvalues()(0) > kSmallestEigenvalueRatio * eigen.eigenvalues()(2)))
+    return std::nullopt;
+  const Eigen::Matrix3d covariance = information.inverse();
+  return PositionFix{covariance * weighted_sum, covariance};
+}
+
+bool ThesisFilter::fuse(const PositionFix& fix) {
+  const Eigen::Vector3d innovation = fix.position_map - position_map_;  // (6.8)
+  const Eigen::Matrix3d spread = covariance_ + fix.covariance;          // (6.9)
+  const Eigen::Matrix3d inverse = spread.inverse();
+  if (innovation.dot(inverse * innovation) > config_.gate_deviations * config_.gate_deviations)
+    return false;
+  const Eigen::Matrix3d gain = covariance_ * inverse;  // (6.10)
+  position_map_ += gain * innovation;                  // (6.11)
+  const Eigen::Matrix3d rest = Eigen::Matrix3d::Identity() - gain;
+  // Joseph form of (6.12): symmetric and positive whatever the rounding.
+  covariance_ = rest * covariance_ * rest.transpose() + gain * fix.covariance * gain.transpose();
+  return true;
+}
+
+double ThesisFilter::deviation_m() const {
+  return std::sqrt(covariance_.trace() / 3);
+}
+
+}  // namespace ardrone_vslam
