@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline_run.hpp"
+
+#include <chrono>
+#include <future>
+
+namespace ardrone_vslam {
+namespace {
+
+std::int64_t now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+ImageView viewOf(const cv::Mat& image) {
+  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
+}
+
+}  // namespace
+
+StageTimer::StageTimer(StageTimes_ms& times_ms) : times_ms_(times_ms) {}
+
+StageHook StageTimer::hook() {
+  return [this](Stage stage) { enter(stage); };
+}
+
+void StageTimer::enter(Stage stage) {
+  const std::int64_t now = now_ns();
+  if (stage_ != Stage::kIdle)
+    times_ms_[static_cast<std::size_t>(stage_)] += static_cast<double>(now - since_ns_) * 1e-6;
+  stage_ = stage;
+  since_ns_ = now;
+}
+
+void runFrontEnd(Sequence& sequence, const TrackerConfig& config, int threads,
+                 const std::function<void(const TrackedFrame& frame)>& consume) {
+  Tracker tracker(config, sequence.camera());
+  const auto policy = threads >= 2 ? std::launch::async : std::launch::deferred;
+  const auto load = [&sequence, policy](std::size_t index) {
+    return std::async(policy, [&sequence, index] { return sequence.image(index); });
+  };
+  TrackedFrame frame;
+  std::future<cv::Mat> next;
+  if (sequence.size() > 0) next = load(0);
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    const cv::Mat image = next.get();
+    if (i + 1 < sequence.size()) next = load(i + 1);
+    frame.times_ms = {};
+    StageTimer timer(frame.times_ms);
+    tracker.process(viewOf(image), sequence.stamp_ns(i), frame.features, timer.hook());
+    consume(frame);
+  }
+}
+
+BackEnd::BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
+                 const std::vector<ObserverState>& observer)
+    : slam_(config, T_base_cam), buffer_(config.observer), observer_(observer) {}
+
+bool BackEnd::observerAt(std::int64_t stamp_ns, ObserverState& state) {
+  auto lookup = buffer_.at(stamp_ns, state);
+  while ((lookup == ObserverBuffer::Lookup::kEmpty || lookup == ObserverBuffer::Lookup::kNotYet) &&
+         next_ < observer_.size()) {
+    if (buffer_.push(observer_[next_++]) != ObserverBuffer::Push::kAccepted)
+      ++run_.observer_states_refused;
+    lookup = buffer_.at(stamp_ns, state);
+  }
+  return lookup == ObserverBuffer::Lookup::kFound;
+}
+
+void BackEnd::process(const TrackedFrame& frame) {
+  ObserverState state;
+  if (!observerAt(frame.features.stamp_ns, state)) {
+    ++run_.frames_without_observer;
+    return;
+  }
+  RunFrame run_frame;
+  run_frame.times_ms = frame.times_ms;
+  StageTimer timer(run_frame.times_ms);
+  run_frame.result = slam_.process(frame.features, state, timer.hook());
+  run_.frames.push_back(std::move(run_frame));
+}
+
+RunResult BackEnd::finish() {
+  run_.landmarks = slam_.landmarks().all();
+  return std::move(run_);
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/slam.hpp"
+#include "ardrone_vslam/stages.hpp"
+#include "config_file.hpp"
+#include "observer_model.hpp"
+#include "sequence.hpp"
+
+namespace ardrone_vslam {
+
+using StageTimes_ms = std::array<double, kStageCount>;
+
+/// One image after the front end.
+struct TrackedFrame {
+  Features features;
+  StageTimes_ms times_ms{};
+};
+
+/// One image's answer.
+struct RunFrame {
+  FrameResult result;
+  StageTimes_ms times_ms{};
+};
+
+/// One pass over a sequence with one observer.
+struct RunResult {
+  std::vector<RunFrame> frames;
+  std::vector<Landmark> landmarks;
+  int frames_without_observer =
+      0;  ///< no odometry at the image's stamp: before the first state, in a gap, or after the last
+  int observer_states_refused = 0;  ///< not finite, duplicate or backward stamps
+  double scale_error = 0;           ///< the one drawn for the observer
+};
+
+/// Called with the number of images done, from the calling thread.
+using Progress = std::function<void(std::size_t)>;
+
+/// Images -> features; images are decoded ahead by a thread of their own when `threads` is 2 or
+/// more.
+/// @param consume  gets each frame in order; `frame` is reused for the next one
+void runFrontEnd(Sequence& sequence, const TrackerConfig& config, int threads,
+                 const std::function<void(const TrackedFrame& frame)>& consume);
+
+/// Features + observer -> poses and map, as the nodelets do it: odometry interpolated at the
+/// image's stamp by an ObserverBuffer.
+class BackEnd {
+ public:
+  BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
+          const std::vector<ObserverState>& observer);
+  void process(const TrackedFrame& frame);
+  RunResult finish();
+
+ private:
+  bool observerAt(std::int64_t stamp_ns, ObserverState& state);
+
+  Slam slam_;
+  ObserverBuffer buffer_;
+  const std::vector<ObserverState>& observer_;
+  std::size_t next_ = 0;
+  RunResult run_;
+};
+
+/// Accumulates the time between stage changes; the clock that the core does not have.
+class StageTimer {
+ public:
+  explicit StageTimer(StageTimes_ms& times_ms);
+  StageHook hook();
+
+ private:
+  void enter(Stage stage);
+
+  StageTimes_ms& times_ms_;
+  Stage stage_ = Stage::kIdle;
+  std::int64_t since_ns_ = 0;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run_report.hpp"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "metrics.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+Json orNull(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+double total_ms(const RunFrame& frame) {
+  double sum = 0;
+  for (const double ms : frame.times_ms) sum += ms;
+  return sum;
+}
+
+template <class Value>
+std::vector<double> collect(const RunResult& run, Value&& value) {
+  std::vector<double> values;
+  values.reserve(run.frames.size());
+  for (const RunFrame& frame : run.frames) values.push_back(static_cast<double>(value(frame)));
+  return values;
+}
+
+double peakMemory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& label, Json& summary) {
+  const ErrorSummary fused = summarise(e.fused_error_m);
+  const ErrorSummary observer = summarise(e.observer_error_m);
+  const bool known = !e.truth.empty();
+  const auto ifKnown = [known](double value) { return known ? orNull(value) : Json(nullptr); };
+  const bool drifts = label.profile != "truth" && observer.rmse_m > 0;
+  summary["observer_ate_rmse_m"] = ifKnown(observer.rmse_m);
+  summary["fused_ate_rmse_m"] = ifKnown(fused.rmse_m);
+  summary["fused_error_mean_m"] = ifKnown(fused.mean_m);
+  summary["fused_error_max_m"] = ifKnown(fused.max_m);
+  summary["ratio"] = drifts ? ifKnown(fused.rmse_m / observer.rmse_m) : Json(nullptr);
+
+  const Trajectory truth = scaled(e.truth, run.scale_error);
+  const double fused_scaled = known ? summarise(positionErrors_m(e.fused, truth)).rmse_m : 0;
+  const double observer_scaled = known ? summarise(positionErrors_m(e.observer, truth)).rmse_m : 0;
+  summary["observer_ate_rmse_scale_removed_m"] = ifKnown(observer_scaled);
+  summary["fused_ate_rmse_scale_removed_m"] = ifKnown(fused_scaled);
+  summary["ratio_scale_removed"] = drifts ? ifKnown(fused_scaled / observer_scaled) : Json(nullptr);
+  summary["observer_scale_error"] = run.scale_error;
+
+  summary["fused_error_last_m"] =
+      known && !e.fused_error_m.empty() ? orNull(e.fused_error_m.back()) : Json(nullptr);
+  summary["observer_error_last_m"] =
+      known && !e.observer_error_m.empty() ? orNull(e.observer_error_m.back()) : Json(nullptr);
+  const auto t_rel = known ? translationError_percent(e.fused, e.truth) : std::nullopt;
+  const auto observer_t_rel = known ? translationError_percent(e.observer, e.truth) : std::nullopt;
+  summary["t_rel_percent"] = t_rel ? Json(*t_rel) : Json(nullptr);
+  summary["observer_t_rel_percent"] = observer_t_rel ? Json(*observer_t_rel) : Json(nullptr);
+
+  std::vector<double> camera;
+  for (const double error : e.camera_error_m) {
+    if (std::isfinite(error)) camera.push_back(error);
+  }
+  const ErrorSummary camera_summary = summarise(camera);
+  const bool fixed = known && !camera.empty();
+  summary["camera_frames"] = camera.size();
+  summary["camera_error_mean_m"] = fixed ? orNull(camera_summary.mean_m) : Json(nullptr);
+  summary["camera_error_max_m"] = fixed ? orNull(camera_summary.max_m) : Json(nullptr);
+  double nees_sum = 0;
+  for (const double value : e.nees) nees_sum += value;
+  summary["nees_mean"] = known && !e.nees.empty()
+                             ? orNull(nees_sum / static_cast<double>(e.nees.size()))
+                             : Json(nullptr);
+}
+
+void addCost(const RunResult& run, Json& summary) {
+  const std::vector<double> totals = collect(run, [](const RunFrame& f) { return total_ms(f); });
+  summary["ms_per_frame_median"] = quantile(totals, 0.5);
+  summary["ms_per_frame_p95"] = quantile(totals, 0.95);
+  double sum_ms = 0;
+  for (const double ms : totals) sum_ms += ms;
+  summary["frames_per_second"] =
+      sum_ms > 0 ? Json(1000 * static_cast<double>(totals.size()) / sum_ms) : Json(nullptr);
+  Json share;
+  for (std::size_t stage = 0; stage < kStageCount; ++stage) {
+    double stage_ms = 0;
+    for (const RunFrame& frame : run.frames) stage_ms += frame.times_ms[stage];
+    share[kStageNames[stage]] = sum_ms > 0 ? stage_ms / sum_ms : 0.0;
+  }
+  summary["stage_share"] = share;
+  summary["peak_rss_mb"] = peakMemory_mb();
+}
+
+void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e) {
+  out << "index,stamp_ns,state,features,landmarks_in_view,landmark_candidates,landmark_matches,"
+         "landmark_mismatches,"
+         "feature_candidates,feature_matches,feature_mismatches,new_landmarks,removed_landmarks,"
+         "landmarks,map_features,"
+         "deviation_m,camera_x_m,camera_y_m,camera_z_m,camera_deviation_m,fused_error_m,observer_"
+         "error_m,camera_error_m,nees";
+  for (const char* name : kStageNames) out << ",ms_" << name;
+  out << ",ms_total\n" << std::setprecision(9);
+  const auto cell = [&out](double value) {
+    out << ',';
+    if (std::isfinite(value)) out << value;
+  };
+  const auto valueAt = [](const std::vector<double>& values, std::size_t i) {
+    return i < values.size() ? values[i] : kNone;
+  };
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    const FrameResult& r = run.frames[i].result;
+    out << i << ',' << r.stamp_ns << ',' << kSlamStateNames[static_cast<std::size_t>(r.state)];
+    for (const int count :
+         {r.features, r.landmarks_in_view, r.landmark_candidates, r.landmark_matches,
+          r.landmark_candidates - r.landmark_matches, r.feature_candidates, r.feature_matches,
+          r.feature_candidates - r.feature_matches, r.new_landmarks, r.removed_landmarks,
+          r.landmarks, r.map_features}) {
+      out << ',' << count;
+    }
+    cell(r.deviation_m);
+    for (int axis = 0; axis < 3; ++axis)
+      cell(r.camera_position_map ? (*r.camera_position_map)[axis] : kNone);
+    cell(r.camera_position_map ? r.camera_deviation_m : kNone);
+    cell(valueAt(e.fused_error_m, i));
+    cell(valueAt(e.observer_error_m, i));
+    cell(valueAt(e.camera_error_m, i));
+    cell(valueAt(e.nees, i));
+    for (const double ms : run.frames[i].times_ms) cell(ms);
+    cell(total_ms(run.frames[i]));
+    out << '\n';
+  }
+}
+
+void writeLandmarks(std::ostream& out, const RunResult& run) {
+  out << "id,x_m,y_m,z_m,deviation_m,depth_deviation_m,times_seen\n" << std::setprecision(9);
+  for (const Landmark& l : run.landmarks) {
+    out << l.id << ',' << l.position_map.x() << ',' << l.position_map.y() << ','
+        << l.position_map.z() << ',' << l.deviation_m << ',' << l.depth_deviation_m << ','
+        << l.times_seen << '\n';
+  }
+}
+
+}  // namespace
+
+RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
+  RunEvaluation e;
+  for (const RunFrame& frame : run.frames) {
+    const FrameResult& r = frame.result;
+    e.fused.append({r.stamp_ns, r.T_map_base});
+    e.observer.append({r.stamp_ns, r.T_odom_base});
+    if (truth.empty()) continue;
+    const Eigen::Isometry3d T_map_base = truth.at(r.stamp_ns);
+    e.truth.append({r.stamp_ns, T_map_base});
+    const Eigen::Vector3d error = r.T_map_base.translation() - T_map_base.translation();
+    e.nees.push_back(nees(error, r.covariance.topLeftCorner<3, 3>()));
+    e.camera_error_m.push_back(
+        r.camera_position_map ? (*r.camera_position_map - T_map_base.translation()).norm() : kNone);
+  }
+  if (!truth.empty()) {
+    e.fused_error_m = positionErrors_m(e.fused, e.truth);
+    e.observer_error_m = positionErrors_m(e.observer, e.truth);
+  }
+  return e;
+}
+
+Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunLabel& label) {
+  Json summary;
+  summary["sequence"] = label.sequence;
+  summary["frames"] = run.frames.size();
+  summary["frames_without_observer"] = run.frames_without_observer;
+  summary["observer_states_refused"] = run.observer_states_refused;
+  summary["profile"] = label.profile;
+  summary["seed"] = label.seed;
+  summary["estimator"] = label.estimator;
+  addErrors(run, evaluation, label, summary);
+  const auto matches = collect(run, [](const RunFrame& f) { return f.result.landmark_matches; });
+  summary["landmark_matches_median"] = quantile(matches, 0.5);
+  summary["landmarks"] = run.landmarks.size();
+  addCost(run, summary);
+  return summary;
+}
+
+Json summaryOfSeeds(const std::vector<Json>& summaries) {
+  Json result;
+  for (const char* name : {"sequence", "frames", "profile", "estimator"})
+    result[name] = summaries.front()[name];
+  Json seeds = Json::array();
+  for (const Json& summary : summaries) seeds.push_back(summary["seed"]);
+  result["seeds"] = seeds;
+  for (const auto& item : summaries.front().items()) {
+    if (result.contains(item.key()) || item.key() == "seed" ||
+        item.key() == "landmark_matches_median")
+      continue;
+    std::vector<double> values;
+    for (const Json& summary : summaries) {
+      if (summary[item.key()].is_number()) values.push_back(summary[item.key()].get<double>());
+    }
+    if (values.size() != summaries.size()) continue;
+    result["median"][item.key()] = quantile(values, 0.5);
+    result["worst"][item.key()] = quantile(values, 1.0);
+  }
+  result["runs"] = summaries;
+  return result;
+}
+
+void writeText(const std::string& path, const std::string& text) {
+  std::ofstream out(path);
+  out << text;
+  out.close();
+  if (!out)
+    throw std::runtime_error(
+        path + ": cannot be written; check that the folder exists and the disk has room");
+}
+
+void writeRun(const std::string& folder, const RunResult& run, const RunEvaluation& evaluation,
+              const Json& summary) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw std::runtime_error(folder + ": cannot be made (" + error.message() +
+                             "); choose another --out");
+  writeTum(folder + "/observer.tum", evaluation.observer);
+  writeTum(folder + "/fused.tum", evaluation.fused);
+  if (!evaluation.truth.empty()) writeTum(folder + "/truth.tum", evaluation.truth);
+  std::ostringstream frames;
+  writeFrames(frames, run, evaluation);
+  writeText(folder + "/frames.csv", frames.str());
+  std::ostringstream landmarks;
+  writeLandmarks(landmarks, run);
+  writeText(folder + "/landmarks.csv", landmarks.str());
+  writeText(folder + "/summary.json", summary.dump(2) + "\n");
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// replay: images and odometry of a bag or folder through tracker and mapper, without a ROS master.
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <future>
+#include <iostream>
+
+#include "config_path.hpp"
+#include "offline_run.hpp"
+#include "open_input.hpp"
+#include "progress_line.hpp"
+#include "run_report.hpp"
+
+namespace {
+
+using namespace ardrone_vslam;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string input;
+  std::string out;
+  std::string config;
+  std::vector<std::string> overrides;
+  std::string estimator;
+  std::string observer_profile;
+  std::uint64_t seed = 0;
+  std::string seeds;
+  std::string frames;
+  bool ping_pong = false;
+  int threads = 2;
+  BagTopics topics;
+};
+
+void addOptions(CLI::App& app, Options& o) {
+  app.set_version_flag("--version", std::string("replay (ardrone_vslam) " ARDRONE_VSLAM_VERSION));
+  app.add_option("input", o.input, "a bag, or a KITTI or TUM-like folder")->required();
+  app.add_option("--out", o.out, "folder for trajectories, frames.csv, landmarks.csv, summary.json")
+      ->required();
+  app.add_option("--config", o.config, "yaml with sections tracker and mapper (config/*.yaml)");
+  app.add_option("--set", o.overrides, "key=value over the configuration; may be repeated")
+      ->take_all();
+  app.add_option("--estimator", o.estimator, "thesis or observer; over the configuration");
+  app.add_option("--observer-profile", o.observer_profile,
+                 "corrupt the truth like this (truth, wheel, drone, hover, harsh); default: the "
+                 "input's own odometry, else wheel");
+  auto* seed = app.add_option("--seed", o.seed, "of the observer's noise");
+  app.add_option("--seeds", o.seeds, "A:B, runs the seeds A to B and prints median and worst")
+      ->excludes(seed);
+  app.add_option("--frames", o.frames, "A:B:STEP, frames A up to but without B");
+  app.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
+  app.add_option("--threads", o.threads, "2: decode ahead; results do not depend on it")
+      ->check(CLI::Range(1, 256));
+  app.add_option("--image-topic", o.topics.image, "of a bag; default: the only one there is");
+  app.add_option("--odometry-topic", o.topics.odometry, "of a bag; default: the only one there is");
+  app.add_option("--truth-topic", o.topics.truth, "of a bag; default: the only one there is");
+}
+
+std::vector<std::uint64_t> seedsOf(const Options& o) {
+  if (o.seeds.empty()) return {o.seed};
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+  char rest = 0;
+  if (std::sscanf(o.seeds.c_str(), "%lu:%lu%c", &first, &last, &rest) != 2 || last < first ||
+      last - first > 9999) {
+    throw CLI::ValidationError("--seeds",
+                               "'" + o.seeds + "' must be A:B with A <= B, for example 1:5");
+  }
+  std::vector<std::uint64_t> seeds;
+  for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
+  return seeds;
+}
+
+/// The observers to run with, one a seed, and what they are called.
+struct Observers {
+  std::string profile;
+  std::vector<std::uint64_t> seeds;
+  std::vector<ObserverRun> runs;
+};
+
+Observers observersOf(const Sequence& sequence, const Options& o) {
+  Observers observers;
+  observers.seeds = seedsOf(o);
+  if (o.observer_profile.empty() && !sequence.observer().empty()) {
+    if (!o.seeds.empty()) {
+      throw std::runtime_error(
+          sequence.name() +
+          ": --seeds needs --observer-profile: the recorded odometry has no seed");
+    }
+    observers.profile = "recorded";
+    observers.runs.push_back({sequence.observer(), recordedScaleError(sequence)});
+    return observers;
+  }
+  observers.profile = o.observer_profile.empty() ? "wheel" : o.observer_profile;
+  if (sequence.truth().empty()) {
+    throw std::runtime_error(
+        sequence.name() +
+        ": has neither odometry nor true poses, so there is no observer to run with; " +
+        "add the odometry to the bag, or poses.txt / poses_tum.txt to the folder");
+  }
+  const ObserverProfile profile =
+      loadObserverProfile(observers.profile, findConfigFile("observer_profiles.yaml"));
+  for (const std::uint64_t seed : observers.seeds)
+    observers.runs.push_back(simulateObserver(sequence.truth(), profile, seed));
+  return observers;
+}
+
+std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
+                              const Observers& observers, int threads) {
+  std::vector<std::unique_ptr<BackEnd>> back_ends;
+  for (const ObserverRun& run : observers.runs) {
+    back_ends.push_back(
+        std::make_unique<BackEnd>(config.mapper, sequence.T_base_cam(), run.states));
+  }
+  ProgressLine progress("replay", sequence.size());
+  std::size_t done = 0;
+  // The front end does not depend on the observer: it runs once for all seeds.
+  runFrontEnd(sequence, config.tracker, threads, [&](const TrackedFrame& frame) {
+    for (auto& back_end : back_ends) back_end->process(frame);
+    progress.update(++done);
+  });
+  std::vector<RunResult> results;
+  for (std::size_t i = 0; i < back_ends.size(); ++i) {
+    results.push_back(back_ends[i]->finish());
+    results.back().scale_error = observers.runs[i].scale_error;
+  }
+  return results;
+}
+
+std::string shown(const Json& value) {
+  return value.is_null() ? "-" : value.dump();
+}
+
+void printSummary(const Json& summary) {
+  for (const auto& item : summary.items()) {
+    if (!item.value().is_object()) std::cout << item.key() << ": " << shown(item.value()) << '\n';
+  }
+  std::cout << "stage_share:";
+  for (const auto& stage : summary["stage_share"].items())
+    std::cout << ' ' << stage.key() << ' ' << shown(stage.value());
+  std::cout << '\n';
+}
+
+void printSeeds(const Json& summary) {
+  std::cout << "seed, observer_ate_rmse_m, fused_ate_rmse_m, ratio, ratio_scale_removed\n";
+  for (const Json& run : summary["runs"]) {
+    std::cout << shown(run["seed"]);
+    for (const char* name :
+         {"observer_ate_rmse_m", "fused_ate_rmse_m", "ratio", "ratio_scale_removed"}) {
+      std::cout << ", " << shown(run[name]);
+    }
+    std::cout << '\n';
+  }
+  for (const char* kind : {"median", "worst"})
+    std::cout << kind << ": " << summary[kind].dump() << '\n';
+}
+
+int run(const Options& o) {
+  std::vector<std::string> overrides = o.overrides;
+  if (!o.estimator.empty()) overrides.push_back("mapper/estimator=" + o.estimator);
+  const PipelineConfig config = loadConfig(o.config, overrides);
+  const auto sequence =
+      select(openInput(o.input, o.topics), FrameSelection::parse(o.frames, o.ping_pong));
+  const Observers observers = observersOf(*sequence, o);
+  const std::vector<RunResult> results = runAll(*sequence, config, observers, o.threads);
+
+  std::vector<Json> summaries;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const RunEvaluation evaluation = evaluate(results[i], sequence->truth());
+    const RunLabel label{sequence->name(), observers.profile, observers.seeds[i],
+                         nameOf(config.mapper.estimator)};
+    summaries.push_back(summaryOf(results[i], evaluation, label));
+    const std::string folder =
+        o.seeds.empty() ? o.out : o.out + "/seed_" + std::to_string(label.seed);
+    writeRun(folder, results[i], evaluation, summaries.back());
+    if (results[i].frames.empty()) {
+      throw std::runtime_error(
+          sequence->name() +
+          ": no image has odometry at its stamp; the stamps of images and odometry do not "
+          "overlap, or the odometry's gaps are longer than observer_max_gap_s");
+    }
+  }
+  if (o.seeds.empty()) {
+    printSummary(summaries.front());
+  } else {
+    const Json all = summaryOfSeeds(summaries);
+    writeText(o.out + "/summary.json", all.dump(2) + "\n");
+    printSeeds(all);
+  }
+  std::cout << "written to " << o.out << '\n';
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Runs a bag or an image folder through tracker and mapper, offline and deterministic, and "
+      "compares with the truth."};
+  Options options;
+  addOptions(app, options);
+  try {
+    app.parse(argc, argv);
+    return run(options);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  } catch (const std::exception& e) {
+    std::cerr << "replay: " << e.what() << '\n';
+    return 1;
+  }
+}
