@@ -54,20 +54,19 @@ int Associator::mutualBest(int target) const {
 }
 
 void Associator::matchLandmarks(const FrameView& view, const LandmarkMap& map,
-                                double position_deviation_m, AssociationResult& result) {
+                                AssociationResult& result) {
   result = {};
   begin(view, map.size());
   const double smallest_cosine = std::cos(radians(config_.max_view_angle_deg));
-  const auto marginAt = [&](double distance_m) {
-    return config_.threshold_deviations * view.focalLength_px() * position_deviation_m / distance_m;
-  };
-  const auto distanceTo = [&](int target) {
-    return (map.all()[static_cast<std::size_t>(target)].position_map - view.origin_map()).norm();
+  const auto margin_px = [&](const Landmark& landmark) {
+    const double distance_m = (landmark.position_map - view.origin_map()).norm();
+    return config_.threshold_deviations * view.focalLength_px() *
+           view.deviationSince_m(landmark.position_variance_m2) / distance_m;
   };
   const auto decide = [&](int target, int feature) {
     ++result.candidates;
-    if (isLandmarkMismatch(view, map.all()[static_cast<std::size_t>(target)], feature,
-                           marginAt(distanceTo(target)))) {
+    const Landmark& landmark = map.all()[static_cast<std::size_t>(target)];
+    if (isLandmarkMismatch(view, landmark, feature, margin_px(landmark))) {
       ++result.mismatches;
       return;
     }
@@ -86,7 +85,7 @@ void Associator::matchLandmarks(const FrameView& view, const LandmarkMap& map,
         landmark.view_direction_map.dot(offset) < smallest_cosine * distance)
       continue;
     if (!view.idealPixel(offset, landmark.elevation, window.centre_px)) continue;
-    window.radius_px = static_cast<float>(config_.search_radius_px + marginAt(distance));
+    window.radius_px = static_cast<float>(config_.search_radius_px + margin_px(landmark));
     ++result.in_view;
     const int feature = featureOfTrack(landmark.track_id);
     if (feature != kNobody && !feature_taken_[static_cast<std::size_t>(feature)]) {
@@ -119,8 +118,7 @@ bool Associator::isLandmarkMismatch(const FrameView& view, const Landmark& landm
 }
 
 void Associator::matchMapFeatures(const FrameView& view, const FeatureMap& map,
-                                  const std::vector<bool>& taken, double position_deviation_m,
-                                  AssociationResult& result) {
+                                  const std::vector<bool>& taken, AssociationResult& result) {
   result = {};
   begin(view, map.size());
   std::copy(taken.begin(), taken.end(), feature_taken_.begin());
@@ -128,7 +126,7 @@ void Associator::matchMapFeatures(const FrameView& view, const FeatureMap& map,
     ++result.candidates;
     feature_taken_[static_cast<std::size_t>(feature)] = true;
     const MapFeature& first = map.all()[static_cast<std::size_t>(target)];
-    if (isEpipolarMismatch(view, first, feature, position_deviation_m)) {
+    if (isEpipolarMismatch(view, first, feature)) {
       ++result.mismatches;
       return;
     }
@@ -158,15 +156,15 @@ void Associator::matchMapFeatures(const FrameView& view, const FeatureMap& map,
   }
 }
 
-bool Associator::isEpipolarMismatch(const FrameView& view, const MapFeature& first, int feature,
-                                    double position_deviation_m) const {
+bool Associator::isEpipolarMismatch(const FrameView& view, const MapFeature& first,
+                                    int feature) const {
   const Ray present = view.ray(static_cast<std::size_t>(feature));
   const auto offset = epipolarOffset(first.ray, present);
   if (!offset) return false;  // no baseline yet: nothing to test, and nothing to triangulate either
   // An uncertain baseline turns the epipolar plane about the first ray.
   const double baseline_m = (present.origin_map - first.ray.origin_map).norm();
-  const double turn_rad = std::hypot(position_deviation_m, first.position_deviation_m) /
-                          baseline_m * std::abs(offset->along);
+  const double turn_rad =
+      view.deviationSince_m(first.position_variance_m2) / baseline_m * std::abs(offset->along);
   const double threshold = config_.epipolar_threshold_px / view.focalLength_px() +
                            config_.threshold_deviations * turn_rad;
   return offset->across > threshold || offset->along < -threshold;

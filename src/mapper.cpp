@@ -24,7 +24,7 @@ Mapper::Mapper(const MapperConfig& config) : config_(config) {
 }
 
 void Mapper::refine(const FrameView& view, const std::vector<Association>& matches,
-                    double position_deviation_m, LandmarkMap& map) const {
+                    LandmarkMap& map) const {
   const double sigma_a = angleDeviation_rad(view.focalLength_px());
   for (const Association& match : matches) {
     const auto feature = static_cast<std::size_t>(match.feature);
@@ -32,8 +32,9 @@ void Mapper::refine(const FrameView& view, const std::vector<Association>& match
     const Ray ray = view.ray(feature);
     const double depth = (landmark.position_map - ray.origin_map).dot(ray.direction_map);  // (5.20)
     const Eigen::Vector3d measured = ray.origin_map + depth * ray.direction_map;           // (5.21)
-    const double sigma =
-        measurementDeviation_m(position_deviation_m, std::abs(depth), sigma_a);  // (5.22)
+    const double sigma_p = std::hypot(config_.position_deviation_m,
+                                      view.deviationSince_m(landmark.position_variance_m2));
+    const double sigma = measurementDeviation_m(sigma_p, std::abs(depth), sigma_a);  // (5.22)
     const double variance = landmark.deviation_m * landmark.deviation_m;
     const double gain = variance / (variance + sigma * sigma);           // (5.30-5.32)
     landmark.position_map += gain * (measured - landmark.position_map);  // (5.33)
@@ -55,8 +56,8 @@ int Mapper::countMissed(const std::vector<int>& missed, LandmarkMap& map) const 
 }
 
 int Mapper::triangulateMatches(const FrameView& view, const std::vector<Association>& matches,
-                               double position_deviation_m, FeatureMap& features,
-                               LandmarkMap& landmarks, std::vector<bool>& used) const {
+                               FeatureMap& features, LandmarkMap& landmarks,
+                               std::vector<bool>& used) const {
   const double sigma_a = angleDeviation_rad(view.focalLength_px());
   const double min_parallax_rad = config_.min_parallax_deg * M_PI / 180;
   int made = 0;
@@ -75,9 +76,11 @@ int Mapper::triangulateMatches(const FrameView& view, const std::vector<Associat
     if (point->depth_m > config_.max_depth_m) continue;
     used[feature] = true;
     Landmark landmark;
+    const double sigma_p =
+        std::hypot(config_.position_deviation_m, view.deviationSince_m(first.position_variance_m2));
     landmark.position_map = point->position_map;
-    landmark.deviation_m =
-        measurementDeviation_m(position_deviation_m, point->depth_m, sigma_a);  // (5.19)
+    landmark.position_variance_m2 = view.positionVariance_m2();
+    landmark.deviation_m = measurementDeviation_m(sigma_p, point->depth_m, sigma_a);  // (5.19)
     landmark.depth_deviation_m = depthDeviation_m(landmark.deviation_m, point->parallax_rad);
     landmark.first_seen_ns = first.stamp_ns;
     landmark.times_seen = 1;
@@ -89,14 +92,14 @@ int Mapper::triangulateMatches(const FrameView& view, const std::vector<Associat
 }
 
 void Mapper::storeRest(const FrameView& view, const std::vector<bool>& used,
-                       double position_deviation_m, FeatureMap& features) const {
+                       FeatureMap& features) const {
   for (std::size_t i = 0; i < view.size(); ++i) {
     if (used[i]) continue;
     MapFeature entry;
     entry.track_id = view.features().track_id[i];
     entry.ray = view.ray(i);
     entry.elevation = view.elevation(i);
-    entry.position_deviation_m = position_deviation_m;
+    entry.position_variance_m2 = view.positionVariance_m2();
     entry.stamp_ns = view.features().stamp_ns;
     entry.descriptor = view.features().descriptor[i];
     features.add(entry);

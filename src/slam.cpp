@@ -39,6 +39,7 @@ struct Slam::State {
   FrameResult result;
 
   void predict(const Features& features, const ObserverState& observer);
+  void setVariance();
   void localise();
   void refineAndMap();
   void report(const ObserverState& observer);
@@ -76,7 +77,7 @@ const FrameResult& Slam::process(const Features& features, const ObserverState& 
     s.result.state = SlamState::kObserverOnly;
   } else {
     enter(Stage::kAssociate);
-    s.associator.matchLandmarks(s.view, s.landmark_map, s.filter.deviation_m(), s.landmark_matches);
+    s.associator.matchLandmarks(s.view, s.landmark_map, s.landmark_matches);
     enter(Stage::kLocalise);
     s.localise();
     enter(Stage::kMap);
@@ -103,6 +104,12 @@ void Slam::State::predict(const Features& features, const ObserverState& observe
     offset_map.z() = 0;
   }
   view.reset(features, T_map_cam, config.planar);
+  setVariance();
+}
+
+void Slam::State::setVariance() {
+  view.setPositionVariance(filter.deviation_m() * filter.deviation_m(),
+                           config.thesis_filter.common_drift);
 }
 
 void Slam::State::localise() {
@@ -111,7 +118,7 @@ void Slam::State::localise() {
     const Landmark& landmark = landmark_map.all()[static_cast<std::size_t>(match.target)];
     sightings.push_back({landmark.position_map,
                          view.ray(static_cast<std::size_t>(match.feature)).direction_map,
-                         landmark.deviation_m});
+                         landmark.deviation_m, landmark.position_variance_m2});
   }
   auto fix =
       filter.locate(sightings, view.origin_map(), mapper.angleDeviation_rad(view.focalLength_px()));
@@ -127,20 +134,20 @@ void Slam::State::localise() {
 }
 
 void Slam::State::refineAndMap() {
-  const double deviation_m = filter.deviation_m();
   Eigen::Vector3d camera_map = filter.position_map() + offset_map;
   if (config.planar) camera_map.z() = 0;
   view.setOrigin(camera_map);
+  setVariance();
   used.assign(view.size(), false);
   for (const Association& match : landmark_matches.matches)
     used[static_cast<std::size_t>(match.feature)] = true;
-  mapper.refine(view, landmark_matches.matches, deviation_m, landmark_map);
+  mapper.refine(view, landmark_matches.matches, landmark_map);
   result.removed_landmarks = mapper.countMissed(landmark_matches.missed, landmark_map);
 
-  associator.matchMapFeatures(view, feature_map, used, deviation_m, feature_matches);
-  result.new_landmarks = mapper.triangulateMatches(view, feature_matches.matches, deviation_m,
-                                                   feature_map, landmark_map, used);
-  mapper.storeRest(view, used, deviation_m, feature_map);
+  associator.matchMapFeatures(view, feature_map, used, feature_matches);
+  result.new_landmarks =
+      mapper.triangulateMatches(view, feature_matches.matches, feature_map, landmark_map, used);
+  mapper.storeRest(view, used, feature_map);
   feature_map.compact(view.features().stamp_ns);
   result.removed_landmarks += landmark_map.enforceCap();
 }

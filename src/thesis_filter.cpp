@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "ardrone_vslam/triangulation.hpp"
@@ -54,6 +55,7 @@ std::optional<PositionFix> ThesisFilter::locate(const std::vector<Sighting>& sig
 
 PositionFix ThesisFilter::printedMean(const std::vector<Sighting>& sightings,
                                       const Eigen::Vector3d& predicted, double sigma_a) const {
+  PositionFix fix;
   Eigen::Vector3d weighted_sum = Eigen::Vector3d::Zero();
   double weight_sum = 0;
   for (const Sighting& s : sightings) {
@@ -62,17 +64,23 @@ PositionFix ThesisFilter::printedMean(const std::vector<Sighting>& sightings,
     const double weight =
         1 / measurementDeviation_m(s.landmark_deviation_m, std::abs(d), sigma_a);  // (6.3)
     weighted_sum += weight * position;
+    fix.shared_variance_m2 += weight * s.position_variance_m2;
     weight_sum += weight;
   }
   // The deviation of this mean for independent inputs; (6.5) as printed does not shrink with their
   // number.
   const double deviation = std::sqrt(static_cast<double>(sightings.size())) / weight_sum;
-  return {weighted_sum / weight_sum, deviation * deviation * Eigen::Matrix3d::Identity()};  // (6.4)
+  fix.position_map = weighted_sum / weight_sum;  // (6.4)
+  fix.covariance = deviation * deviation * Eigen::Matrix3d::Identity();
+  fix.shared_variance_m2 /= weight_sum;
+  return fix;
 }
 
 std::optional<PositionFix> ThesisFilter::exactMean(const std::vector<Sighting>& sightings,
                                                    const Eigen::Vector3d& predicted,
                                                    double sigma_a) const {
+  PositionFix fix;
+  double weight_sum = 0;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d weighted_sum = Eigen::Vector3d::Zero();
   for (const Sighting& s : sightings) {
@@ -81,6 +89,8 @@ std::optional<PositionFix> ThesisFilter::exactMean(const std::vector<Sighting>& 
     const Eigen::Matrix3d across =
         (Eigen::Matrix3d::Identity() - s.direction_map * s.direction_map.transpose()) /
         (sigma * sigma);
+    fix.shared_variance_m2 += s.position_variance_m2 / (sigma * sigma);
+    weight_sum += 1 / (sigma * sigma);
     information += across;
     weighted_sum += across * s.landmark_map;
   }
@@ -89,21 +99,28 @@ std::optional<PositionFix> ThesisFilter::exactMean(const std::vector<Sighting>& 
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
   if (!(eigen.eigenvalues()(0) > kSmallestEigenvalueRatio * eigen.eigenvalues()(2)))
     return std::nullopt;
-  const Eigen::Matrix3d covariance = information.inverse();
-  return PositionFix{covariance * weighted_sum, covariance};
+  fix.covariance = information.inverse();
+  fix.position_map = fix.covariance * weighted_sum;
+  fix.shared_variance_m2 /= weight_sum;
+  return fix;
 }
 
 bool ThesisFilter::fuse(const PositionFix& fix) {
+  // Lesson 4: the landmarks share the error that the pose had when they were made; the fix only
+  // speaks of the drift since.
+  const double shared_m2 =
+      config_.common_drift ? std::min(fix.shared_variance_m2, covariance_.trace() / 3) : 0.0;
+  const Eigen::Matrix3d shared = shared_m2 * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d drift = covariance_ - shared;
   const Eigen::Vector3d innovation = fix.position_map - position_map_;  // (6.8)
-  const Eigen::Matrix3d spread = covariance_ + fix.covariance;          // (6.9)
-  const Eigen::Matrix3d inverse = spread.inverse();
+  const Eigen::Matrix3d inverse = (drift + fix.covariance).inverse();   // (6.9)
   if (innovation.dot(inverse * innovation) > config_.gate_deviations * config_.gate_deviations)
     return false;
-  const Eigen::Matrix3d gain = covariance_ * inverse;  // (6.10)
-  position_map_ += gain * innovation;                  // (6.11)
+  const Eigen::Matrix3d gain = drift * inverse;  // (6.10)
+  position_map_ += gain * innovation;            // (6.11)
   const Eigen::Matrix3d rest = Eigen::Matrix3d::Identity() - gain;
   // Joseph form of (6.12): symmetric and positive whatever the rounding.
-  covariance_ = rest * covariance_ * rest.transpose() + gain * fix.covariance * gain.transpose();
+  covariance_ = shared + rest * drift * rest.transpose() + gain * fix.covariance * gain.transpose();
   return true;
 }
 

@@ -16,7 +16,7 @@ struct AssociationConfig {
   double search_radius_px = 30.0;
   double landmark_threshold_px = 8.0;
   double epipolar_threshold_px = 2.0;
-  double threshold_deviations = 0.0;
+  double threshold_deviations = 3.0;
   double max_view_angle_deg = 60.0;
   MatcherConfig matcher;
 };
@@ -67,15 +67,13 @@ class Associator {
   /// the best descriptor within a window; a match whose ray is off the prediction by more than the
   /// threshold is a mismatch (5.36). Each landmark and each feature at most once. O(landmarks +
   /// pairs inside windows).
-  void matchLandmarks(const FrameView& view, const LandmarkMap& map, double position_deviation_m,
-                      AssociationResult& result);
+  void matchLandmarks(const FrameView& view, const LandmarkMap& map, AssociationResult& result);
 
   /// Map features seen again by those of the frame's features that `taken` does not mark: by track,
   /// else by descriptor around where rotation alone would put them; matches off the epipolar plane
   /// are mismatches (5.37-5.44).
   void matchMapFeatures(const FrameView& view, const FeatureMap& map,
-                        const std::vector<bool>& taken, double position_deviation_m,
-                        AssociationResult& result);
+                        const std::vector<bool>& taken, AssociationResult& result);
 
  private:
   struct Window {
@@ -90,8 +88,7 @@ class Associator {
   int mutualBest(int target) const;
   bool isLandmarkMismatch(const FrameView& view, const Landmark& landmark, int feature,
                           double margin_px) const;
-  bool isEpipolarMismatch(const FrameView& view, const MapFeature& first, int feature,
-                          double position_deviation_m) const;
+  bool isEpipolarMismatch(const FrameView& view, const MapFeature& first, int feature) const;
 
   AssociationConfig config_;
   std::vector<BestTwo> best_of_target_;

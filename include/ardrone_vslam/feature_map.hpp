@@ -17,7 +17,7 @@ struct MapFeature {
   Ray ray;  ///< from where and in which direction it was seen
   double elevation =
       0;  ///< tangent of the ray's elevation; used in 2-D mode, where rays have no height
-  double position_deviation_m = 0;  ///< of ray.origin_map at that time
+  double position_variance_m2 = 0;  ///< of ray.origin_map, per axis, at that time
   std::int64_t stamp_ns = 0;
   Descriptor descriptor;
 };

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
@@ -18,6 +20,21 @@ class FrameView {
   /// @param planar  2-D mode: the rays lose their z component and are normalised again (thesis 7.2)
   /// @pre features outlives the view
   void reset(const Features& features, const Eigen::Isometry3d& T_map_cam, bool planar);
+
+  /// How well the position is known: its variance per axis, and whether drift is shared
+  /// (estimator.md, lesson 4).
+  void setPositionVariance(double variance_m2, bool common_drift) {
+    position_variance_m2_ = variance_m2;
+    common_drift_ = common_drift;
+  }
+  double positionVariance_m2() const { return position_variance_m2_; }
+  /// Deviation of the position relative to what was stored when its variance was
+  /// `variance_then_m2`: the drift since then. Without common drift all positions are taken as
+  /// independent and the whole deviation counts.
+  double deviationSince_m(double variance_then_m2) const {
+    const double shared_m2 = common_drift_ ? variance_then_m2 : 0.0;
+    return std::sqrt(std::max(position_variance_m2_ - shared_m2, 0.0));
+  }
 
   const Features& features() const { return *features_; }
   std::size_t size() const { return rays_map_.size(); }
@@ -52,6 +69,8 @@ class FrameView {
  private:
   const Features* features_ = nullptr;
   bool planar_ = false;
+  bool common_drift_ = false;
+  double position_variance_m2_ = 0;
   Eigen::Vector3d origin_map_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d R_cam_map_ = Eigen::Matrix3d::Identity();
   std::vector<Eigen::Vector3d> rays_map_;

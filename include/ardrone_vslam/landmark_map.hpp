@@ -20,6 +20,8 @@ struct Landmark {
       Eigen::Vector3d::Zero();   ///< unit ray camera -> landmark when last described
   double deviation_m = 0;        ///< sigma_l (5.19, 5.34)
   double depth_deviation_m = 0;  ///< along the ray of its first triangulation
+  double position_variance_m2 =
+      0;  ///< of the base position, per axis, when the landmark was made (P_a of lesson 4)
   Descriptor descriptor;
   double elevation =
       0;  ///< tangent of the last ray's elevation; used in 2-D mode, where positions have no height

@@ -13,6 +13,7 @@ namespace ardrone_vslam {
 
 struct MapperConfig {
   double angle_deviation_px = 1.0;
+  double position_deviation_m = 0.01;
   double min_parallax_deg = 1.0;
   double max_depth_m = 1000.0;
   int drop_unconfirmed_after = 5;
@@ -23,6 +24,9 @@ void visitParameters(MapperConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"angle_deviation_px", "px", 0.01, 100,
                       "deviation of a measured direction, sigma_a times the focal length"},
         c.angle_deviation_px);
+  visit(ParameterInfo{"position_deviation_m", "m", 0, 10,
+                      "smallest sigma_p of a new or refined landmark (5.19, 5.22)"},
+        c.position_deviation_m);
   visit(ParameterInfo{"min_parallax_deg", "deg", 0.01, 90,
                       "angle between the first and the present view that makes a landmark"},
         c.min_parallax_deg);
@@ -49,7 +53,7 @@ class Mapper {
   /// Scalar Kalman update of each matched landmark (5.20-5.22, 5.30-5.34).
   /// @param view  rays from the FUSED camera position
   void refine(const FrameView& view, const std::vector<Association>& matches,
-              double position_deviation_m, LandmarkMap& map) const;
+              LandmarkMap& map) const;
 
   /// Counts the landmarks that should have been seen; drops those never confirmed. Invalidates
   /// landmark indices.
@@ -62,12 +66,11 @@ class Mapper {
   /// and those whose track waits
   /// @return new landmarks
   int triangulateMatches(const FrameView& view, const std::vector<Association>& matches,
-                         double position_deviation_m, FeatureMap& features, LandmarkMap& landmarks,
+                         FeatureMap& features, LandmarkMap& landmarks,
                          std::vector<bool>& used) const;
 
   /// Stores the frame's features that `used` does not mark.
-  void storeRest(const FrameView& view, const std::vector<bool>& used, double position_deviation_m,
-                 FeatureMap& features) const;
+  void storeRest(const FrameView& view, const std::vector<bool>& used, FeatureMap& features) const;
 
  private:
   MapperConfig config_;

@@ -19,6 +19,7 @@ struct EnumNames<MeanKind> {
 
 struct ThesisFilterConfig {
   MeanKind mean = MeanKind::kPrinted;
+  bool common_drift = true;
   int min_landmarks = 3;
   double initial_deviation_m = 0.01;
   double observer_noise_m_per_sqrt_m = 0.02;
@@ -35,6 +36,11 @@ void visitParameters(ThesisFilterConfig& c, Visitor&& visit) {
           "mean", "choice", 0, 0,
           "printed: weighted mean (6.4), damped along the rays; exact: weighted least squares"},
       c.mean);
+  visit(ParameterInfo{"common_drift", "switch", 0, 0,
+                      "on: landmarks share the drift of the time they were made, so fresh ones "
+                      "correct little and old ones all; "
+                      "off: independent, as printed"},
+        c.common_drift);
   visit(ParameterInfo{"min_landmarks", "landmarks", 1, 1000, "fewer matched landmarks give no fix"},
         c.min_landmarks);
   visit(
@@ -66,10 +72,12 @@ struct Sighting {
   Eigen::Vector3d landmark_map = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction_map = Eigen::Vector3d::UnitX();  ///< measured unit ray
   double landmark_deviation_m = 0;                           ///< sigma_l
+  double position_variance_m2 = 0;  ///< of the pose when the landmark was made (P_a)
 };
 
 /// A camera position by landmarks alone.
 struct PositionFix {
+  double shared_variance_m2 = 0;  ///< weighted mean of the sightings' P_a
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
