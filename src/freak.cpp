@@ -2,8 +2,10 @@
 #include "ardrone_vslam/freak.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "freak_pattern.hpp"
 #include "kernels/freak_kernels.hpp"
@@ -14,8 +16,8 @@ namespace {
 using kernels::kFreakFields;
 using Means = std::array<std::uint8_t, kernels::kFreakPaddedFields>;
 
-/// Integral image whose buffer is kept from frame to frame. 16 bits are exact for the pattern's own scale and half
-/// the memory traffic; enlarged patterns need 32.
+/// Integral image whose buffer is kept from frame to frame. 16 bits are exact for the pattern's own
+/// scale and half the memory traffic; enlarged patterns need 32.
 template <class Sum>
 struct Integral {
   std::vector<Sum> sums;
@@ -29,9 +31,11 @@ struct Integral {
   const Sum* at(int x_px, int y_px) const { return sums.data() + y_px * stride + x_px; }
 
   std::uint8_t mean(const FreakPixelBox& box) const {
-    const auto sum = static_cast<Sum>(*at(box.right_px, box.bottom_px) - *at(box.left_px, box.bottom_px) -
-                                      *at(box.right_px, box.top_px) + *at(box.left_px, box.top_px));
-    const auto area = static_cast<std::uint32_t>((box.right_px - box.left_px) * (box.bottom_px - box.top_px));
+    const auto sum =
+        static_cast<Sum>(*at(box.right_px, box.bottom_px) - *at(box.left_px, box.bottom_px) -
+                         *at(box.right_px, box.top_px) + *at(box.left_px, box.top_px));
+    const auto area =
+        static_cast<std::uint32_t>((box.right_px - box.left_px) * (box.bottom_px - box.top_px));
     return static_cast<std::uint8_t>((sum + area / 2) / area);
   }
 };
@@ -54,7 +58,8 @@ int orientationOf(float angle_deg) {
 struct FreakDescriber::State {
   explicit State(const FreakConfig& freak_config) : config(freak_config) {}
 
-  void select(const ImageView& image, const std::vector<FreakKeypoint>& keypoints, std::vector<int>& kept);
+  void select(const ImageView& image, const std::vector<FreakKeypoint>& keypoints,
+              std::vector<int>& kept);
   void computeIntegrals(const ImageView& image);
   void computeMeans(const FreakKeypoint& keypoint, int scale, int orientation, Means& means) const;
   Descriptor describeOne(const FreakKeypoint& keypoint, int scale, float& angle_deg) const;
@@ -67,7 +72,8 @@ struct FreakDescriber::State {
   bool boxes_hold = true;   ///< the image is small enough for the pattern's table of boxes
 };
 
-void FreakDescriber::State::select(const ImageView& image, const std::vector<FreakKeypoint>& keypoints,
+void FreakDescriber::State::select(const ImageView& image,
+                                   const std::vector<FreakKeypoint>& keypoints,
                                    std::vector<int>& kept) {
   kept.clear();
   scales.clear();
@@ -102,19 +108,23 @@ void FreakDescriber::State::computeMeans(const FreakKeypoint& keypoint, int scal
   const int x = keypoint.x_px;
   const int y = keypoint.y_px;
   if (scale == 0 && boxes_hold) {
-    kernels::freakMeansScalar(integral16.at(x, y), integral16.stride, pattern.boxes(orientation), means.data());
+    kernels::freakMeansScalar(integral16.at(x, y), integral16.stride, pattern.boxes(orientation),
+                              means.data());
     for (const auto& irregular : pattern.irregular(orientation)) {
-      means[static_cast<std::size_t>(irregular.index)] = integral16.mean(boxAround(irregular.field, x, y));
+      means[static_cast<std::size_t>(irregular.index)] =
+          integral16.mean(boxAround(irregular.field, x, y));
     }
     return;
   }
   for (int index = 0; index < kFreakFields; ++index) {
     const FreakPixelBox box = boxAround(pattern.field(scale, orientation, index), x, y);
-    means[static_cast<std::size_t>(index)] = scale == 0 ? integral16.mean(box) : integral32.mean(box);
+    means[static_cast<std::size_t>(index)] =
+        scale == 0 ? integral16.mean(box) : integral32.mean(box);
   }
 }
 
-Descriptor FreakDescriber::State::describeOne(const FreakKeypoint& keypoint, int scale, float& angle_deg) const {
+Descriptor FreakDescriber::State::describeOne(const FreakKeypoint& keypoint, int scale,
+                                              float& angle_deg) const {
   Means means;
   computeMeans(keypoint, scale, 0, means);
   angle_deg = 0.F;
@@ -126,11 +136,13 @@ Descriptor FreakDescriber::State::describeOne(const FreakKeypoint& keypoint, int
     if (orientation != 0) computeMeans(keypoint, scale, orientation, means);
   }
   Descriptor descriptor;
-  kernels::freakBitsScalar(means.data(), pattern.first(), pattern.second(), descriptor.words.data());
+  kernels::freakBitsScalar(means.data(), pattern.first(), pattern.second(),
+                           descriptor.words.data());
   return descriptor;
 }
 
-FreakDescriber::FreakDescriber(const FreakConfig& config) : state_(std::make_unique<State>(config)) {}
+FreakDescriber::FreakDescriber(const FreakConfig& config)
+    : state_(std::make_unique<State>(config)) {}
 FreakDescriber::~FreakDescriber() = default;
 
 void FreakDescriber::describe(const ImageView& image, const std::vector<FreakKeypoint>& keypoints,

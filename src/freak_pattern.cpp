@@ -18,7 +18,8 @@ constexpr int kPointsPerRing = 6;  // the last ring has one
 constexpr int kOuterRings = 4;     // these vote for the orientation by 9 pairs each
 constexpr int kVotingRings = 7;    // the others of these by 3
 
-// Bit-exactness rests on the order of the floating-point operations here and in field(): do not simplify.
+// Bit-exactness rests on the order of the floating-point operations here and in field(): do not
+// simplify.
 constexpr double kOuterRadius = 2.0 / 3.0;
 constexpr double kInnerRadius = 2.0 / 24.0;
 constexpr double kUnit = (kOuterRadius - kInnerRadius) / 21.0;
@@ -32,21 +33,26 @@ constexpr std::array<double, kRings> kRadius{kOuterRadius,
                                              0.0};
 
 double ringSigma(int ring) {
-  return kRadius[static_cast<std::size_t>(std::min(ring, kRings - 2))] / 2.0;  // the centre has the last ring's
+  return kRadius[static_cast<std::size_t>(std::min(ring, kRings - 2))] /
+         2.0;  // the centre has the last ring's
 }
 
-/// Rounds halves to the even integer. Adding 1.5 * 2^23 leaves no room for a fraction in a float, so the addition
-/// itself rounds; exact for |value| < 2^22, and it compiles to two additions where lrint is a call.
+/// Rounds halves to the even integer. Adding 1.5 * 2^23 leaves no room for a fraction in a float,
+/// so the addition itself rounds; exact for |value| < 2^22, and it compiles to two additions where
+/// lrint is a call.
 int roundHalfEven(float value) {
   static_assert(FLT_EVAL_METHOD == 0, "floats must be rounded to float after every operation");
   constexpr float kShift = 12582912.F;
   return static_cast<int>((value + kShift) - kShift);
 }
 
-std::int8_t offset(int value_px) { return static_cast<std::int8_t>(value_px); }
+std::int8_t offset(int value_px) {
+  return static_cast<std::int8_t>(value_px);
+}
 
-/// A border is a sum of at most three floats rounded at coordinates below kLargestSide_px = 2^12, where half a unit
-/// in the last place is 2^-13: further than 3 * 2^-13 from a half the rounding to an integer cannot be affected.
+/// A border is a sum of at most three floats rounded at coordinates below kLargestSide_px = 2^12,
+/// where half a unit in the last place is 2^-13: further than 3 * 2^-13 from a half the rounding to
+/// an integer cannot be affected.
 bool nearHalf(double border_px) {
   const double fraction = border_px - std::floor(border_px);
   return std::abs(fraction - 0.5) <= 3.0 / 8192.0;
@@ -116,18 +122,20 @@ void FreakPattern::computeBoxes(int orientation) {
   for (int index = 0; index < kernels::kFreakFields; ++index) {
     const FreakField f = field(0, orientation, index);
     const FreakPixelBox box = boxAround(f, 0, 0);
-    boxes_[o][static_cast<std::size_t>(index)] = {offset(box.left_px), offset(box.top_px), offset(box.right_px),
-                                                  offset(box.bottom_px)};
+    boxes_[o][static_cast<std::size_t>(index)] = {offset(box.left_px), offset(box.top_px),
+                                                  offset(box.right_px), offset(box.bottom_px)};
     if (isIrregular(f)) irregular_[o].push_back({index, f});
   }
-  std::fill(boxes_[o].begin() + kernels::kFreakFields, boxes_[o].end(), boxes_[o][kernels::kFreakFields - 1]);
+  std::fill(boxes_[o].begin() + kernels::kFreakFields, boxes_[o].end(),
+            boxes_[o][kernels::kFreakFields - 1]);
 }
 
 void FreakPattern::computeOrientationPairs() {
   using Pair = std::array<int, 2>;
   // Points of one ring. The inner rings vote with the opposite ones only, which come first.
-  constexpr std::array<Pair, 9> kRingPairs{
-      Pair{0, 3}, Pair{1, 4}, Pair{2, 5}, Pair{0, 2}, Pair{1, 3}, Pair{2, 4}, Pair{3, 5}, Pair{4, 0}, Pair{5, 1}};
+  constexpr std::array<Pair, 9> kRingPairs{Pair{0, 3}, Pair{1, 4}, Pair{2, 5},
+                                           Pair{0, 2}, Pair{1, 3}, Pair{2, 4},
+                                           Pair{3, 5}, Pair{4, 0}, Pair{5, 1}};
   std::size_t count = 0;
   for (int ring = 0; ring < kVotingRings; ++ring) {
     const std::size_t pairs_of_ring = ring < kOuterRings ? 9 : 3;
@@ -142,7 +150,8 @@ void FreakPattern::computeOrientationPairs() {
       const auto weight = [norm_squared](float d) {
         return static_cast<std::int16_t>(std::lround(d / norm_squared * 4096.0));
       };
-      orientation_pairs_[count++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j), weight(dx), weight(dy)};
+      orientation_pairs_[count++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j),
+                                     weight(dx), weight(dy)};
     }
   }
 }

@@ -51,8 +51,7 @@ class FreakDescriber {
   /// to the border
   /// @param descriptors  descriptor k belongs to keypoints[kept[k]]
   /// @param angles_deg  when not null: the estimated orientation of each described keypoint,
-  /// -180..180, from the
-  ///     image's x axis towards its y axis (clockwise as seen); 0 when upright
+  /// -180..180, from the image's x axis towards its y axis (clockwise as seen); 0 when upright
   void describe(const ImageView& image, const std::vector<FreakKeypoint>& keypoints,
                 std::vector<int>& kept, std::vector<Descriptor>& descriptors,
                 std::vector<float>* angles_deg = nullptr);

@@ -8,9 +8,10 @@ namespace {
 
 constexpr int kLargestArea = 256;
 
-/// ceil(2^24 / area). With it (v * reciprocal) >> 24 equals v / area for every v = sum + area / 2 that can occur:
-/// the excess is v (area - 1) / 2^24 of one part in `area` and v (area - 1) <= 65408 * 255 < 2^24; the product
-/// stays below 255.5 * 2^24 + 65408 < 2^32. (The drone's Cortex-A8 has no divider.)
+/// ceil(2^24 / area). With it (v * reciprocal) >> 24 equals v / area for every v = sum + area / 2
+/// that can occur: the excess is v (area - 1) / 2^24 of one part in `area` and v (area - 1) <=
+/// 65408 * 255 < 2^24; the product stays below 255.5 * 2^24 + 65408 < 2^32. (The drone's Cortex-A8
+/// has no divider.)
 constexpr std::array<std::uint32_t, kLargestArea + 1> reciprocals() {
   std::array<std::uint32_t, kLargestArea + 1> table{};
   for (std::uint32_t area = 1; area <= kLargestArea; ++area) {
@@ -46,19 +47,21 @@ void freakIntegral32Scalar(const FreakImage& image, std::uint32_t* sums, std::pt
   integral(image, sums, stride);
 }
 
-void freakMeansScalar(const std::uint16_t* at_keypoint, std::ptrdiff_t stride, const FreakBox* boxes,
-                      std::uint8_t* means) {
+void freakMeansScalar(const std::uint16_t* at_keypoint, std::ptrdiff_t stride,
+                      const FreakBox* boxes, std::uint8_t* means) {
   for (int field = 0; field < kFreakFields; ++field) {
     const FreakBox box = boxes[field];
     const std::uint16_t* top = at_keypoint + box.top * stride;
     const std::uint16_t* bottom = at_keypoint + box.bottom * stride;
-    const auto sum = static_cast<std::uint16_t>(bottom[box.right] - bottom[box.left] - top[box.right] + top[box.left]);
+    const auto sum = static_cast<std::uint16_t>(bottom[box.right] - bottom[box.left] -
+                                                top[box.right] + top[box.left]);
     const auto area = static_cast<std::uint32_t>((box.right - box.left) * (box.bottom - box.top));
     means[field] = static_cast<std::uint8_t>(((sum + area / 2) * kReciprocals[area]) >> 24);
   }
 }
 
-void freakOrientationScalar(const std::uint8_t* means, const FreakOrientationPair* pairs, std::int32_t* sums) {
+void freakOrientationScalar(const std::uint8_t* means, const FreakOrientationPair* pairs,
+                            std::int32_t* sums) {
   std::int32_t sum_x = 0;
   std::int32_t sum_y = 0;
   for (int k = 0; k < kFreakOrientationPairs; ++k) {
@@ -71,8 +74,8 @@ void freakOrientationScalar(const std::uint8_t* means, const FreakOrientationPai
   sums[1] = sum_y;
 }
 
-void freakBitsScalar(const std::uint8_t* means, const std::uint8_t* first, const std::uint8_t* second,
-                     std::uint64_t* words) {
+void freakBitsScalar(const std::uint8_t* means, const std::uint8_t* first,
+                     const std::uint8_t* second, std::uint64_t* words) {
   for (int w = 0; w < kFreakComparisons / 64; ++w) {
     const int start = 128 * (w / 2) + 8 * (w % 2);
     std::uint64_t word = 0;
