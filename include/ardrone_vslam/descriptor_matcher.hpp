@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/hamming.hpp"
+#include "ardrone_vslam/match_acceptance.hpp"
+
+namespace ardrone_vslam {
+
+struct DescriptorMatch {
+  int query = -1;  ///< index into the query descriptors
+  int train = -1;  ///< index into the train descriptors
+  int distance_bits = kNoDistance_bits;
+  int second_distance_bits =
+      kNoDistance_bits;  ///< of the query's second nearest; kNoDistance_bits: only one candidate
+};
+
+/// Compares every query with every train descriptor (thesis 4.1.4). A match is the nearest train
+/// descriptor, of equally near ones that with the lowest index, if accept() holds; with
+/// `cross_check` the query must also be the nearest to the train descriptor, of equally near
+/// queries the one with the lowest index.
+/// @param out  the matches by ascending query index; its capacity is used as working memory, so
+/// that a call with no
+///     more queries than before does not allocate
+/// Cost: one Hamming distance for each pair.
+void matchExact(const std::vector<Descriptor>& query, const std::vector<Descriptor>& train,
+                const MatcherConfig& config, std::vector<DescriptorMatch>& out);
+
+}  // namespace ardrone_vslam
