@@ -48,8 +48,9 @@ std::optional<PositionFix> ThesisFilter::locate(const std::vector<Sighting>& sig
           ? printedMean(sightings, predicted_camera_map, angle_deviation_rad)
           : exactMean(sightings, predicted_camera_map, angle_deviation_rad);
   if (!fix || !fix->position_map.allFinite()) return std::nullopt;
-  fix->covariance +=
-      config_.fix_deviation_floor_m * config_.fix_deviation_floor_m * Eigen::Matrix3d::Identity();
+  const double floor_m = std::hypot(config_.fix_deviation_floor_m,
+                                    config_.fix_angle_floor_deg * M_PI / 180 * fix->distance_m);
+  fix->covariance += floor_m * floor_m * Eigen::Matrix3d::Identity();
   return fix;
 }
 
@@ -65,6 +66,7 @@ PositionFix ThesisFilter::printedMean(const std::vector<Sighting>& sightings,
         1 / measurementDeviation_m(s.landmark_deviation_m, std::abs(d), sigma_a);  // (6.3)
     weighted_sum += weight * position;
     fix.shared_variance_m2 += weight * s.position_variance_m2;
+    fix.distance_m += weight * std::abs(d);
     weight_sum += weight;
   }
   // The deviation of this mean for independent inputs; (6.5) as printed does not shrink with their
@@ -73,6 +75,7 @@ PositionFix ThesisFilter::printedMean(const std::vector<Sighting>& sightings,
   fix.position_map = weighted_sum / weight_sum;  // (6.4)
   fix.covariance = deviation * deviation * Eigen::Matrix3d::Identity();
   fix.shared_variance_m2 /= weight_sum;
+  fix.distance_m /= weight_sum;
   return fix;
 }
 
@@ -90,6 +93,7 @@ std::optional<PositionFix> ThesisFilter::exactMean(const std::vector<Sighting>& 
         (Eigen::Matrix3d::Identity() - s.direction_map * s.direction_map.transpose()) /
         (sigma * sigma);
     fix.shared_variance_m2 += s.position_variance_m2 / (sigma * sigma);
+    fix.distance_m += std::abs(d) / (sigma * sigma);
     weight_sum += 1 / (sigma * sigma);
     information += across;
     weighted_sum += across * s.landmark_map;
@@ -102,6 +106,7 @@ std::optional<PositionFix> ThesisFilter::exactMean(const std::vector<Sighting>& 
   fix.covariance = information.inverse();
   fix.position_map = fix.covariance * weighted_sum;
   fix.shared_variance_m2 /= weight_sum;
+  fix.distance_m /= weight_sum;
   return fix;
 }
 

@@ -22,9 +22,10 @@ struct ThesisFilterConfig {
   bool common_drift = true;
   int min_landmarks = 3;
   double initial_deviation_m = 0.01;
-  double observer_noise_m_per_sqrt_m = 0.02;
-  double observer_noise_m_per_sqrt_s = 0.01;
-  double fix_deviation_floor_m = 0.02;
+  double observer_noise_m_per_sqrt_m = 0.015;
+  double observer_noise_m_per_sqrt_s = 0.03;
+  double fix_deviation_floor_m = 0.01;
+  double fix_angle_floor_deg = 1.0;
   double gate_deviations = 5.0;
   double attitude_deviation_deg = 0.3;
 };
@@ -59,6 +60,11 @@ void visitParameters(ThesisFilterConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"fix_deviation_floor_m", "m", 0, 10,
                       "errors that all landmarks share: no fix is taken as better than this"},
         c.fix_deviation_floor_m);
+  visit(
+      ParameterInfo{
+          "fix_angle_floor_deg", "deg", 0, 45,
+          "the same for errors that grow with the landmarks' distance: attitude and calibration"},
+      c.fix_angle_floor_deg);
   visit(ParameterInfo{"gate_deviations", "-", 0.5, 1e6,
                       "a fix further off the prediction than this many deviations is rejected"},
         c.gate_deviations);
@@ -77,6 +83,7 @@ struct Sighting {
 
 /// A camera position by landmarks alone.
 struct PositionFix {
+  double distance_m = 0;          ///< weighted mean distance of the landmarks
   double shared_variance_m2 = 0;  ///< weighted mean of the sightings' P_a
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
