@@ -32,9 +32,12 @@ struct ObserverProfile {
   bool isTruth() const { return name == "truth"; }
 };
 
-/// Reads one profile from config/observer_profiles.yaml. @throws std::runtime_error listing the
-/// known names
+/// Reads one profile from config/observer_profiles.yaml (tools find it by findConfigFile()).
+/// @throws std::runtime_error naming the file, the fault and the known names
 ObserverProfile loadObserverProfile(const std::string& name, const std::string& profiles_yaml);
+
+/// The names in the file, in its order. @throws std::runtime_error as above
+std::vector<std::string> observerProfileNames(const std::string& profiles_yaml);
 
 struct ObserverRun {
   std::vector<ObserverState> states;
@@ -42,8 +45,12 @@ struct ObserverRun {
 };
 
 /// Corrupts the true increments as `profile` says (evaluation.md) and integrates them with the
-/// corrupted attitude from the truth's first pose. Equal arguments give equal results on every
-/// machine with the same floating point.
+/// corrupted attitude from the truth's first pose. States come every 1 / rate_hz from the truth's
+/// first stamp to the first one at or after its last, so that every image can be interpolated
+/// (where the profile has a delay the drone is taken to have stood that long before). `truth`
+/// gives the interpolated truth itself. Covariances are zero, as ardrone_autonomy's: none given.
+/// Bursts repeat stamps; without them stamps ascend strictly. Equal arguments give equal results
+/// on every machine with the same floating point. @pre truth not empty
 ObserverRun simulateObserver(const Trajectory& truth, const ObserverProfile& profile,
                              std::uint64_t seed);
 

@@ -17,7 +17,7 @@ struct StampedPose {
 class Trajectory {
  public:
   Trajectory() = default;
-  /// @throws std::invalid_argument when the stamps do not ascend strictly
+  /// @throws std::invalid_argument when the stamps do not ascend strictly or a pose is not finite
   explicit Trajectory(std::vector<StampedPose> poses);
 
   const std::vector<StampedPose>& poses() const { return poses_; }
@@ -25,6 +25,7 @@ class Trajectory {
   std::size_t size() const { return poses_.size(); }
   /// Pose at a stamp; the first or last pose outside the covered time. @pre not empty
   Eigen::Isometry3d at(std::int64_t stamp_ns) const;
+  /// @throws std::invalid_argument as the constructor
   void append(const StampedPose& pose);
 
  private:
@@ -34,8 +35,13 @@ class Trajectory {
 /// TUM format, a line each: stamp[s] tx ty tz[m] qx qy qz qw. '#' begins a comment.
 /// @throws std::runtime_error naming file, line and fault
 Trajectory readTum(const std::string& path);
+/// The same, but stamps may repeat or go back, as a faulty observer's do.
+std::vector<StampedPose> readTumPoses(const std::string& path);
 /// Nine decimals for stamps and positions. @throws std::runtime_error when the file cannot be
 /// written
 void writeTum(const std::string& path, const Trajectory& trajectory);
+/// The same for stamps in any order; each line of `comment` goes to the file's head behind a '#'.
+void writeTumPoses(const std::string& path, const std::vector<StampedPose>& poses,
+                   const std::string& comment);
 
 }  // namespace ardrone_vslam

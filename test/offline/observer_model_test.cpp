@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The drift of each profile against what its numbers say analytically, over many seeds. A sample
+// deviation of n draws scatters by 1 / sqrt(2 n), which is 3.5 % here; the bounds are four of that
+// and more where the draws are not normal.
+#include "observer_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kSeeds = 400;
+constexpr double kTolerance = 0.15;
+constexpr double kRadPerDeg = M_PI / 180;
+const std::string kProfiles = ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml";
+
+ObserverProfile profileNamed(const std::string& name) {
+  return loadObserverProfile(name, kProfiles);
+}
+
+/// Constant velocity along x at 10 Hz, beginning at `first_ns`.
+Trajectory straightLine(double speed_m_s, double seconds, std::int64_t first_ns = 0) {
+  Trajectory trajectory;
+  for (int i = 0; i <= static_cast<int>(std::lround(seconds * 10)); ++i) {
+    StampedPose pose;
+    pose.stamp_ns = first_ns + i * std::int64_t{100000000};
+    pose.T_map_base.translation() << speed_m_s * 0.1 * i, 0, 1;
+    trajectory.append(pose);
+  }
+  return trajectory;
+}
+
+/// A circle of 3 m with the nose along the path, climbing, banked.
+Trajectory circle() {
+  Trajectory trajectory;
+  for (int i = 0; i <= 200; ++i) {
+    StampedPose pose;
+    const double angle = 0.03 * i;
+    pose.stamp_ns = 5000000000 + i * std::int64_t{33333333};
+    pose.T_map_base.linear() = (Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) *
+                                Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()))
+                                   .toRotationMatrix();
+    pose.T_map_base.translation() << 3 * std::sin(angle), -3 * std::cos(angle), 0.01 * i;
+    trajectory.append(pose);
+  }
+  return trajectory;
+}
+
+/// Root mean squares over the seeds of three numbers that should have mean 0.
+Eigen::Vector3d rms(const Trajectory& truth, const ObserverProfile& profile,
+                    const std::function<Eigen::Vector3d(const ObserverRun&)>& numbers) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    sum += numbers(simulateObserver(truth, profile, seed)).cwiseAbs2();
+  }
+  return (sum / kSeeds).cwiseSqrt();
+}
+
+/// Last position minus the one that is true at the end (at rest: everywhere).
+std::function<Eigen::Vector3d(const ObserverRun&)> driftFrom(const Trajectory& truth) {
+  const Eigen::Vector3d end = truth.poses().back().T_map_base.translation();
+  return [end](const ObserverRun& run) -> Eigen::Vector3d {
+    return run.states.back().T_odom_base.translation() - end;
+  };
+}
+
+double variance(double deviation) {
+  return deviation * deviation;
+}
+
+/// Of the integral of OU(deviation, time constant), started stationary.
+double integratedOuVariance(double deviation, double time_constant_s, double seconds) {
+  const double x = seconds / time_constant_s;
+  return 2 * variance(deviation * time_constant_s) * (x - 1 + std::exp(-x));
+}
+
+double yawOf(const ObserverState& state) {
+  const Eigen::Matrix3d R = state.T_odom_base.linear();
+  return std::atan2(R(1, 0), R(0, 0));
+}
+double pitchOf(const ObserverState& state) {
+  return std::asin(-state.T_odom_base.linear()(2, 0));
+}
+
+TEST(ObserverModel, TruthIsTheInterpolatedTruthItself) {
+  const Trajectory truth = circle();
+  const ObserverRun run = simulateObserver(truth, profileNamed("truth"), 7);
+  EXPECT_EQ(run.scale_error, 0);
+  for (const auto& state : run.states) {
+    EXPECT_EQ(state.T_odom_base.matrix(), truth.at(state.stamp_ns).matrix());
+    EXPECT_EQ(state.covariance, Matrix6d::Zero());
+  }
+}
+
+TEST(ObserverModel, IntegrationWithoutNoiseEqualsTheTruth) {
+  const Trajectory truth = circle();
+  ObserverProfile noiseless;
+  noiseless.name = "noiseless";
+  for (const auto& state : simulateObserver(truth, noiseless, 7).states) {
+    EXPECT_TRUE(state.T_odom_base.isApprox(truth.at(state.stamp_ns), 1e-12));
+  }
+}
+
+TEST(ObserverModel, CoversTheTruthAtItsRateAndStartsAtItsPosition) {
+  const Trajectory truth = circle();
+  for (const auto& name : observerProfileNames(kProfiles)) {
+    const ObserverProfile profile = profileNamed(name);
+    const auto states = simulateObserver(truth, profile, 3).states;
+    EXPECT_LE(states.front().stamp_ns, truth.poses().front().stamp_ns + 30000000) << name;
+    EXPECT_GE(states.back().stamp_ns, truth.poses().back().stamp_ns) << name;
+    EXPECT_LE(states.back().stamp_ns, truth.poses().back().stamp_ns + 20000000) << name;
+    EXPECT_EQ(states.front().T_odom_base.translation(),
+              truth.poses().front().T_map_base.translation());
+    for (const auto& state : states) {
+      EXPECT_TRUE(state.T_odom_base.linear().isUnitary(1e-12));
+    }
+    if (profile.loss > 0) continue;
+    EXPECT_EQ(states[1].stamp_ns - states[0].stamp_ns, std::llround(1e9 / profile.rate_hz));
+    for (std::size_t i = 1; i < states.size(); ++i) {
+      ASSERT_GT(states[i].stamp_ns, states[i - 1].stamp_ns) << name;
+    }
+  }
+}
+
+TEST(ObserverModel, SeedAloneDecides) {
+  const Trajectory truth = circle();
+  const ObserverProfile profile = profileNamed("harsh");
+  const ObserverRun a = simulateObserver(truth, profile, 11);
+  const ObserverRun b = simulateObserver(truth, profile, 11);
+  const ObserverRun other = simulateObserver(truth, profile, 12);
+  ASSERT_EQ(a.states.size(), b.states.size());
+  for (std::size_t i = 0; i < a.states.size(); ++i) {
+    EXPECT_EQ(a.states[i].stamp_ns, b.states[i].stamp_ns);
+    EXPECT_EQ(a.states[i].T_odom_base.matrix(), b.states[i].T_odom_base.matrix());
+  }
+  EXPECT_NE(a.scale_error, other.scale_error);
+  EXPECT_NE(a.states.back().T_odom_base.matrix(), other.states.back().T_odom_base.matrix());
+}
+
+TEST(ObserverModel, ScaleErrorIsDrawnOncePerRun) {
+  ObserverProfile only_scale;
+  only_scale.name = "only_scale";
+  only_scale.scale_deviation = 0.03;
+  const Trajectory truth = straightLine(2, 5);
+  const Eigen::Vector3d scale = rms(truth, only_scale, [](const ObserverRun& run) {
+    return Eigen::Vector3d::Constant(run.scale_error);
+  });
+  EXPECT_NEAR(scale.x(), 0.03, 0.03 * kTolerance);
+  const ObserverRun run = simulateObserver(truth, only_scale, 1);
+  EXPECT_NEAR(run.states.back().T_odom_base.translation().x(), 10 * (1 + run.scale_error), 1e-9);
+}
+
+TEST(ObserverModel, WheelDriftsAsItsNumbersSay) {
+  const ObserverProfile wheel = profileNamed("wheel");
+  constexpr double kLength_m = 100, kStep_m = 0.2;  // 10 m/s at 50 Hz
+  const double steps = kLength_m / kStep_m;
+  const Trajectory truth = straightLine(10, 10);
+  const double along = variance(0.01 * kLength_m) + steps * variance(0.01 * kStep_m);
+  const double across = variance(0.02 * kRadPerDeg) * std::pow(kLength_m, 3) / 3 +
+                        steps * (variance(0.01 * kStep_m) + variance(0.05 * kRadPerDeg * kStep_m));
+  const double height = steps * (variance(0.01 * kStep_m) + variance(0.05 * kRadPerDeg * kStep_m));
+  const Eigen::Vector3d drift = rms(truth, wheel, driftFrom(truth));
+  EXPECT_NEAR(drift.x() / std::sqrt(along), 1, kTolerance);
+  EXPECT_NEAR(drift.y() / std::sqrt(across), 1, kTolerance);
+  EXPECT_NEAR(drift.z() / std::sqrt(height), 1, kTolerance);
+}
+
+/// At rest only velocity errors move the position; their rotation by attitude errors leaves the
+/// variance as it is.
+void checkDriftAtRest(const std::string& name, double bias_m_s, double noise_m_s, double seconds) {
+  const double expected =
+      integratedOuVariance(bias_m_s, 20, seconds) + variance(noise_m_s) / 15 * seconds;
+  const Trajectory truth = straightLine(0, seconds);
+  const Eigen::Vector3d drift = rms(truth, profileNamed(name), driftFrom(truth));
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(drift[axis] / std::sqrt(expected), 1, kTolerance) << name << ", axis " << axis;
+  }
+}
+
+TEST(ObserverModel, DroneDriftsAtRestAsItsNumbersSay) {
+  checkDriftAtRest("drone", 0.03, 0.05, 15);
+}
+TEST(ObserverModel, HarshDriftsAtRestAsItsNumbersSay) {
+  checkDriftAtRest("harsh", 0.06, 0.1, 10);
+}
+
+TEST(ObserverModel, HoverDriftsAboutTwoMetresInFifteenSeconds) {
+  checkDriftAtRest("hover", 0.13, 0.05, 15);
+  std::vector<double> drifts_m;
+  const Trajectory truth = straightLine(0, 15);
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const auto states = simulateObserver(truth, profileNamed("hover"), seed).states;
+    drifts_m.push_back(
+        (states.back().T_odom_base.translation() - states.front().T_odom_base.translation())
+            .head<2>()
+            .norm());
+  }
+  std::nth_element(drifts_m.begin(), drifts_m.begin() + kSeeds / 2, drifts_m.end());
+  EXPECT_NEAR(drifts_m[kSeeds / 2], 2.0, 0.3);
+}
+
+TEST(ObserverModel, WhiteVelocityNoiseDriftsAlikeAtEveryRate) {
+  ObserverProfile noise;
+  noise.name = "only_velocity_noise";
+  noise.velocity_noise_m_s = 0.05;
+  for (const double rate_hz : {15.0, 50.0, 200.0}) {
+    noise.rate_hz = rate_hz;
+    const Trajectory truth = straightLine(0, 8);
+    const double drift = rms(truth, noise, driftFrom(truth)).y();
+    EXPECT_NEAR(drift / (0.05 * std::sqrt(8 / 15.0)), 1, kTolerance) << rate_hz << " Hz";
+  }
+}
+
+TEST(ObserverModel, AttitudeOfDroneWalksInYawAndStaysBoundedInTilt) {
+  const ObserverProfile drone = profileNamed("drone");
+  const Trajectory truth = straightLine(0, 60);
+  const Eigen::Vector3d error_deg = rms(truth, drone, [](const ObserverRun& run) {
+    const ObserverState& last = run.states.back();
+    return Eigen::Vector3d(Eigen::Vector3d(0, pitchOf(last), yawOf(last)) / kRadPerDeg);
+  });
+  EXPECT_NEAR(error_deg.z() / std::sqrt(1 + variance(0.1)), 1, kTolerance);
+  EXPECT_NEAR(error_deg.y() / std::sqrt(variance(0.3) + variance(0.1)), 1, kTolerance);
+}
+
+TEST(ObserverModel, WhiteAttitudeNoiseIsNotIntegrated) {
+  ObserverProfile noise;
+  noise.name = "only_attitude_noise";
+  noise.attitude_noise_rad = 0.01;
+  const auto states = simulateObserver(straightLine(0, 40), noise, 1).states;
+  double sum_steps = 0, sum = 0;
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    sum += variance(yawOf(states[i]));
+    sum_steps += variance(yawOf(states[i]) - yawOf(states[i - 1]));
+  }
+  const auto n = static_cast<double>(states.size());
+  EXPECT_NEAR(std::sqrt(sum / n) / 0.01, 1, 0.1);
+  EXPECT_NEAR(std::sqrt(sum_steps / n) / 0.01, std::sqrt(2.0), 0.1);
+}
+
+TEST(ObserverModel, VelocityBiasForgetsWithItsTimeConstant) {
+  ObserverProfile bias;
+  bias.name = "only_bias";
+  bias.velocity_bias_m_s = 0.1;
+  bias.velocity_bias_time_s = 5;
+  double lagged = 0;
+  constexpr int kRuns = 2000;
+  const Trajectory truth = straightLine(0, 5);
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    const auto states = simulateObserver(truth, bias, seed).states;
+    const auto velocity = [&](std::size_t i) -> Eigen::Vector3d {
+      return (states[i + 1].T_odom_base.translation() - states[i].T_odom_base.translation()) *
+             bias.rate_hz;
+    };
+    lagged += velocity(0).dot(velocity(states.size() - 2)) / (3 * kRuns);
+  }
+  EXPECT_NEAR(lagged / variance(0.1), std::exp(-4.96 / 5), 0.08);
+}
+
+TEST(ObserverModel, TheStepIsIntegratedWithTheReportedAttitude) {
+  ObserverProfile yaw_only;
+  yaw_only.name = "only_yaw";
+  yaw_only.yaw_walk_rad_per_sqrt_m = 0.05;
+  const auto states = simulateObserver(straightLine(5, 4), yaw_only, 2).states;
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    const Eigen::Vector3d step =
+        states[i - 1].T_odom_base.linear().transpose() *
+        (states[i].T_odom_base.translation() - states[i - 1].T_odom_base.translation());
+    EXPECT_TRUE(step.isApprox(Eigen::Vector3d(0.1, 0, 0), 1e-9));
+  }
+  EXPECT_GT(std::abs(yawOf(states.back())), 0.01);
+}
+
+TEST(ObserverModel, HarshIsLateLosesStatesAndRepeatsStamps) {
+  const Trajectory truth = straightLine(1, 60, 1000000000);
+  ObserverProfile harsh = profileNamed("harsh");
+  const auto states = simulateObserver(truth, harsh, 4).states;
+  const double sent = 60 * 200 + 1;
+  EXPECT_NEAR((sent - static_cast<double>(states.size())) / sent, 0.02, 0.006);
+  double repeated = 0;
+  std::int64_t longest_gap_ns = 0;
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    const std::int64_t gap_ns = states[i].stamp_ns - states[i - 1].stamp_ns;
+    ASSERT_GE(gap_ns, 0);
+    repeated += gap_ns == 0 ? 1 : 0;
+    longest_gap_ns = std::max(longest_gap_ns, gap_ns);
+  }
+  EXPECT_NEAR(repeated / sent, 0.5 * 5 / 6, 0.08);  // half in bursts, five of six repeat
+  EXPECT_GE(longest_gap_ns, 30000000);
+
+  // Without noise the delay is all that is left of the error: 1 m/s times 0.1 s.
+  ObserverProfile late;
+  late.name = "only_late";
+  late.rate_hz = 200;
+  late.delay_s = harsh.delay_s;
+  const auto late_states = simulateObserver(truth, late, 4).states;
+  EXPECT_NEAR(late_states.back().T_odom_base.translation().x(), 60 - 0.1, 1e-9);
+}
+
+std::string faultOfLoading(const std::string& name, const std::string& yaml) {
+  const std::string path = testing::TempDir() + "observer_profiles_fault.yaml";
+  std::ofstream(path) << yaml;
+  try {
+    loadObserverProfile(name, path);
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  return "none";
+}
+
+TEST(ObserverProfile, FaultsNameTheFileTheKeyAndWhatIsKnown) {
+  EXPECT_NE(faultOfLoading("c", "a: {}\nb: {}").find("known are a, b"), std::string::npos);
+  EXPECT_NE(faultOfLoading("a", "a: {scale: 1}").find("'scale' is not known"), std::string::npos);
+  EXPECT_NE(faultOfLoading("a", "a: {rate_hz: 0}").find("'rate_hz' is out of range"),
+            std::string::npos);
+  EXPECT_NE(faultOfLoading("a", "a: {loss: 1}").find("'loss' is out"), std::string::npos);
+  EXPECT_NE(faultOfLoading("a", "a: {rate_hz: fast}").find("'rate_hz' has a value"),
+            std::string::npos);
+  EXPECT_NE(faultOfLoading("a", "a: [").find("not valid YAML"), std::string::npos);
+  EXPECT_THROW(loadObserverProfile("drone", "/nowhere.yaml"), std::runtime_error);
+}
+
+TEST(ObserverProfile, AnglesAndTimesAreConverted) {
+  const ObserverProfile drone = profileNamed("drone");
+  EXPECT_NEAR(drone.yaw_walk_rad_per_sqrt_s * std::sqrt(60), kRadPerDeg, 1e-12);
+  EXPECT_NEAR(drone.attitude_bias_rad, 0.3 * kRadPerDeg, 1e-12);
+  EXPECT_EQ(drone.rate_hz, 200);
+  EXPECT_NEAR(profileNamed("wheel").yaw_walk_rad_per_sqrt_m, 0.02 * kRadPerDeg, 1e-12);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
