@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tum_folder.hpp"
+
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "camera_yaml.hpp"
+#include "folder_files.hpp"
+#include "folder_sequence.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+/// Another clock than the images' would silently give every image the first or the last pose.
+void checkOverlap(const Trajectory& trajectory, const std::string& path,
+                  const std::vector<std::int64_t>& stamps_ns) {
+  const std::int64_t first_ns = trajectory.poses().front().stamp_ns;
+  const std::int64_t last_ns = trajectory.poses().back().stamp_ns;
+  if (first_ns <= stamps_ns.back() && last_ns >= stamps_ns.front()) return;
+  const auto seconds = [](std::int64_t stamp_ns) {
+    return std::to_string(static_cast<double>(stamp_ns) * 1e-9);
+  };
+  throw std::runtime_error(path + ": its stamps, " + seconds(first_ns) + " to " + seconds(last_ns) +
+                           " s, do not meet the images', " + seconds(stamps_ns.front()) + " to " +
+                           seconds(stamps_ns.back()) + " s; give both in the same clock");
+}
+
+Trajectory readOptional(const std::string& path, const std::vector<std::int64_t>& stamps_ns) {
+  if (!std::filesystem::exists(path)) return {};
+  Trajectory trajectory = readTum(path);
+  if (trajectory.empty()) {
+    throw std::runtime_error(path + ": holds no pose; fill it or remove it");
+  }
+  checkOverlap(trajectory, path, stamps_ns);
+  return trajectory;
+}
+
+}  // namespace
+
+bool isTumFolder(const std::string& path) {
+  return std::filesystem::is_directory(path + "/image");
+}
+
+std::unique_ptr<Sequence> openTumFolder(const std::string& path) {
+  FolderContents contents;
+  contents.name = path;
+  contents.image_paths = listImages(path + "/image");
+  contents.calibration_path = path + "/camera.yaml";
+  contents.camera = readCameraYaml(contents.calibration_path);
+  contents.stamps_ns = readImageStamps(path + "/times.txt", contents.image_paths.size());
+  contents.T_base_cam = forwardCamera();
+  // A wrong calibration is told before the first minute of work, not in the midst of it.
+  checkImageSize(readGreyImage(contents.image_paths.front()), contents.image_paths.front(),
+                 contents.camera, contents.calibration_path);
+
+  const Eigen::Isometry3d T_cam_base = contents.T_base_cam.inverse();
+  const Trajectory T_world_cam = readOptional(path + "/poses_tum.txt", contents.stamps_ns);
+  for (const StampedPose& pose : T_world_cam.poses()) {
+    contents.truth.append({pose.stamp_ns, pose.T_map_base * T_cam_base});
+  }
+  const Trajectory T_odom_base = readOptional(path + "/observer_tum.txt", contents.stamps_ns);
+  for (const StampedPose& pose : T_odom_base.poses()) {
+    contents.observer.push_back({pose.stamp_ns, pose.T_map_base, Matrix6d::Zero()});
+  }
+  return std::make_unique<FolderSequence>(std::move(contents));
+}
+
+}  // namespace ardrone_vslam
