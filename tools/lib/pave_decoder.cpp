@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pave_decoder.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <stdexcept>
+#include <utility>
+
+namespace ardrone_vslam {
+namespace {
+
+using FrameIterator = std::vector<PaveFrame>::const_iterator;
+
+/// The payloads of some frames as a .h264 file, removed in the end.
+class TemporaryStream {
+ public:
+  TemporaryStream(FrameIterator begin, FrameIterator end) {
+    path_ = (std::filesystem::temp_directory_path() / "ardrone_vslam_XXXXXX.h264").string();
+    const int descriptor = mkstemps(path_.data(), 5);
+    if (descriptor < 0) {
+      throw std::runtime_error(path_ + ": cannot be made; set TMPDIR to a folder with free space");
+    }
+    close(descriptor);
+    std::ofstream file(path_, std::ios::binary);
+    for (auto frame = begin; frame != end; ++frame) {
+      file.write(reinterpret_cast<const char*>(frame->payload.data()),
+                 static_cast<std::streamsize>(frame->payload.size()));
+    }
+    file.close();
+    if (!file) {
+      std::filesystem::remove(path_);
+      throw std::runtime_error(path_ + ": cannot be written; set TMPDIR to a folder with space");
+    }
+  }
+  ~TemporaryStream() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporaryStream(const TemporaryStream&) = delete;
+  TemporaryStream& operator=(const TemporaryStream&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::size_t countPictures(FrameIterator begin, FrameIterator end) {
+  const TemporaryStream stream(begin, end);
+  cv::VideoCapture capture(stream.path(), cv::CAP_FFMPEG);
+  std::size_t count = 0;
+  while (capture.isOpened() && capture.grab()) ++count;
+  return count;
+}
+
+/// The groups that give one picture for each frame.
+std::vector<PaveFrame> soundGroups(const std::vector<PaveFrame>& frames) {
+  std::vector<PaveFrame> sound;
+  for (auto begin = frames.begin(); begin != frames.end();) {
+    auto end = std::next(begin);
+    while (end != frames.end() && end->header.frame_type != PaveHeader::kIdr) ++end;
+    if (countPictures(begin, end) == static_cast<std::size_t>(end - begin)) {
+      sound.insert(sound.end(), begin, end);
+    }
+    begin = end;
+  }
+  return sound;
+}
+
+}  // namespace
+
+class PaveDecoder::Reader {
+ public:
+  Reader(std::string name, const std::vector<PaveFrame>& frames)
+      : name_(std::move(name)), stream_(frames.begin(), frames.end()) {
+    rewind();
+  }
+
+  cv::Mat image(std::size_t index) {
+    if (index < next_index_) rewind();
+    bool is_grabbed = true;
+    for (; is_grabbed && next_index_ <= index; ++next_index_) is_grabbed = capture_.grab();
+    cv::Mat picture;
+    if (!is_grabbed || !capture_.retrieve(picture) || picture.empty()) {
+      throw std::runtime_error(name_ + ": the video decoder gave no picture for frame " +
+                               std::to_string(index));
+    }
+    cv::Mat grey;
+    if (picture.channels() == 1) {
+      grey = picture.clone();
+    } else {
+      cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+    }
+    return grey;
+  }
+
+ private:
+  void rewind() {
+    if (!capture_.open(stream_.path(), cv::CAP_FFMPEG)) {
+      throw std::runtime_error(
+          name_ +
+          ": OpenCV cannot decode H.264; it must be built with FFmpeg (Debian's libopencv-dev is)");
+    }
+    next_index_ = 0;
+  }
+
+  std::string name_;
+  TemporaryStream stream_;
+  cv::VideoCapture capture_;
+  std::size_t next_index_ = 0;
+};
+
+PaveDecoder::PaveDecoder(const std::string& name, std::vector<PaveFrame> frames) {
+  const std::size_t frame_count = frames.size();
+  if (countPictures(frames.begin(), frames.end()) != frame_count) frames = soundGroups(frames);
+  if (frames.empty()) {
+    throw std::runtime_error(name +
+                             ": no picture can be decoded; the stream must hold H.264 with an IDR "
+                             "picture, and OpenCV must be built with FFmpeg");
+  }
+  dropped_frames_ = frame_count - frames.size();
+  for (const PaveFrame& frame : frames) headers_.push_back(frame.header);
+  reader_ = std::make_unique<Reader>(name, frames);
+}
+
+PaveDecoder::~PaveDecoder() = default;
+
+cv::Mat PaveDecoder::image(std::size_t index) {
+  return reader_->image(index);
+}
+
+}  // namespace ardrone_vslam

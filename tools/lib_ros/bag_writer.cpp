@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bag_writer.hpp"
+
+#include <cv_bridge/cv_bridge.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/image_encodings.h>
+#include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "bag_messages.hpp"
+#include "camera_info.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr std::int64_t kMinStamp_ns = 1'000'000'000;
+constexpr std::int64_t kOffset_ns = 100'000'000'000;
+constexpr std::int64_t kMaxStamp_ns = std::int64_t{0xffffffff} * 1'000'000'000;
+constexpr int kJpegQuality = 90;
+
+/// What is written, in ROS's time.
+struct BagContents {
+  std::vector<std::int64_t> image_stamps_ns;
+  std::vector<ObserverState> observer;
+  std::vector<StampedPose> truth;
+};
+
+BagContents collect(const Sequence& sequence, const BagWriteOptions& options,
+                    BagWriteReport& report) {
+  BagContents contents;
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    contents.image_stamps_ns.push_back(sequence.stamp_ns(i));
+  }
+  contents.truth = sequence.truth().poses();
+  contents.observer = sequence.observer();
+  if (options.observer_profile) {
+    if (sequence.truth().empty()) {
+      throw std::runtime_error(sequence.name() + ": has no true poses that the observer profile '" +
+                               options.observer_profile->name +
+                               "' could corrupt; give the truth, or no profile");
+    }
+    ObserverRun run = simulateObserver(sequence.truth(), *options.observer_profile, options.seed);
+    contents.observer = std::move(run.states);
+    report.scale_error = run.scale_error;
+  }
+  return contents;
+}
+
+/// ROS has no time 0 (it means "not set", "the latest" to tf) and none before it.
+std::int64_t shiftStamps(BagContents& contents, const std::string& name) {
+  std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
+  std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
+  const auto forEachStamp = [&contents](auto&& action) {
+    for (auto& stamp_ns : contents.image_stamps_ns) action(stamp_ns);
+    for (auto& state : contents.observer) action(state.stamp_ns);
+    for (auto& pose : contents.truth) action(pose.stamp_ns);
+  };
+  forEachStamp([&](std::int64_t stamp_ns) {
+    first_ns = std::min(first_ns, stamp_ns);
+    last_ns = std::max(last_ns, stamp_ns);
+  });
+  const std::int64_t offset_ns = first_ns < kMinStamp_ns ? kOffset_ns : 0;
+  if (first_ns < kMinStamp_ns - kOffset_ns || last_ns > kMaxStamp_ns - offset_ns) {
+    throw std::runtime_error(name +
+                             ": its stamps are outside of ROS's time (0 to 2^32 s); "
+                             "give stamps in seconds from 0 or from 1970");
+  }
+  forEachStamp([offset_ns](std::int64_t& stamp_ns) { stamp_ns += offset_ns; });
+  return offset_ns;
+}
+
+std::string infoText(const Sequence& sequence, const BagWriteOptions& options,
+                     const BagWriteReport& report) {
+  YAML::Emitter yaml;
+  yaml << YAML::BeginMap << YAML::Key << "tool" << YAML::Value << options.tool;
+  yaml << YAML::Key << "source" << YAML::Value << sequence.name();
+  if (options.observer_profile) {
+    yaml << YAML::Key << "observer_profile" << YAML::Value << options.observer_profile->name;
+    yaml << YAML::Key << "seed" << YAML::Value << options.seed;
+    yaml << YAML::Key << "scale_error" << YAML::Value << report.scale_error;
+  } else {
+    yaml << YAML::Key << "observer_profile" << YAML::Value
+         << (sequence.observer().empty() ? "none" : "recorded");
+  }
+  yaml << YAML::Key << "stamp_offset_s" << YAML::Value
+       << static_cast<double>(report.stamp_offset_ns) * 1e-9;
+  yaml << YAML::EndMap;
+  return yaml.c_str();
+}
+
+/// rosbag play latches what was recorded from a latched publisher.
+template <class Message>
+boost::shared_ptr<ros::M_string> latchedHeader(const Message& message) {
+  auto header = boost::make_shared<ros::M_string>();
+  (*header)["type"] = ros::message_traits::datatype(message);
+  (*header)["md5sum"] = ros::message_traits::md5sum(message);
+  (*header)["message_definition"] = ros::message_traits::definition(message);
+  (*header)["callerid"] = "/make_bag";
+  (*header)["latching"] = "1";
+  return header;
+}
+
+class BagWriter {
+ public:
+  BagWriter(Sequence& sequence, const BagWriteOptions& options, BagContents contents,
+            const std::string& path)
+      : sequence_(sequence), options_(options), contents_(std::move(contents)) {
+    bag_.open(path, rosbag::bagmode::Write);
+    if (options.compression == BagWriteOptions::Compression::kLz4) {
+      bag_.setCompression(rosbag::compression::LZ4);
+    } else if (options.compression == BagWriteOptions::Compression::kBz2) {
+      bag_.setCompression(rosbag::compression::BZ2);
+    }
+    camera_info_ = cameraInfoFromIntrinsics(sequence.camera());
+    camera_info_.header.frame_id = options.frames.camera;
+    odometry_ = toOdometryMessages(contents_.observer, options.frames.odom, options.frames.base);
+  }
+
+  /// All messages by stamp; of equal stamps what an image needs comes before it.
+  void writeAll(const std::string& info) {
+    writeLatched(info);
+    std::size_t image = 0, odometry = 0, truth = 0;
+    constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
+    const auto stampOr = [](const auto& list, std::size_t i) {
+      return i < list.size() ? list[i].stamp_ns : kNever_ns;
+    };
+    while (true) {
+      const std::int64_t odometry_ns = stampOr(contents_.observer, odometry);
+      const std::int64_t truth_ns = stampOr(contents_.truth, truth);
+      const std::int64_t image_ns =
+          image < contents_.image_stamps_ns.size() ? contents_.image_stamps_ns[image] : kNever_ns;
+      const std::int64_t next_ns = std::min({odometry_ns, truth_ns, image_ns});
+      if (next_ns == kNever_ns) break;
+      if (next_ns == odometry_ns) {
+        writeOdometry(odometry++);
+      } else if (next_ns == truth_ns) {
+        writeTruth(contents_.truth[truth++]);
+      } else {
+        writeImage(image++);
+      }
+    }
+    bag_.close();
+  }
+
+ private:
+  std::int64_t firstStamp_ns() const {
+    std::int64_t first_ns = contents_.image_stamps_ns.front();
+    if (!contents_.observer.empty()) {
+      first_ns = std::min(first_ns, contents_.observer.front().stamp_ns);
+    }
+    if (!contents_.truth.empty()) first_ns = std::min(first_ns, contents_.truth.front().stamp_ns);
+    return first_ns;
+  }
+
+  void writeLatched(const std::string& info) {
+    const ros::Time start = toRosTime(firstStamp_ns());
+    tf2_msgs::TFMessage extrinsics;
+    extrinsics.transforms = {toTransformMessage(sequence_.T_base_cam(), start, options_.frames.base,
+                                                options_.frames.camera)};
+    bag_.write("/tf_static", start, extrinsics, latchedHeader(extrinsics));
+    std_msgs::String text;
+    text.data = info;
+    bag_.write(options_.topics.info, start, text, latchedHeader(text));
+  }
+
+  void writeOdometry(std::size_t index) {
+    const nav_msgs::Odometry& message = odometry_[index];
+    const ros::Time& stamp = message.header.stamp;
+    bag_.write(options_.topics.odometry, stamp, message);
+    // tf refuses a second transform of the same stamp.
+    if (index > 0 && stamp == odometry_[index - 1].header.stamp) return;
+    tf2_msgs::TFMessage tf;
+    tf.transforms = {toTransformMessage(contents_.observer[index].T_odom_base, stamp,
+                                        options_.frames.odom, options_.frames.base)};
+    bag_.write("/tf", stamp, tf);
+  }
+
+  void writeTruth(const StampedPose& pose) {
+    geometry_msgs::PoseStamped message;
+    message.header.stamp = toRosTime(pose.stamp_ns);
+    message.header.frame_id = options_.frames.map;
+    message.pose = toPoseMessage(pose.T_map_base);
+    bag_.write(options_.topics.truth, message.header.stamp, message);
+  }
+
+  void writeImage(std::size_t index) {
+    std_msgs::Header header;
+    header.stamp = toRosTime(contents_.image_stamps_ns[index]);
+    header.frame_id = options_.frames.camera;
+    const cv::Mat image = sequence_.image(index);
+    camera_info_.header = header;
+    bag_.write(options_.topics.camera_info, header.stamp, camera_info_);
+    if (options_.image_format == BagWriteOptions::ImageFormat::kRaw) {
+      const cv_bridge::CvImage bridge(header, sensor_msgs::image_encodings::MONO8, image);
+      bag_.write(options_.topics.image, header.stamp, *bridge.toImageMsg());
+    } else {
+      writeCompressed(header, image);
+    }
+    if (options_.progress) options_.progress(index + 1, contents_.image_stamps_ns.size());
+  }
+
+  void writeCompressed(const std_msgs::Header& header, const cv::Mat& image) {
+    const bool is_png = options_.image_format == BagWriteOptions::ImageFormat::kPng;
+    sensor_msgs::CompressedImage message;
+    message.header = header;
+    message.format = is_png ? "mono8; png compressed " : "mono8; jpeg compressed ";
+    const std::vector<int> quality{cv::IMWRITE_JPEG_QUALITY, kJpegQuality};
+    cv::imencode(is_png ? ".png" : ".jpg", image, message.data,
+                 is_png ? std::vector<int>() : quality);
+    bag_.write(options_.topics.image + "/compressed", header.stamp, message);
+  }
+
+  Sequence& sequence_;
+  const BagWriteOptions& options_;
+  BagContents contents_;
+  rosbag::Bag bag_;
+  sensor_msgs::CameraInfo camera_info_;
+  std::vector<nav_msgs::Odometry> odometry_;
+};
+
+}  // namespace
+
+BagWriteReport writeBag(Sequence& sequence, const BagWriteOptions& options,
+                        const std::string& path) {
+  BagWriteReport report;
+  if (sequence.size() == 0) {
+    throw std::runtime_error(sequence.name() + ": has no image; there is nothing to write");
+  }
+  BagContents contents = collect(sequence, options, report);
+  report.stamp_offset_ns = shiftStamps(contents, sequence.name());
+  report.images = contents.image_stamps_ns.size();
+  report.odometry = contents.observer.size();
+  report.truth = contents.truth.size();
+  // An interrupted run must not leave half a bag under the name of a whole one.
+  const std::string part = path + ".part";
+  try {
+    BagWriter(sequence, options, std::move(contents), part)
+        .writeAll(infoText(sequence, options, report));
+    std::filesystem::rename(part, path);
+  } catch (const rosbag::BagException& e) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw std::runtime_error(path + ": cannot be written (" + e.what() +
+                             "); check the folder, its permissions and the free space");
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw;
+  }
+  return report;
+}
+
+}  // namespace ardrone_vslam
