@@ -11,7 +11,7 @@
 
 namespace ardrone_vslam {
 
-struct BagTopics {
+struct BagTopicNames {
   std::string image = "/camera/image_raw";  ///< compressed images go to image + "/compressed"
   std::string camera_info = "/camera/camera_info";
   std::string odometry = "/odometry";
@@ -19,7 +19,7 @@ struct BagTopics {
   std::string info = "/make_bag/info";
 };
 
-struct BagFrames {
+struct BagFrameNames {
   std::string map = "map";
   std::string odom = "odom";
   std::string base = "base_link";
@@ -30,8 +30,8 @@ struct BagWriteOptions {
   enum class ImageFormat { kRaw, kPng, kJpeg };
   enum class Compression { kNone, kLz4, kBz2 };
 
-  BagTopics topics;
-  BagFrames frames;
+  BagTopicNames topics;
+  BagFrameNames frames;
   ImageFormat image_format = ImageFormat::kRaw;
   Compression compression = Compression::kNone;  ///< of the bag's chunks
   /// Corrupts the truth to odometry; nothing: the sequence's own observer, if it has one.

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bag_sequence.hpp"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "bag_images.hpp"
+#include "bag_messages.hpp"
+#include "bag_poses.hpp"
+#include "bag_topics.hpp"
+#include "camera_info.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+void openForReading(rosbag::Bag& bag, const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) {
+    throw std::runtime_error(path + ": there is no such file; check the path");
+  }
+  if (std::filesystem::file_size(path) == 0) {
+    throw std::runtime_error(path + ": is empty (0 bytes); record it again");
+  }
+  try {
+    bag.open(path, rosbag::bagmode::Read);
+  } catch (const rosbag::BagUnindexedException&) {
+    throw std::runtime_error(path +
+                             ": has no index, as its recording was cut off; repair it by: rosbag "
+                             "reindex " +
+                             path);
+  }
+  if (rosbag::View(bag).size() == 0) {
+    throw std::runtime_error(path +
+                             ": holds no message; record it again, or repair it by: rosbag "
+                             "reindex " +
+                             path);
+  }
+}
+
+CameraIntrinsics readCameraInfo(const rosbag::Bag& bag, const std::string& topic,
+                                std::vector<std::string>& warnings) {
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  std::optional<CameraIntrinsics> camera;
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto message = instance.instantiate<sensor_msgs::CameraInfo>();
+    if (!message) continue;
+    const CameraIntrinsics intrinsics =
+        intrinsicsFromCameraInfo(*message, bag.getFileName() + ", " + topic);
+    if (!camera) {
+      camera = intrinsics;
+    } else if (!(*camera == intrinsics)) {
+      warnings.push_back(topic + ": the calibration changes; only the first one is used");
+      break;
+    }
+  }
+  if (!camera) {
+    throw std::runtime_error(bag.getFileName() + ", " + topic +
+                             ": holds no message; give the calibration as a file by --camera");
+  }
+  return *camera;
+}
+
+class BagFile : public BagSequence {
+ public:
+  BagFile(const std::string& path, const BagReadOptions& options) : name_(path) {
+    openForReading(bag_, path);
+    const ChosenTopics topics = chooseTopics(path, topicTypes(bag_), options);
+    camera_ =
+        options.camera ? *options.camera : readCameraInfo(bag_, topics.camera_info, warnings_);
+    images_ = std::make_unique<BagImages>(bag_, topics, camera_, warnings_);
+    BagOdometry odometry = readOdometry(bag_, topics.odometry, warnings_);
+    truth_ = readTruth(bag_, topics.truth, warnings_);
+    const std::string base = options.base_frame.empty() ? odometry.base_frame : options.base_frame;
+    const std::string camera =
+        options.camera_frame.empty() ? images_->frame() : options.camera_frame;
+    T_base_cam_ =
+        options.T_base_cam ? *options.T_base_cam : readExtrinsics(bag_, base, withoutSlash(camera));
+    observer_ = std::move(odometry.states);
+  }
+
+  std::string name() const override { return name_; }
+  std::size_t size() const override { return images_->size(); }
+  std::int64_t stamp_ns(std::size_t index) const override { return images_->stamp_ns(index); }
+  cv::Mat image(std::size_t index) override {
+    try {
+      return images_->image(index);
+    } catch (const ros::Exception& e) {
+      throw std::runtime_error(name_ + ": is damaged (" + e.what() + "); record it again");
+    }
+  }
+  const CameraIntrinsics& camera() const override { return camera_; }
+  Eigen::Isometry3d T_base_cam() const override { return T_base_cam_; }
+  const Trajectory& truth() const override { return truth_; }
+  const std::vector<ObserverState>& observer() const override { return observer_; }
+  const std::vector<std::string>& warnings() const override { return warnings_; }
+
+ private:
+  std::string name_;
+  rosbag::Bag bag_;
+  CameraIntrinsics camera_;
+  std::unique_ptr<BagImages> images_;
+  Eigen::Isometry3d T_base_cam_;
+  Trajectory truth_;
+  std::vector<ObserverState> observer_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+std::unique_ptr<BagSequence> openBag(const std::string& path, const BagReadOptions& options) {
+  const auto damaged = [&path](const std::string& what) {
+    return std::runtime_error(path + ": is no readable bag (" + what +
+                              "): truncated, damaged or another file; record it again, or try: "
+                              "rosbag reindex " +
+                              path);
+  };
+  try {
+    return std::make_unique<BagFile>(path, options);
+  } catch (const ros::Exception& e) {
+    throw damaged(e.what());
+  } catch (const std::bad_alloc&) {
+    throw damaged("a length in it is impossible");
+  } catch (const std::length_error&) {
+    throw damaged("a length in it is impossible");
+  }
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sequence.hpp"
+
+namespace ardrone_vslam {
+
+/// What to read of a bag. Empty names are found by type: the only topic of it, `truth` by its name.
+struct BagReadOptions {
+  std::string image_topic;  ///< sensor_msgs/Image or CompressedImage
+  std::string camera_info_topic;
+  std::string odometry_topic;  ///< nav_msgs/Odometry
+  std::string truth_topic;     ///< PoseStamped, PoseWithCovarianceStamped or Odometry, of base
+  std::string camera_frame;    ///< empty: the images' frame_id
+  std::string base_frame;  ///< empty: the odometry's child_frame_id, else the camera's tf parent
+  std::optional<CameraIntrinsics> camera;       ///< instead of camera_info
+  std::optional<Eigen::Isometry3d> T_base_cam;  ///< instead of tf
+};
+
+/// A recorded bag; images may be asked for in any order.
+class BagSequence : public Sequence {
+ public:
+  /// What was dropped and what looks wrong, one sentence each, naming the topic.
+  virtual const std::vector<std::string>& warnings() const = 0;
+};
+
+/// Reads image (mono8, rgb8, bgr8, bayer, compressed), camera_info, odometry, truth, and base ->
+/// camera from tf_static or tf. Messages with NaN or with stamps that go back are dropped and
+/// counted, and so are images of another size than the calibration's.
+/// @throws std::runtime_error naming bag or topic, the fault and the remedy
+std::unique_ptr<BagSequence> openBag(const std::string& path, const BagReadOptions& options);
+
+}  // namespace ardrone_vslam

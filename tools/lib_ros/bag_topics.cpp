@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bag_topics.hpp"
+
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+namespace ardrone_vslam {
+namespace {
+
+const char* const kImage = "sensor_msgs/Image";
+const char* const kCompressed = "sensor_msgs/CompressedImage";
+const char* const kCameraInfo = "sensor_msgs/CameraInfo";
+const char* const kOdometry = "nav_msgs/Odometry";
+
+/// One role that a topic of the bag can play.
+struct Role {
+  std::string what;                ///< for messages
+  std::string option;              ///< that names the topic
+  std::vector<std::string> types;  ///< that fit
+};
+
+bool contains(const std::vector<std::string>& list, const std::string& text) {
+  return std::find(list.begin(), list.end(), text) != list.end();
+}
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string listOf(const std::vector<std::string>& names) {
+  std::string list;
+  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+std::string listOf(const TopicTypes& types) {
+  std::string list;
+  for (const auto& topic : types) {
+    list += (list.empty() ? "" : ", ") + topic.first + " (" + topic.second + ")";
+  }
+  return list;
+}
+
+class TopicChooser {
+ public:
+  TopicChooser(const std::string& path, const TopicTypes& types) : path_(path), types_(types) {}
+
+  /// The named topic, or the only one that fits; empty when there is none.
+  std::string choose(const Role& role, const std::string& name,
+                     const std::function<bool(const std::string&)>& is_candidate) const {
+    if (!name.empty()) return named(role, name);
+    std::vector<std::string> candidates;
+    for (const auto& topic : types_) {
+      if (contains(role.types, topic.second) && is_candidate(topic.first)) {
+        candidates.push_back(topic.first);
+      }
+    }
+    if (candidates.size() > 1) {
+      throw std::runtime_error(path_ + ": has several topics for the " + role.what + ": " +
+                               listOf(candidates) + "; choose one by " + role.option);
+    }
+    return candidates.empty() ? std::string() : candidates.front();
+  }
+
+  [[noreturn]] void refuseMissing(const Role& role, const std::string& remedy) const {
+    throw std::runtime_error(path_ + ": has no topic for the " + role.what + " (" +
+                             listOf(role.types) + "); " + remedy +
+                             ". Topics there: " + listOf(types_));
+  }
+
+ private:
+  std::string named(const Role& role, const std::string& name) const {
+    auto topic = types_.find(name);
+    if (topic == types_.end()) topic = types_.find("/" + name);
+    if (topic == types_.end()) {
+      throw std::runtime_error(path_ + ": has no topic " + name + " (" + role.option +
+                               "). Topics there: " + listOf(types_));
+    }
+    if (!contains(role.types, topic->second)) {
+      throw std::runtime_error(path_ + ": " + topic->first + " is " + topic->second + ", but the " +
+                               role.what + " must be " + listOf(role.types) +
+                               ". Topics there: " + listOf(types_));
+    }
+    return topic->first;
+  }
+
+  const std::string& path_;
+  const TopicTypes& types_;
+};
+
+std::string parentName(const std::string& topic) {
+  const auto slash = topic.rfind('/');
+  return slash == std::string::npos ? std::string() : topic.substr(0, slash);
+}
+
+std::string chooseCameraInfo(const TopicChooser& chooser, const TopicTypes& types,
+                             const BagReadOptions& options, const ChosenTopics& topics) {
+  const Role role{"calibration", "--camera-info-topic", {kCameraInfo}};
+  // image_transport's rule: camera_info stands beside the raw image's topic.
+  const std::string raw = topics.is_compressed ? parentName(topics.image) : topics.image;
+  const std::string beside = parentName(raw) + "/camera_info";
+  std::string name = options.camera_info_topic;
+  if (name.empty() && types.count(beside) != 0) name = beside;
+  const std::string chosen = chooser.choose(role, name, [](const std::string&) { return true; });
+  if (chosen.empty()) {
+    chooser.refuseMissing(role, "record " + beside +
+                                    " with the images, or give the calibration "
+                                    "as a file by --camera");
+  }
+  return chosen;
+}
+
+}  // namespace
+
+TopicTypes topicTypes(const rosbag::Bag& bag) {
+  TopicTypes types;
+  rosbag::View view(bag);
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    types[connection->topic] = connection->datatype;
+  }
+  return types;
+}
+
+ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
+                          const BagReadOptions& options) {
+  const TopicChooser chooser(path, types);
+  ChosenTopics topics;
+  const Role image{"images", "--image-topic", {kImage, kCompressed}};
+  topics.image = chooser.choose(image, options.image_topic, [&types](const std::string& topic) {
+    // Of one image recorded in both ways the raw one is taken.
+    const bool is_second = types.at(topic) == kCompressed && types.count(parentName(topic)) != 0;
+    return !is_second && !endsWith(topic, "/compressedDepth") && !endsWith(topic, "/debug_image");
+  });
+  if (topics.image.empty()) chooser.refuseMissing(image, "record the camera's images");
+  topics.is_compressed = types.at(topics.image) == kCompressed;
+  if (!options.camera) topics.camera_info = chooseCameraInfo(chooser, types, options, topics);
+
+  const Role truth{
+      "truth",
+      "--truth-topic",
+      {"geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped", kOdometry}};
+  topics.truth = chooser.choose(truth, options.truth_topic, [](const std::string& topic) {
+    return topic.find("truth") != std::string::npos;
+  });
+  const Role odometry{"odometry", "--odometry-topic", {kOdometry}};
+  topics.odometry =
+      chooser.choose(odometry, options.odometry_topic, [&topics](const std::string& topic) {
+        // What the mapper publishes is no observer.
+        return topic != topics.truth && !endsWith(topic, "odometry_fused");
+      });
+  return topics;
+}
+
+}  // namespace ardrone_vslam

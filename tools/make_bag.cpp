@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// make_bag: a folder of images or a recorded video stream of the AR.Drone as a bag.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+#include "bag_writer.hpp"
+#include "config_path.hpp"
+#include "kitti_folder.hpp"
+#include "pave_sequence.hpp"
+#include "progress_line.hpp"
+#include "tum_folder.hpp"
+
+namespace {
+
+using namespace ardrone_vslam;
+
+struct Options {
+  std::string input;
+  std::string out;
+  bool force = false;
+  std::string observer_profile;
+  std::string frames;
+  bool ping_pong = false;
+  PaveOptions pave;
+  BagWriteOptions write;
+};
+
+/// One subcommand: what it reads and which observer it simulates when none is named.
+struct Source {
+  CLI::App* command;
+  std::string default_profile;
+};
+
+void addNames(CLI::App& command, Options& o) {
+  const std::string group = "Names";
+  const auto add = [&](const std::string& name, std::string& value, const std::string& what) {
+    command.add_option(name, value, what)->capture_default_str()->group(group);
+  };
+  add("--image-topic", o.write.topics.image, "compressed images go to it + /compressed");
+  add("--camera-info-topic", o.write.topics.camera_info, "calibration");
+  add("--odometry-topic", o.write.topics.odometry, "the simulated or recorded observer");
+  add("--truth-topic", o.write.topics.truth, "true poses of the base frame");
+  add("--map-frame", o.write.frames.map, "of the truth");
+  add("--odom-frame", o.write.frames.odom, "of the odometry");
+  add("--base-frame", o.write.frames.base, "of the drone's body");
+  add("--camera-frame", o.write.frames.camera, "of the camera, optical axes");
+}
+
+void addCommon(CLI::App& command, Options& o) {
+  using Write = BagWriteOptions;
+  static const std::map<std::string, Write::ImageFormat> kFormats{
+      {"raw", Write::ImageFormat::kRaw},
+      {"png", Write::ImageFormat::kPng},
+      {"jpeg", Write::ImageFormat::kJpeg}};
+  static const std::map<std::string, Write::Compression> kCompressions{
+      {"none", Write::Compression::kNone},
+      {"lz4", Write::Compression::kLz4},
+      {"bz2", Write::Compression::kBz2}};
+  command.add_option("--out", o.out, "the bag to write")->required();
+  command.add_flag("--force", o.force, "overwrite the bag if it is there");
+  command.add_option("--observer-profile", o.observer_profile,
+                     "how the simulated odometry drifts: truth, wheel, drone, hover, harsh "
+                     "(config/observer_profiles.yaml); default: the recorded observer if there is "
+                     "one, else wheel for kitti, drone for the others");
+  command.add_option("--seed", o.write.seed, "of the odometry's noise")->capture_default_str();
+  command.add_option("--compressed", o.write.image_format, "images as raw, png or jpeg")
+      ->transform(CLI::CheckedTransformer(kFormats));
+  command.add_option("--compression", o.write.compression, "of the bag: none, lz4 or bz2")
+      ->transform(CLI::CheckedTransformer(kCompressions));
+  command.add_option("--frames", o.frames, "A:B:STEP, frames A up to but without B");
+  addNames(command, o);
+}
+
+void addPingPong(CLI::App& command, Options& o) {
+  command.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
+}
+
+std::unique_ptr<Sequence> openSource(const CLI::App& app, const Options& o) {
+  if (app.got_subcommand("kitti")) return openKittiFolder(o.input);
+  if (app.got_subcommand("tum")) return openTumFolder(o.input);
+  auto pave = openPave(o.input, o.pave);
+  for (const auto& warning : pave->warnings()) {
+    std::cerr << "make_bag: warning: " << o.input << ": " << warning << '\n';
+  }
+  return pave;
+}
+
+void chooseObserver(const Sequence& sequence, const std::string& default_profile, Options& o) {
+  std::string name = o.observer_profile;
+  if (name.empty() && sequence.observer().empty() && !sequence.truth().empty()) {
+    name = default_profile;
+  }
+  if (!name.empty()) {
+    o.write.observer_profile = loadObserverProfile(name, findConfigFile("observer_profiles.yaml"));
+  } else if (sequence.observer().empty()) {
+    std::cerr << "make_bag: warning: " << sequence.name()
+              << ": has neither true poses nor an observer; the bag gets no odometry\n";
+  }
+}
+
+int run(const CLI::App& app, const std::string& default_profile, Options& o) {
+  const FrameSelection selection = FrameSelection::parse(o.frames, o.ping_pong);
+  if (!o.force && std::filesystem::exists(o.out)) {
+    throw std::runtime_error(o.out + ": is there already; choose another name or give --force");
+  }
+  const auto sequence = select(openSource(app, o), selection);
+  chooseObserver(*sequence, default_profile, o);
+  o.write.tool = "make_bag (ardrone_vslam) " ARDRONE_VSLAM_VERSION;
+  BagWriteReport report;
+  {
+    ProgressLine progress("make_bag", sequence->size());
+    o.write.progress = [&progress](std::size_t done, std::size_t) { progress.update(done); };
+    report = writeBag(*sequence, o.write, o.out);
+  }
+  std::cout << o.out << ": " << report.images << " images, " << report.odometry
+            << " odometry messages, " << report.truth << " true poses, "
+            << std::filesystem::file_size(o.out) / 1024 << " KiB\n";
+  if (o.write.observer_profile) {
+    std::cout << "observer profile " << o.write.observer_profile->name << ", seed " << o.write.seed
+              << ", scale error " << report.scale_error << '\n';
+  }
+  if (report.stamp_offset_ns != 0) {
+    std::cout << "stamps moved by " << report.stamp_offset_ns / 1'000'000'000
+              << " s, as ROS has no time 0\n";
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Writes recorded images as a bag with camera_info, odometry, tf and the truth."};
+  app.set_version_flag("--version", std::string("make_bag (ardrone_vslam) " ARDRONE_VSLAM_VERSION));
+  app.require_subcommand(1);
+  Options o;
+  auto* kitti = app.add_subcommand("kitti", "a folder of the KITTI odometry data");
+  auto* tum = app.add_subcommand("tum", "a folder with image/, camera.yaml, times.txt");
+  auto* pave = app.add_subcommand("pave", "a recorded stream of the AR.Drone 2.0's video port");
+  const Source sources[] = {{kitti, "wheel"}, {tum, "drone"}, {pave, "drone"}};
+  for (const Source& source : sources) {
+    source.command->add_option("input", o.input, source.command->get_description())->required();
+    addCommon(*source.command, o);
+  }
+  addPingPong(*kitti, o);
+  addPingPong(*tum, o);
+  pave->add_option("--camera", o.pave.camera_yaml,
+                   "calibration; default: camera.yaml beside the stream");
+  pave->add_flag("--at-rest", o.pave.at_rest, "the drone stood still: its true pose is known");
+  try {
+    app.parse(argc, argv);
+    for (const Source& source : sources) {
+      if (source.command->parsed()) return run(app, source.default_profile, o);
+    }
+    return 2;
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  } catch (const std::invalid_argument& e) {
+    std::cerr << "make_bag: " << e.what() << '\n';
+    return 2;
+  } catch (const std::exception& e) {
+    std::cerr << "make_bag: " << e.what() << '\n';
+    return 1;
+  }
+}
