@@ -94,6 +94,12 @@ class FrameAssembler {
   std::uint8_t last_slice_index_ = 0;
 };
 
+/// Whether nothing or a signature, possibly cut off by the end, comes. What follows a packet must:
+/// else bytes were lost from the packet or came into it, and its picture would be smeared.
+bool startsLikeHeader(const std::uint8_t* data, std::size_t size) {
+  return std::equal(data, data + std::min<std::size_t>(size, 4), kSignature);
+}
+
 /// First position at or behind `begin` where a header stands; `size` when there is none.
 std::size_t findHeader(const std::uint8_t* data, std::size_t size, std::size_t begin) {
   const std::uint8_t* end = data + size;
@@ -145,20 +151,20 @@ PaveStream parsePave(const std::uint8_t* data, std::size_t size) {
     const PaveHeader header = *parsePaveHeader(data + position, size - position);
     ++stream.statistics.packets;
     const std::size_t packet_end = position + header.header_size_bytes + header.payload_size_bytes;
-    std::size_t next = packet_end;
     const bool is_followed =
-        packet_end < size && parsePaveHeader(data + packet_end, size - packet_end);
-    // A header inside of the payload means that bytes of this packet were lost.
-    if (packet_end != size && !is_followed) next = findHeader(data, size, position + 4);
-    const bool is_whole = packet_end <= size && next >= packet_end &&
-                          header.payload_size_bytes > 0 && header.codec == kH264;
+        packet_end <= size && startsLikeHeader(data + packet_end, size - packet_end);
+    const bool is_whole = is_followed && header.payload_size_bytes > 0 && header.codec == kH264;
+    std::size_t next = packet_end;
+    if (!is_followed || !parsePaveHeader(data + packet_end, size - packet_end)) {
+      next = findHeader(data, size, position + 4);
+    }
     if (is_whole) {
       assembler.add(header, data + position + header.header_size_bytes);
-      stream.statistics.garbage_bytes += next - packet_end;
     } else {
       ++stream.statistics.broken_packets;
       assembler.hole();
     }
+    if (next > packet_end) stream.statistics.garbage_bytes += next - packet_end;
     position = next;
   }
   return stream;

@@ -43,7 +43,7 @@ PaveStream readStream(const std::string& path) {
 
 std::vector<std::string> damageOf(const PaveStatistics& statistics) {
   const std::pair<std::size_t, const char*> kinds[] = {
-      {statistics.broken_packets, "packets are cut short or of another codec"},
+      {statistics.broken_packets, "packets are damaged or of another codec"},
       {statistics.garbage_bytes, "bytes belong to no packet"},
       {statistics.lost_frames, "frames are missing"},
       {statistics.misordered_frames, "frames are repeated or out of order"},

@@ -12,28 +12,24 @@
 namespace ardrone_vslam {
 namespace {
 
-/// Another clock than the images' would silently give every image the first or the last pose.
-void checkOverlap(const Trajectory& trajectory, const std::string& path,
-                  const std::vector<std::int64_t>& stamps_ns) {
-  const std::int64_t first_ns = trajectory.poses().front().stamp_ns;
-  const std::int64_t last_ns = trajectory.poses().back().stamp_ns;
-  if (first_ns <= stamps_ns.back() && last_ns >= stamps_ns.front()) return;
+/// The poses of an optional file; none when it is not there. Another clock than the images' would
+/// silently give every image the first or the last pose.
+std::vector<StampedPose> readOptional(const std::string& path, bool is_ascending,
+                                      const std::vector<std::int64_t>& stamps_ns) {
+  if (!std::filesystem::exists(path)) return {};
+  const auto poses = is_ascending ? readTum(path).poses() : readTumPoses(path);
+  if (poses.empty()) {
+    throw std::runtime_error(path + ": holds no pose; fill it or remove it");
+  }
+  const std::int64_t first_ns = poses.front().stamp_ns;
+  const std::int64_t last_ns = poses.back().stamp_ns;
+  if (first_ns <= stamps_ns.back() && last_ns >= stamps_ns.front()) return poses;
   const auto seconds = [](std::int64_t stamp_ns) {
     return std::to_string(static_cast<double>(stamp_ns) * 1e-9);
   };
   throw std::runtime_error(path + ": its stamps, " + seconds(first_ns) + " to " + seconds(last_ns) +
                            " s, do not meet the images', " + seconds(stamps_ns.front()) + " to " +
                            seconds(stamps_ns.back()) + " s; give both in the same clock");
-}
-
-Trajectory readOptional(const std::string& path, const std::vector<std::int64_t>& stamps_ns) {
-  if (!std::filesystem::exists(path)) return {};
-  Trajectory trajectory = readTum(path);
-  if (trajectory.empty()) {
-    throw std::runtime_error(path + ": holds no pose; fill it or remove it");
-  }
-  checkOverlap(trajectory, path, stamps_ns);
-  return trajectory;
 }
 
 }  // namespace
@@ -55,12 +51,12 @@ std::unique_ptr<Sequence> openTumFolder(const std::string& path) {
                  contents.camera, contents.calibration_path);
 
   const Eigen::Isometry3d T_cam_base = contents.T_base_cam.inverse();
-  const Trajectory T_world_cam = readOptional(path + "/poses_tum.txt", contents.stamps_ns);
-  for (const StampedPose& pose : T_world_cam.poses()) {
+  for (const auto& pose : readOptional(path + "/poses_tum.txt", true, contents.stamps_ns)) {
     contents.truth.append({pose.stamp_ns, pose.T_map_base * T_cam_base});
   }
-  const Trajectory T_odom_base = readOptional(path + "/observer_tum.txt", contents.stamps_ns);
-  for (const StampedPose& pose : T_odom_base.poses()) {
+  // A recorded observer keeps its repeated and backward stamps: to stand them is the pipeline's
+  // job.
+  for (const auto& pose : readOptional(path + "/observer_tum.txt", false, contents.stamps_ns)) {
     contents.observer.push_back({pose.stamp_ns, pose.T_map_base, Matrix6d::Zero()});
   }
   return std::make_unique<FolderSequence>(std::move(contents));

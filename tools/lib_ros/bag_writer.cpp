@@ -80,11 +80,17 @@ std::int64_t shiftStamps(BagContents& contents, const std::string& name) {
   return offset_ns;
 }
 
+/// The last part of a path: a bag that is passed on need not tell where its maker keeps his files.
+std::string sourceName(const Sequence& sequence) {
+  const auto path = std::filesystem::path(sequence.name() + "/").lexically_normal();
+  return path.parent_path().filename().string();
+}
+
 std::string infoText(const Sequence& sequence, const BagWriteOptions& options,
                      const BagWriteReport& report) {
   YAML::Emitter yaml;
   yaml << YAML::BeginMap << YAML::Key << "tool" << YAML::Value << options.tool;
-  yaml << YAML::Key << "source" << YAML::Value << sequence.name();
+  yaml << YAML::Key << "source" << YAML::Value << sourceName(sequence);
   if (options.observer_profile) {
     yaml << YAML::Key << "observer_profile" << YAML::Value << options.observer_profile->name;
     yaml << YAML::Key << "seed" << YAML::Value << options.seed;
