@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is in other people's bags: other types and encodings, and everything that can be wrong.
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+#include "bag_messages.hpp"
+#include "bag_sequence.hpp"
+#include "camera_info.hpp"
+#include "support/sequence_folders.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// What a test bag holds; each test changes what it is about.
+struct BagRecipe {
+  std::vector<double> image_stamps_s{1.0, 1.1, 1.2, 1.3};
+  std::string encoding = "mono8";
+  cv::Size size_px{32, 24};
+  bool has_camera_info = true;
+  sensor_msgs::CameraInfo camera_info;
+  bool has_tf = true;
+  std::vector<nav_msgs::Odometry> odometry;
+
+  BagRecipe() {
+    CameraIntrinsics camera;
+    camera.width_px = 32;
+    camera.height_px = 24;
+    camera.fx_px = 20;
+    camera.fy_px = 21;
+    camera.cx_px = 16;
+    camera.cy_px = 12;
+    camera.k1 = -0.5;
+    camera_info = cameraInfoFromIntrinsics(camera);
+    for (int i = 0; i < 5; ++i) odometry.push_back(odometryAt(1.0 + 0.1 * i, 0.5 * i));
+  }
+
+  static nav_msgs::Odometry odometryAt(double stamp_s, double x_m) {
+    nav_msgs::Odometry message;
+    message.header.stamp = ros::Time(stamp_s);
+    message.header.frame_id = "odom";
+    message.child_frame_id = "/base";
+    message.pose.pose.position.x = x_m;
+    message.pose.pose.orientation.w = 1;
+    message.pose.covariance[0] = 0.25;
+    message.pose.covariance[35] = 0.5;
+    return message;
+  }
+};
+
+sensor_msgs::Image imageMessage(const BagRecipe& recipe, int index) {
+  const int channels = recipe.encoding == "mono8" || recipe.encoding == "8UC1" ||
+                               recipe.encoding.rfind("bayer", 0) == 0
+                           ? 1
+                           : 3;
+  const cv::Mat grey = testImage(index, recipe.size_px.width, recipe.size_px.height);
+  cv::Mat pixels = grey;
+  if (channels == 3) cv::cvtColor(grey, pixels, cv::COLOR_GRAY2BGR);
+  sensor_msgs::Image message;
+  message.header.stamp = ros::Time(recipe.image_stamps_s[static_cast<std::size_t>(index)]);
+  message.header.frame_id = "cam";
+  message.encoding = recipe.encoding;
+  message.width = static_cast<std::uint32_t>(grey.cols);
+  message.height = static_cast<std::uint32_t>(grey.rows);
+  message.step = static_cast<std::uint32_t>(channels * grey.cols);
+  message.data.assign(pixels.data, pixels.data + pixels.total() * pixels.elemSize());
+  return message;
+}
+
+void writeRecipe(rosbag::Bag& bag, const BagRecipe& recipe) {
+  ros::Time now(1.0);
+  const auto next = [&now] { return now += ros::Duration(0.01); };
+  for (std::size_t i = 0; i < recipe.image_stamps_s.size(); ++i) {
+    bag.write("/cam/image", next(), imageMessage(recipe, static_cast<int>(i)));
+    if (recipe.has_camera_info) bag.write("/cam/camera_info", next(), recipe.camera_info);
+  }
+  for (const auto& message : recipe.odometry) bag.write("/odom", next(), message);
+  if (!recipe.has_tf) return;
+  // As ardrone_autonomy: dynamic transforms, here with a frame between base and camera.
+  Eigen::Isometry3d T_base_mount = Eigen::Isometry3d::Identity();
+  T_base_mount.translation() << 0.2, 0, 0;
+  tf2_msgs::TFMessage tf;
+  tf.transforms = {toTransformMessage(T_base_mount, ros::Time(1.0), "base", "mount"),
+                   toTransformMessage(forwardCamera(), ros::Time(1.0), "mount", "cam")};
+  bag.write("/tf", next(), tf);
+}
+
+/// Writes a bag of the recipe, with what `more` adds.
+class TestBag {
+ public:
+  explicit TestBag(
+      const BagRecipe& recipe,
+      const std::function<void(rosbag::Bag&)>& more = [](rosbag::Bag&) {}) {
+    rosbag::Bag bag(path(), rosbag::bagmode::Write);
+    writeRecipe(bag, recipe);
+    more(bag);
+    bag.close();
+  }
+  std::string path() const { return folder_.file("test.bag"); }
+  std::unique_ptr<BagSequence> open(const BagReadOptions& options = {}) const {
+    return openBag(path(), options);
+  }
+  void expectRefused(const std::vector<std::string>& parts,
+                     const BagReadOptions& options = {}) const {
+    expectError([&] { open(options); }, parts);
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+void expectWarning(const BagSequence& sequence, const std::vector<std::string>& parts) {
+  ASSERT_EQ(sequence.warnings().size(), 1u);
+  for (const auto& part : parts) {
+    EXPECT_NE(sequence.warnings()[0].find(part), std::string::npos) << sequence.warnings()[0];
+  }
+}
+
+TEST(BagInput, SoundBag) {
+  const TestBag bag{BagRecipe()};
+  const auto sequence = bag.open();
+  EXPECT_TRUE(sequence->warnings().empty());
+  ASSERT_EQ(sequence->size(), 4u);
+  EXPECT_EQ(sequence->stamp_ns(2), 1'200'000'000);
+  EXPECT_EQ(sequence->camera().k1, -0.5);
+  EXPECT_TRUE(sequence->T_base_cam().isApprox(Eigen::Translation3d(0.2, 0, 0) * forwardCamera()));
+  ASSERT_EQ(sequence->observer().size(), 5u);
+  EXPECT_EQ(sequence->observer()[2].T_odom_base.translation().x(), 1.0);
+  EXPECT_EQ(sequence->observer()[2].covariance(0, 0), 0.25);
+  EXPECT_EQ(sequence->observer()[2].covariance(5, 5), 0.5);
+}
+
+TEST(BagInput, EveryEncodingGivesGrey) {
+  for (const std::string encoding : {"mono8", "8UC1", "rgb8", "bgr8"}) {
+    BagRecipe recipe;
+    recipe.encoding = encoding;
+    const TestBag bag(recipe);
+    const cv::Mat image = bag.open()->image(1);
+    EXPECT_EQ(image.type(), CV_8UC1) << encoding;
+    EXPECT_LE(cv::norm(image, testImage(1), cv::NORM_INF), 1) << encoding;
+  }
+  for (const std::string encoding : {"bayer_rggb8", "bayer_bggr8", "bayer_gbrg8", "bayer_grbg8"}) {
+    BagRecipe recipe;
+    recipe.encoding = encoding;
+    const TestBag bag(recipe);
+    const cv::Mat image = bag.open()->image(1);
+    EXPECT_EQ(image.type(), CV_8UC1) << encoding;
+    EXPECT_EQ(image.size(), cv::Size(32, 24)) << encoding;
+  }
+}
+
+TEST(BagInput, UnknownEncodingIsNamed) {
+  BagRecipe recipe;
+  recipe.encoding = "yuv422";
+  TestBag(recipe).expectRefused({"test.bag", "/cam/image", "'yuv422'", "mono8", "convert"});
+}
+
+TEST(BagInput, LensModels) {
+  for (const std::string model : {"rational_polynomial", "equidistant"}) {
+    BagRecipe recipe;
+    recipe.camera_info.distortion_model = model;
+    recipe.camera_info.D.assign(8, 0.0);
+    TestBag(recipe).expectRefused(
+        {"/cam/camera_info", "'" + model + "' is not supported", "plumb_bob"});
+  }
+  BagRecipe uncalibrated;
+  uncalibrated.camera_info.K.fill(0);
+  TestBag(uncalibrated).expectRefused({"/cam/camera_info", "not calibrated", "camera_calibration"});
+  BagRecipe too_few;
+  too_few.camera_info.D.assign(2, 0.0);
+  TestBag(too_few).expectRefused({"/cam/camera_info", "2 distortion coefficients"});
+  BagRecipe binned;
+  binned.camera_info.binning_x = 2;
+  TestBag(binned).expectRefused({"/cam/camera_info", "binned"});
+  BagRecipe without_lens;
+  without_lens.camera_info.distortion_model.clear();
+  without_lens.camera_info.D.clear();
+  EXPECT_EQ(TestBag(without_lens).open()->camera().k1, 0);
+}
+
+TEST(BagInput, CalibrationMissingOrGivenOtherwise) {
+  BagRecipe recipe;
+  recipe.has_camera_info = false;
+  const TestBag bag(recipe);
+  bag.expectRefused({"test.bag", "calibration", "/cam/camera_info", "--camera",
+                     "/cam/image (sensor_msgs/Image)"});
+  BagReadOptions options;
+  options.camera = intrinsicsFromCameraInfo(recipe.camera_info, "");
+  EXPECT_EQ(bag.open(options)->size(), 4u);
+}
+
+TEST(BagInput, SizeUnlikeTheCalibration) {
+  BagRecipe recipe;
+  recipe.size_px = {40, 24};
+  TestBag(recipe).expectRefused({"/cam/image", "40x24", "32x24", "calibration"});
+  const TestBag mixed(BagRecipe(), [&recipe](rosbag::Bag& bag) {
+    auto message = imageMessage(recipe, 0);
+    message.header.stamp = ros::Time(1.25);
+    bag.write("/cam/image", ros::Time(1.005), message);
+  });
+  const auto sequence = mixed.open();
+  EXPECT_EQ(sequence->size(), 4u);
+  expectWarning(*sequence, {"/cam/image", "1 images", "40x24"});
+}
+
+TEST(BagInput, IncompleteImagesAndBackwardStampsAreDroppedAndCounted) {
+  BagRecipe recipe;
+  recipe.image_stamps_s = {1.0, 1.1, 1.05, 1.1, 1.2};
+  const TestBag backward(recipe);
+  const auto sequence = backward.open();
+  ASSERT_EQ(sequence->size(), 3u);
+  EXPECT_EQ(cv::norm(sequence->image(2), testImage(4), cv::NORM_INF), 0);
+  expectWarning(*sequence, {"/cam/image", "2 images", "does not ascend"});
+
+  recipe.image_stamps_s = {0, 0, 0};
+  TestBag(recipe).expectRefused({"/cam/image", "no image can be used", "3 images have no stamp"});
+
+  const TestBag incomplete(BagRecipe(), [](rosbag::Bag& bag) {
+    auto message = imageMessage(BagRecipe(), 0);
+    message.header.stamp = ros::Time(9);
+    message.data.resize(100);
+    bag.write("/cam/image", ros::Time(9), message);
+  });
+  expectWarning(*incomplete.open(), {"/cam/image", "1 images are incomplete"});
+}
+
+TEST(BagInput, OdometryThatIsWrongIsDroppedAndCounted) {
+  BagRecipe recipe;
+  recipe.odometry[1].pose.pose.position.y = kNan;
+  recipe.odometry[2].pose.pose.orientation.w = 0;
+  const TestBag not_finite(recipe);
+  const auto sequence = not_finite.open();
+  EXPECT_EQ(sequence->observer().size(), 3u);
+  expectWarning(*sequence, {"/odom", "2 messages dropped", "not finite"});
+
+  recipe = BagRecipe();
+  recipe.odometry[2].header.stamp = ros::Time(0.5);
+  recipe.odometry[3].header.stamp = recipe.odometry[1].header.stamp;  // a burst: kept
+  const auto backward = TestBag(recipe).open();
+  EXPECT_EQ(backward->observer().size(), 4u);
+  expectWarning(*backward, {"/odom", "1 messages dropped", "goes back"});
+
+  recipe = BagRecipe();
+  for (auto& message : recipe.odometry) message.pose.pose.position.x = 3;
+  expectWarning(*TestBag(recipe).open(), {"/odom", "5 poses are equal", "zero odometry"});
+}
+
+TEST(BagInput, NoTransformToTheCamera) {
+  BagRecipe recipe;
+  recipe.has_tf = false;
+  const TestBag bag(recipe);
+  bag.expectRefused({"test.bag", "'base'", "'cam'", "/tf_static", "--base-frame"});
+  BagReadOptions options;
+  options.T_base_cam = forwardCamera();
+  EXPECT_TRUE(bag.open(options)->T_base_cam().isApprox(forwardCamera()));
+  options = BagReadOptions();
+  options.base_frame = "body";
+  TestBag{BagRecipe()}.expectRefused({"'body'", "'cam'"}, options);
+  options.base_frame = "mount";
+  EXPECT_TRUE(TestBag{BagRecipe()}.open(options)->T_base_cam().isApprox(forwardCamera()));
+}
+
+TEST(BagInput, TopicsMissingSeveralOrOfAnotherType) {
+  const TestBag bag(BagRecipe(), [](rosbag::Bag& more) {
+    auto image = imageMessage(BagRecipe(), 0);
+    more.write("/other/image", ros::Time(2), image);
+    more.write("/other_odom", ros::Time(2), BagRecipe::odometryAt(2, 0));
+  });
+  bag.expectRefused({"several topics", "/cam/image, /other/image", "--image-topic"});
+  BagReadOptions options;
+  options.image_topic = "/cam/image";
+  bag.expectRefused({"several topics", "/odom, /other_odom", "--odometry-topic"}, options);
+  options.odometry_topic = "odom";
+  EXPECT_EQ(bag.open(options)->observer().size(), 5u);
+  options.odometry_topic = "/odometry";
+  bag.expectRefused({"no topic /odometry", "Topics there", "/odom (nav_msgs/Odometry)"}, options);
+  options.odometry_topic = "/cam/image";
+  bag.expectRefused({"/cam/image is sensor_msgs/Image", "nav_msgs/Odometry"}, options);
+}
+
+TEST(BagInput, TruthOfEveryType) {
+  geometry_msgs::PoseStamped stamped;
+  stamped.header.stamp = ros::Time(1.0);
+  stamped.pose.position.x = 4;
+  stamped.pose.orientation.w = 1;
+  geometry_msgs::PoseWithCovarianceStamped with_covariance;
+  with_covariance.header = stamped.header;
+  with_covariance.pose.pose = stamped.pose;
+  nav_msgs::Odometry odometry = BagRecipe::odometryAt(1.0, 4);
+  const auto check = [](const auto& message) {
+    const TestBag bag(BagRecipe(), [&message](rosbag::Bag& more) {
+      more.write("/ground_truth", ros::Time(2), message);
+      more.write("/ground_truth", ros::Time(2.1), message);  // the same stamp: dropped
+    });
+    const auto sequence = bag.open();
+    ASSERT_EQ(sequence->truth().size(), 1u);
+    EXPECT_EQ(sequence->truth().poses()[0].stamp_ns, 1'000'000'000);
+    EXPECT_EQ(sequence->truth().poses()[0].T_map_base.translation().x(), 4);
+    EXPECT_EQ(sequence->observer().size(), 5u);
+    expectWarning(*sequence, {"/ground_truth", "1 messages dropped", "does not ascend"});
+  };
+  check(stamped);
+  check(with_covariance);
+  check(odometry);
+}
+
+TEST(BagInput, NoBagAtAll) {
+  TemporaryFolder folder;
+  const std::string path = folder.file("x.bag");
+  const auto open = [&path] { openBag(path, {}); };
+  expectError(open, {"x.bag", "no such file"});
+  folder.write("x.bag", "");
+  expectError(open, {"x.bag", "empty", "record it again"});
+  folder.write("x.bag", "this is a text");
+  expectError(open, {"x.bag", "no readable bag", "rosbag reindex"});
+  rosbag::Bag(path, rosbag::bagmode::Write).close();
+  expectError(open, {"x.bag", "no message", "rosbag reindex"});
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    bag.write("/text", ros::Time(1), std_msgs::String());
+  }
+  expectError(open, {"x.bag", "images", "/text (std_msgs/String)", "record the camera"});
+}
+
+TEST(BagInput, ABagCutOffAnywhereIsRefusedWithTheRemedy) {
+  const TestBag bag{BagRecipe()};
+  std::ifstream file(bag.path(), std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  TemporaryFolder folder;
+  for (std::size_t size = 1; size < whole.size(); size += 97) {
+    folder.write("cut.bag", whole.substr(0, size));
+    expectError([&folder] { openBag(folder.file("cut.bag"), {}); }, {"cut.bag", "rosbag reindex"});
+  }
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
