@@ -70,7 +70,6 @@ int CornersByCell::taken(int level) const {
   return sum;
 }
 
-/// The largest number of corners that every cell which has them may give.
 int CornersByCell::equalLevel(int budget) const {
   int low = 0;
   int high = budget + 1;  // taken(low) <= budget always, level `high` is not allowed or not needed

@@ -41,6 +41,10 @@ class CornersByCell {
   /// The cell's corner of this rank, 0 the strongest. @pre rank < count(cell)
   const Corner& corner(int cell, int rank) const;
 
+  /// @return the largest number, at most `budget`, such that the cells can all give that many
+  ///   corners, or all they have if they have fewer, within the budget
+  int equalLevel(int budget) const;
+
   /// Gives every cell an equal share of the budget and what some cells leave over in equal parts
   /// to those that have more, again and again; the last few, fewer than there are such cells, go
   /// to the strongest next corners.
@@ -48,7 +52,6 @@ class CornersByCell {
   void select(int budget, std::vector<Corner>& selected);
 
  private:
-  int equalLevel(int budget) const;
   int taken(int level) const;
 
   const std::vector<Corner>* corners_ = nullptr;

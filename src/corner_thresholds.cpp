@@ -4,6 +4,11 @@
 #include <algorithm>
 
 namespace ardrone_vslam {
+namespace {
+
+constexpr int kMostShares = 4;  ///< so that one textured cell alone does not try to fill the budget
+
+}  // namespace
 
 void CornerThresholds::reset(const CornerDetectorConfig& config, int cell_count) {
   config_ = config;
@@ -14,14 +19,16 @@ void CornerThresholds::reset(const CornerDetectorConfig& config, int cell_count)
 
 void CornerThresholds::adapt(const CornersByCell& corners) {
   if (!config_.adapt_threshold) return;
-  const int target = (3 * share_ + 1) / 2;
+  const int level = corners.equalLevel(config_.features_per_frame);
+  const int wanted = std::clamp(level, share_, kMostShares * share_);
+  const int target = (3 * wanted + 1) / 2;
   for (int cell = 0; cell < corners.cellCount(); ++cell) {
     const int count = corners.count(cell);
     int threshold = at(cell);
-    if (count > 2 * share_) {
+    if (count > 2 * wanted) {
       threshold = corners.corner(cell, target - 1).score;
-    } else if (count < share_) {
-      threshold -= std::max(1, threshold / (2 * count < share_ ? 4 : 8));
+    } else if (count < wanted) {
+      threshold -= std::max(1, threshold / (2 * count < wanted ? 4 : 8));
     }
     threshold = std::clamp(threshold, config_.threshold_min, config_.threshold_max);
     threshold_[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>(threshold);

@@ -12,10 +12,11 @@ namespace ardrone_vslam {
 /// The threshold of every cell, adapted from image to image so that a shaded part of the image is
 /// not starved (thesis figure 7.2) and a textured one does not flood the budget.
 ///
-/// A cell with more corners than twice its share of the budget takes at once the threshold that
-/// would have left one and a half shares: exactly known, as a score is the threshold up to which a
-/// corner stays one. A cell with fewer than its share goes down an eighth at a time, a quarter
-/// below half a share. So low thresholds after dark images are undone by the first bright one.
+/// A cell's wanted number of corners is its equal share of the budget, or more, up to four shares,
+/// where other cells leave theirs. A cell with more than twice that takes at once the threshold
+/// that would have left one and a half times that: exactly known, as a score is the threshold up to
+/// which a corner stays one. A cell with fewer goes down an eighth at a time, a quarter below half
+/// of it. So low thresholds after dark images are undone by the first bright one.
 class CornerThresholds {
  public:
   /// Starts all cells at `config.threshold`.

@@ -84,8 +84,8 @@ void visitParameters(CornerDetectorConfig& c, Visitor&& visit) {
 ///   in raster order; what a cell leaves over goes in equal parts to the cells that have more;
 /// - with `adapt_threshold` the cell's threshold follows its number of corners from image to image
 ///   (once for each detect()), within threshold_min..threshold_max, and keeps that number between
-///   one and two shares where the image allows it. It starts at `threshold`. So a shaded part of
-///   the image is not starved (thesis figure 7.2).
+///   one and two shares where the image allows it (up to eight where many cells leave theirs). It
+///   starts at `threshold`. So a shaded part of the image is not starved (thesis figure 7.2).
 /// Without `adapt_threshold` every cell uses `threshold`. The output depends on nothing but the
 /// images since the start or since the image size last changed. Not to be used by two threads at a
 /// time.
@@ -103,7 +103,7 @@ class CornerDetector {
   ///   leaves the thresholds as they are.
   /// @param corners  receives at most `features_per_frame` corners in raster order, no two equal,
   ///   each at least 3 px from the border and with a score of at least its cell's threshold
-  /// Cost: 2.2 ms for 1242x375 px of a street, 16 passes, 1000 corners (scalar, one x86-64 core);
+  /// Cost: 2.7 ms for 1242x375 px of a street, 16 passes, 1000 corners (scalar, one x86-64 core);
   /// about half of it for 4 passes. Allocates only while its buffers grow to the largest need so
   /// far.
   void detect(const ImageView& image, std::vector<Corner>& corners);

@@ -167,6 +167,18 @@ TEST(CornerDetector, ShadedHalfGetsItsShare) {
   EXPECT_EQ(rightHalf(detect(fixed, halfShaded(15))), 0);
 }
 
+TEST(CornerDetector, EmptyPartsLeaveTheirShareToTheOthers) {
+  CornerDetectorConfig config;
+  config.features_per_frame = 180;
+  CornerDetector detector(config);
+  for (unsigned seed = 1; seed <= 15; ++seed) {
+    std::mt19937 random(seed);
+    GreyImage image(kWidth, kHeight, 0, 200);
+    fillDots(image, {10, 100, 1, 127}, random, 0, kWidth / 3);  // two columns of cells out of six
+    EXPECT_EQ(detect(detector, image).size(), 180U) << seed;
+  }
+}
+
 TEST(CornerDetector, FixedThresholdIsExact) {
   CornerDetectorConfig config;
   config.adapt_threshold = false;
