@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "ardrone_vslam/corner_detector.hpp"
+#include "corner_thresholds.hpp"
+#include "sampling_raster.hpp"
+#include "support/fast_oracle.hpp"
+#include "support/grey_images.hpp"
+
+namespace ardrone_vslam::test {
+namespace {
+
+constexpr int kThreshold = 20;
+
+CornerDetectorConfig unlimited(int arc, int passes, Suppression suppression) {
+  CornerDetectorConfig config;
+  config.arc_length_px = arc;
+  config.threshold = kThreshold;
+  config.sampling_passes = passes;
+  config.suppression = suppression;
+  config.features_per_frame = 20000;
+  config.adapt_threshold = false;
+  return config;
+}
+
+std::vector<Corner> detect(const CornerDetectorConfig& config, const GreyImage& image) {
+  std::vector<Corner> corners;
+  CornerDetector(config).detect(image.view(), corners);
+  return corners;
+}
+
+Positions positions(const std::vector<Corner>& corners) {
+  Positions result;
+  for (const Corner& c : corners) result.insert({c.y_px, c.x_px});
+  return result;
+}
+
+/// The same places, each once, in raster order, with their scores.
+void expectEqual(const std::vector<Corner>& corners, const Positions& expected,
+                 const ScoreOracle& scores) {
+  ASSERT_EQ(corners.size(), expected.size());
+  std::size_t i = 0;
+  for (const Position& p : expected) {
+    ASSERT_EQ(corners[i].x_px, p.x_px);
+    ASSERT_EQ(corners[i].y_px, p.y_px);
+    ASSERT_EQ(corners[i].score, scores.at(p));
+    ++i;
+  }
+}
+
+/// Written out once more from algorithm.md 2, as the picture of the block: the pass that tests each
+/// pixel.
+constexpr int kPassOfPixel[4][4] = {{1, 9, 3, 11}, {13, 5, 15, 7}, {4, 12, 2, 10}, {16, 8, 14, 6}};
+
+Positions sampled(const Positions& corners, int passes) {
+  Positions result;
+  for (const Position& p : corners) {
+    if (kPassOfPixel[p.y_px % 4][p.x_px % 4] <= passes) result.insert(p);
+  }
+  return result;
+}
+
+class Suppressions : public testing::TestWithParam<int> {};  // arc length
+
+TEST_P(Suppressions, EqualTheirDefinitionForEveryNumberOfPasses) {
+  std::size_t corners = 0;
+  for (const unsigned seed : testSeeds()) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    for (const GreyImage& image : variedImages(seed)) {
+      const ScoreOracle scores(image, GetParam());
+      corners += scores.corners(kThreshold).size();
+      for (int passes = 1; passes <= 16; ++passes) {
+        SCOPED_TRACE("passes " + std::to_string(passes));
+        const Positions hits = sampled(scores.corners(kThreshold), passes);
+        expectEqual(detect(unlimited(GetParam(), passes, Suppression::kLocalClimb), image),
+                    scores.climb(hits), scores);
+        expectEqual(detect(unlimited(GetParam(), passes, Suppression::kStrict3x3), image),
+                    scores.strictMaxima(hits), scores);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+  EXPECT_GT(corners, 1000U) << "the images have too few corners for this test to mean anything";
+}
+
+TEST_P(Suppressions, AllPassesGiveExactlyThePixelsHigherThanTheirNeighbours) {
+  for (const unsigned seed : testSeeds()) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    for (const GreyImage& image : variedImages(seed)) {
+      const ScoreOracle scores(image, GetParam());
+      Positions highest;
+      for (const Position& p : scores.corners(kThreshold)) {
+        if (scores.climb(p) == p) highest.insert(p);
+      }
+      EXPECT_EQ(positions(detect(unlimited(GetParam(), 16, Suppression::kLocalClimb), image)),
+                highest);
+    }
+  }
+}
+
+TEST_P(Suppressions, EachPassFindsAllThatFewerFind) {
+  std::mt19937 random(7);
+  GreyImage image(161, 123, 5);
+  fillDots(image, {9, 120, 6, 127}, random, 0, image.width());
+  Positions fewer;
+  std::vector<std::size_t> counts;
+  for (int passes = 1; passes <= 16; ++passes) {
+    const Positions more =
+        positions(detect(unlimited(GetParam(), passes, Suppression::kLocalClimb), image));
+    EXPECT_TRUE(std::includes(more.begin(), more.end(), fewer.begin(), fewer.end())) << passes;
+    fewer = more;
+    counts.push_back(more.size());
+  }
+  EXPECT_LT(counts.front(), counts[7]);
+  EXPECT_LT(counts[7], counts.back());
+}
+
+TEST_P(Suppressions, FourPassesFindTheMaximumOfEvery2x2Block) {
+  int blocks = 0;
+  for (const unsigned seed : testSeeds()) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    for (const GreyImage& image : variedImages(seed)) {
+      const ScoreOracle scores(image, GetParam());
+      const Positions corners = scores.corners(kThreshold);
+      const Positions found =
+          positions(detect(unlimited(GetParam(), 4, Suppression::kLocalClimb), image));
+      for (const Position& p : corners) {
+        const Position block[4] = {
+            p, {p.y_px, p.x_px + 1}, {p.y_px + 1, p.x_px}, {p.y_px + 1, p.x_px + 1}};
+        bool whole = true;
+        bool any_found = false;
+        for (const Position& q : block) {
+          whole = whole && corners.count(q) != 0;
+          any_found = any_found || (corners.count(q) != 0 && found.count(scores.climb(q)) != 0);
+        }
+        if (!whole) continue;
+        ++blocks;
+        EXPECT_TRUE(any_found) << p.x_px << ", " << p.y_px;
+      }
+    }
+  }
+  EXPECT_GT(blocks, 100)
+      << "the images have too few blocks of corners for this test to mean anything";
+}
+
+/// Thresholds that differ from cell to cell: the definition holds with each pixel's own threshold,
+/// also where clusters lie across the border of two cells.
+TEST_P(Suppressions, HoldWithTheThresholdOfEachCell) {
+  for (const unsigned seed : testSeeds()) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    CornerDetectorConfig config = unlimited(GetParam(), 16, Suppression::kLocalClimb);
+    config.adapt_threshold = true;
+    config.features_per_frame = 40;
+    config.cell_size_px = 16;
+    CornerDetector detector(config);
+    CornerCells cells;
+    CornerThresholds thresholds;
+    GreyImage image(80, 48, 3);
+    cells.reset(image.width(), image.height(), config.cell_size_px);
+    thresholds.reset(config, cells.count());
+    int different = 0;
+    for (int frame = 0; frame < 6; ++frame) {
+      fillBlocks(image, {2, 256, 255, 20}, random, 0, 40);
+      fillBlocks(image, {2, 256, 120, 5}, random, 40, 80);
+      const ScoreOracle scores(image, GetParam());
+      std::vector<Corner> all;
+      std::vector<Corner> expected;
+      for (const Position& p : scores.climb(scores.corners(1))) {
+        if (scores.at(p) < thresholds.at(cells.cellAt(p.x_px, p.y_px))) continue;
+        all.push_back({static_cast<std::int16_t>(p.x_px), static_cast<std::int16_t>(p.y_px),
+                       static_cast<std::uint8_t>(scores.at(p))});
+      }
+      CornersByCell by_cell;
+      by_cell.group(all, cells);
+      by_cell.select(config.features_per_frame, expected);
+      std::vector<Corner> corners;
+      detector.detect(image.view(), corners);
+      expectEqual(corners, positions(expected), scores);
+      if (HasFatalFailure()) return;
+      thresholds.adapt(by_cell);
+      for (int cell = 1; cell < cells.count(); ++cell)
+        different += thresholds.at(cell) != thresholds.at(cell - 1);
+    }
+    EXPECT_GT(different, 10);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Arcs, Suppressions, testing::Values(9, 10, 11, 12));
+
+TEST(SamplingRaster, TestsEachPixelOfABlockOnce) {
+  for (int y = 0; y < 8; ++y) {
+    for (int passes = 1; passes <= 16; ++passes) {
+      for (int x = 0; x < 4; ++x) {
+        const bool tested = ((sampledColumns(y, passes) >> x) & 1U) != 0;
+        EXPECT_EQ(tested, kPassOfPixel[y % 4][x] <= passes)
+            << x << ", " << y << " passes " << passes;
+      }
+    }
+  }
+}
+
+TEST(SamplingRaster, EightPassesMakeACheckerboard) {
+  for (int y = 0; y < 4; ++y) EXPECT_EQ(sampledColumns(y, 8), y % 2 == 0 ? 0x5U : 0xAU);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam::test
