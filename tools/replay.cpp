@@ -5,14 +5,17 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <future>
 #include <iostream>
 
 #include "config_path.hpp"
 #include "offline_run.hpp"
-#include "open_input.hpp"
 #include "progress_line.hpp"
 #include "run_report.hpp"
+#ifdef ARDRONE_VSLAM_WITH_ROS
+#include "bag_sequence.hpp"
+#endif
 
 namespace {
 
@@ -31,7 +34,9 @@ struct Options {
   std::string frames;
   bool ping_pong = false;
   int threads = 2;
-  BagTopics topics;
+  std::string image_topic;
+  std::string odometry_topic;
+  std::string truth_topic;
 };
 
 void addOptions(CLI::App& app, Options& o) {
@@ -53,9 +58,25 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
   app.add_option("--threads", o.threads, "2: decode ahead; results do not depend on it")
       ->check(CLI::Range(1, 256));
-  app.add_option("--image-topic", o.topics.image, "of a bag; default: the only one there is");
-  app.add_option("--odometry-topic", o.topics.odometry, "of a bag; default: the only one there is");
-  app.add_option("--truth-topic", o.topics.truth, "of a bag; default: the only one there is");
+  app.add_option("--image-topic", o.image_topic, "of a bag; default: the only one there is");
+  app.add_option("--odometry-topic", o.odometry_topic, "of a bag; default: the only one there is");
+  app.add_option("--truth-topic", o.truth_topic, "of a bag; default: the only one there is");
+}
+
+std::unique_ptr<Sequence> openInput(const Options& o) {
+  if (std::filesystem::is_directory(o.input)) return openFolder(o.input);
+#ifdef ARDRONE_VSLAM_WITH_ROS
+  BagReadOptions options;
+  options.image_topic = o.image_topic;
+  options.odometry_topic = o.odometry_topic;
+  options.truth_topic = o.truth_topic;
+  auto bag = openBag(o.input, options);
+  for (const std::string& warning : bag->warnings()) std::cerr << "replay: " << warning << '\n';
+  return bag;
+#else
+  throw std::runtime_error(
+      o.input + ": is no folder, and this replay was built without ROS, so it reads no bags");
+#endif
 }
 
 std::vector<std::uint64_t> seedsOf(const Options& o) {
@@ -90,7 +111,7 @@ Observers observersOf(const Sequence& sequence, const Options& o) {
           ": --seeds needs --observer-profile: the recorded odometry has no seed");
     }
     observers.profile = "recorded";
-    observers.runs.push_back({sequence.observer(), recordedScaleError(sequence)});
+    observers.runs.push_back({sequence.observer(), sequence.observerScaleError()});
     return observers;
   }
   observers.profile = o.observer_profile.empty() ? "wheel" : o.observer_profile;
@@ -161,8 +182,7 @@ int run(const Options& o) {
   std::vector<std::string> overrides = o.overrides;
   if (!o.estimator.empty()) overrides.push_back("mapper/estimator=" + o.estimator);
   const PipelineConfig config = loadConfig(o.config, overrides);
-  const auto sequence =
-      select(openInput(o.input, o.topics), FrameSelection::parse(o.frames, o.ping_pong));
+  const auto sequence = select(openInput(o), FrameSelection::parse(o.frames, o.ping_pong));
   const Observers observers = observersOf(*sequence, o);
   const std::vector<RunResult> results = runAll(*sequence, config, observers, o.threads);
 

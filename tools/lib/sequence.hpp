@@ -34,6 +34,8 @@ class Sequence {
   virtual const Trajectory& truth() const = 0;
   /// The recorded observer; empty when there is none.
   virtual const std::vector<ObserverState>& observer() const = 0;
+  /// The scale error that was drawn when the recorded observer was simulated; 0 when unknown.
+  virtual double observerScaleError() const { return 0; }
 };
 
 /// T_base_cam of a forward camera with optical axes (x right, y down, z forward) at the base:
