@@ -15,6 +15,7 @@
 #include "run_report.hpp"
 #ifdef ARDRONE_VSLAM_WITH_ROS
 #include "bag_sequence.hpp"
+#include "camera_yaml.hpp"
 #endif
 
 namespace {
@@ -34,9 +35,10 @@ struct Options {
   std::string frames;
   bool ping_pong = false;
   int threads = 2;
-  std::string image_topic;
-  std::string odometry_topic;
-  std::string truth_topic;
+#ifdef ARDRONE_VSLAM_WITH_ROS
+  BagReadOptions bag;
+  std::string camera_yaml;
+#endif
 };
 
 void addOptions(CLI::App& app, Options& o) {
@@ -58,18 +60,25 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
   app.add_option("--threads", o.threads, "2: decode ahead; results do not depend on it")
       ->check(CLI::Range(1, 256));
-  app.add_option("--image-topic", o.image_topic, "of a bag; default: the only one there is");
-  app.add_option("--odometry-topic", o.odometry_topic, "of a bag; default: the only one there is");
-  app.add_option("--truth-topic", o.truth_topic, "of a bag; default: the only one there is");
+#ifdef ARDRONE_VSLAM_WITH_ROS
+  app.add_option("--image-topic", o.bag.image_topic, "of a bag; default: the only one there is");
+  app.add_option("--camera-info-topic", o.bag.camera_info_topic,
+                 "of a bag; default: beside the images");
+  app.add_option("--odometry-topic", o.bag.odometry_topic,
+                 "of a bag; default: the only one there is");
+  app.add_option("--truth-topic", o.bag.truth_topic, "of a bag; default: the one called truth");
+  app.add_option("--camera-frame", o.bag.camera_frame, "of a bag; default: the images' frame_id");
+  app.add_option("--base-frame", o.bag.base_frame,
+                 "of a bag; default: the odometry's child_frame_id");
+  app.add_option("--camera", o.camera_yaml, "calibration to use instead of a bag's camera_info");
+#endif
 }
 
 std::unique_ptr<Sequence> openInput(const Options& o) {
   if (std::filesystem::is_directory(o.input)) return openFolder(o.input);
 #ifdef ARDRONE_VSLAM_WITH_ROS
-  BagReadOptions options;
-  options.image_topic = o.image_topic;
-  options.odometry_topic = o.odometry_topic;
-  options.truth_topic = o.truth_topic;
+  BagReadOptions options = o.bag;
+  if (!o.camera_yaml.empty()) options.camera = readCameraYaml(o.camera_yaml);
   auto bag = openBag(o.input, options);
   for (const std::string& warning : bag->warnings()) std::cerr << "replay: " << warning << '\n';
   return bag;

@@ -4,6 +4,8 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <std_msgs/String.h>
+#include <yaml-cpp/yaml.h>
 
 #include <filesystem>
 #include <stdexcept>
@@ -13,6 +15,7 @@
 #include "bag_messages.hpp"
 #include "bag_poses.hpp"
 #include "bag_topics.hpp"
+#include "bag_writer.hpp"
 #include "camera_info.hpp"
 
 namespace ardrone_vslam {
@@ -64,6 +67,18 @@ CameraIntrinsics readCameraInfo(const rosbag::Bag& bag, const std::string& topic
   return *camera;
 }
 
+/// Of the simulated observer, from the note that make_bag and make_world leave; 0 without one.
+double readScaleError(const rosbag::Bag& bag) {
+  rosbag::View view(bag, rosbag::TopicQuery(BagTopicNames().info));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto message = instance.instantiate<std_msgs::String>();
+    if (!message) continue;
+    const YAML::Node scale_error = YAML::Load(message->data)["scale_error"];
+    if (scale_error) return scale_error.as<double>();
+  }
+  return 0;
+}
+
 class BagFile : public BagSequence {
  public:
   BagFile(const std::string& path, const BagReadOptions& options) : name_(path) {
@@ -80,6 +95,7 @@ class BagFile : public BagSequence {
     T_base_cam_ =
         options.T_base_cam ? *options.T_base_cam : readExtrinsics(bag_, base, withoutSlash(camera));
     observer_ = std::move(odometry.states);
+    scale_error_ = readScaleError(bag_);
   }
 
   std::string name() const override { return name_; }
@@ -96,6 +112,7 @@ class BagFile : public BagSequence {
   Eigen::Isometry3d T_base_cam() const override { return T_base_cam_; }
   const Trajectory& truth() const override { return truth_; }
   const std::vector<ObserverState>& observer() const override { return observer_; }
+  double observerScaleError() const override { return scale_error_; }
   const std::vector<std::string>& warnings() const override { return warnings_; }
 
  private:
@@ -106,6 +123,7 @@ class BagFile : public BagSequence {
   Eigen::Isometry3d T_base_cam_;
   Trajectory truth_;
   std::vector<ObserverState> observer_;
+  double scale_error_ = 0;
   std::vector<std::string> warnings_;
 };
 
