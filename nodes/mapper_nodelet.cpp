@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapper_nodelet.hpp"
+
+#include <ros/steady_timer.h>
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "frame_names.hpp"
+#include "params.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr double kWarningPeriod_s = 5.0;
+constexpr double kTick_s = 0.05;                // how late the end of a wait may be noticed
+constexpr std::uint32_t kOdometryQueue = 2000;  // 10 s at 200 Hz, while the mapper is busy
+
+double now_s() {
+  return ros::SteadyTime::now().toSec();
+}
+
+}  // namespace
+
+void MapperNodelet::onInit() {
+  readParameters();
+  ros::NodeHandle& nh = getNodeHandle();
+  frames_.map = withTfPrefix(tf_prefix_, node_config_.map_frame);
+  outputs_ = std::make_unique<MapperOutputs>(nh, node_config_);
+  status_pub_ = nh.advertise<Status>("status", 100);
+  tf_buffer_ = std::make_unique<tf2_ros::Buffer>(ros::Duration(10.0), false);
+  tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_, nh);
+  diagnostics_ =
+      std::make_unique<diagnostic_updater::Updater>(nh, getPrivateNodeHandle(), getName());
+  diagnostics_->setHardwareID("none");
+  diagnostics_->add("mapper", this, &MapperNodelet::diagnose);
+  const auto every = [&nh](double period_s, auto action) {
+    return nh.createWallTimer(ros::WallDuration(period_s),
+                              [action](const ros::WallTimerEvent&) { action(); });
+  };
+  tick_timer_ = every(kTick_s, [this] { onTick(); });
+  second_timer_ = every(1.0, [this] { onSecond(); });
+  map_timer_ = every(1.0 / node_config_.map_publish_hz, [this] {
+    if (slam_) outputs_->publishMap(slam_->landmarks(), frames_.map);
+  });
+  odometry_sub_ = nh.subscribe("odometry", kOdometryQueue, &MapperNodelet::onOdometry, this,
+                               ros::TransportHints().tcpNoDelay());
+  features_sub_ = nh.subscribe("features", static_cast<std::uint32_t>(node_config_.queue_size),
+                               &MapperNodelet::onFeatures, this);
+}
+
+void MapperNodelet::readParameters() {
+  ObserverBufferConfig buffer_config;
+  ParamReader reader(getPrivateNodeHandle());
+  reader.read(node_config_);
+  reader.read(buffer_config);
+  reader.read(config_);
+  for (const auto& sentence : reader.unknownKeys()) NODELET_WARN_STREAM(sentence);
+  try {
+    reader.finish();
+    // Some faults lie between parameters: tell them now, not in mid-air.
+    Slam(config_, Eigen::Isometry3d::Identity());
+    matcher_ = std::make_unique<FrameMatcher>(buffer_config, node_config_.odometry_wait_s);
+  } catch (const ConfigError& e) {
+    NODELET_FATAL_STREAM(getName() << ": " << e.what());
+    throw;
+  }
+  std::string key;
+  if (getPrivateNodeHandle().searchParam("tf_prefix", key)) {
+    getPrivateNodeHandle().getParam(key, tf_prefix_);
+  }
+  NODELET_INFO_STREAM("ardrone_vslam " ARDRONE_VSLAM_VERSION " mapper: "
+                      << reader.summary()
+                      << (tf_prefix_.empty() ? "" : " tf_prefix=" + tf_prefix_));
+}
+
+void MapperNodelet::onFeatures(const ImageFeaturesConstPtr& features) {
+  has_features_ = true;
+  totals_.images_dropped = features->images_dropped;
+  if (!acceptFeatures(*features)) return;
+  const bool is_other_camera =
+      features->header.frame_id != camera_frame_ || features->width != camera_width_px_;
+  if (is_other_camera) {
+    if (slam_)
+      restart("the camera changed from " + camera_frame_ + " to " + features->header.frame_id);
+    camera_frame_ = features->header.frame_id;
+    camera_width_px_ = features->width;
+  }
+  matcher_->addFeatures(features, now_s());
+  processReady();
+}
+
+bool MapperNodelet::acceptFeatures(const ImageFeatures& features) {
+  const std::string fault = faultOf(features);
+  if (!fault.empty()) {
+    ++totals_.dropped_bad_message;
+    NODELET_WARN_STREAM_THROTTLE(kWarningPeriod_s,
+                                 "features dropped: " << features_sub_.getTopic() << ": " << fault);
+    return false;
+  }
+  switch (stamps_.check(toNanoseconds(features.header.stamp))) {
+    case StampGuard::Answer::kNotAfter:
+      ++totals_.dropped_stamp;
+      NODELET_WARN_STREAM_THROTTLE(
+          kWarningPeriod_s,
+          "features dropped: " << features_sub_.getTopic() << ": stamps must ascend");
+      return false;
+    case StampGuard::Answer::kRestart:
+      restart("stamps on " + features_sub_.getTopic() + " jumped back (a bag plays again?)");
+      return true;
+    case StampGuard::Answer::kAscending:
+      return true;
+  }
+  return true;
+}
+
+void MapperNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
+  const auto checked = toObserverState(*odometry);
+  std::string fault = checked.fault;
+  if (checked.value) {
+    const std::int64_t back_ns = matcher_->newestObserver_ns() - checked.value->stamp_ns;
+    if (back_ns >= StampGuard::kRestart_ns) {
+      restart("stamps on " + odometry_sub_.getTopic() + " jumped back (a bag plays again?)");
+    }
+    switch (matcher_->addObserver(*checked.value)) {
+      case ObserverBuffer::Push::kAccepted:
+        takeFrameNames(*odometry);
+        twist_ = odometry->twist;
+        return processReady();
+      case ObserverBuffer::Push::kNotFinite:
+        fault = "it is not finite";
+        break;
+      case ObserverBuffer::Push::kDuplicateStamp:
+        fault = "its stamp is that of the message before";
+        break;
+      case ObserverBuffer::Push::kBackwardStamp:
+        fault = "its stamp is before that of the message before; stamps must ascend";
+        break;
+    }
+  }
+  ++totals_.odometry_refused;
+  NODELET_WARN_STREAM_THROTTLE(kWarningPeriod_s, "odometry refused ("
+                                                     << totals_.odometry_refused << " so far): "
+                                                     << odometry_sub_.getTopic() << ": " << fault);
+}
+
+void MapperNodelet::takeFrameNames(const nav_msgs::Odometry& odometry) {
+  const auto chosen = [](const std::string& parameter, const std::string& header) -> const auto& {
+    return parameter.empty() ? header : parameter;
+  };
+  frames_.odom =
+      withTfPrefix(tf_prefix_, chosen(node_config_.odom_frame, odometry.header.frame_id));
+  frames_.base = withTfPrefix(tf_prefix_, chosen(node_config_.base_frame, odometry.child_frame_id));
+}
+
+void MapperNodelet::onTick() {
+  processReady();
+}
+
+void MapperNodelet::processReady() {
+  while (const auto frame = matcher_->next(now_s(), !prepareSlam())) processFrame(*frame);
+  totals_.dropped_no_odometry = matcher_->droppedNoOdometry();
+  totals_.dropped_no_extrinsics = matcher_->droppedHeld();
+}
+
+bool MapperNodelet::prepareSlam() {
+  if (slam_) return true;
+  if (camera_frame_.empty() || matcher_->newestObserver_ns() == 0) return false;
+  if (frames_.odom.empty() || frames_.base.empty()) {
+    extrinsics_fault_ = odometry_sub_.getTopic() + " names no " +
+                        (frames_.odom.empty() ? "frame_id; set the parameter odom_frame"
+                                              : "child_frame_id; set the parameter base_frame");
+    return false;
+  }
+  const std::string camera = withTfPrefix(tf_prefix_, camera_frame_);
+  try {
+    // The latest one: the mounting is rigid, and drivers stamp it later than the image.
+    const auto found = tf_buffer_->lookupTransform(frames_.base, camera, ros::Time(0)).transform;
+    Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
+    T_base_cam.translation() << found.translation.x, found.translation.y, found.translation.z;
+    T_base_cam.linear() =
+        Eigen::Quaterniond(found.rotation.w, found.rotation.x, found.rotation.y, found.rotation.z)
+            .normalized()
+            .toRotationMatrix();
+    slam_ = std::make_unique<Slam>(config_, T_base_cam);
+    NODELET_INFO_STREAM("frames: " << frames_.map << " -> " << frames_.odom << " -> "
+                                   << frames_.base << " -> " << camera << ", camera at ("
+                                   << T_base_cam.translation().transpose() << ") m");
+    extrinsics_fault_.clear();
+    return true;
+  } catch (const tf2::TransformException& e) {
+    extrinsics_fault_ = "no transform from " + frames_.base + " to " + camera + " (" + e.what() +
+                        "): publish the camera's mounting, for example by `rosrun tf2_ros "
+                        "static_transform_publisher x y z yaw pitch roll " +
+                        frames_.base + " " + camera + "`";
+    return false;
+  }
+}
+
+void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
+  toFeatures(*frame.features, features_);
+  const FrameResult& result = slam_->process(features_, frame.observer, stage_timer_.hook());
+  ++totals_.images;
+  has_answer_ = true;
+  outputs_->publishFrame(result, slam_->T_map_odom(), frames_, twist_);
+  publishStatus(result, *frame.features);
+}
+
+void MapperNodelet::restart(const std::string& why) {
+  NODELET_WARN_STREAM(why << ": the map begins anew");
+  ++totals_.restarts;
+  matcher_->clear();
+  slam_.reset();
+  outputs_->clear();
+}
+
+}  // namespace ardrone_vslam
+
+PLUGINLIB_EXPORT_CLASS(ardrone_vslam::MapperNodelet, nodelet::Nodelet)

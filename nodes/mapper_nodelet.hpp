@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <nodelet/nodelet.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <memory>
+
+#include "ardrone_vslam/slam.hpp"
+#include "conversions.hpp"
+#include "frame_matcher.hpp"
+#include "mapper_outputs.hpp"
+#include "node_config.hpp"
+#include "stage_timer.hpp"
+#include "stamp_guard.hpp"
+
+namespace ardrone_vslam {
+
+/// Features and odometry in, fused pose and map out. All callbacks run in the nodelet's
+/// single-threaded queue, so nothing here is locked; only tf's listener has a thread of its own.
+class MapperNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override;
+  void readParameters();
+
+  void onFeatures(const ImageFeaturesConstPtr& features);
+  void onOdometry(const nav_msgs::OdometryConstPtr& odometry);
+  void onTick();
+  void onSecond();
+
+  bool acceptFeatures(const ImageFeatures& features);
+  void takeFrameNames(const nav_msgs::Odometry& odometry);
+  /// Works on every image whose odometry has come.
+  void processReady();
+  void processFrame(const FrameMatcher::Frame& frame);
+  /// Makes the Slam once the camera's mounting is known. @return false while it is not
+  bool prepareSlam();
+  void restart(const std::string& why);
+
+  void publishStatus(const FrameResult& result, const ImageFeatures& features);
+  void publishWaiting();
+  void fillTotals(Status& status) const;
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper);
+
+  MapperNodeConfig node_config_;
+  SlamConfig config_;
+  std::string tf_prefix_;
+
+  ros::Subscriber features_sub_;
+  ros::Subscriber odometry_sub_;
+  ros::Publisher status_pub_;
+  ros::WallTimer tick_timer_;
+  ros::WallTimer map_timer_;
+  ros::WallTimer second_timer_;
+  std::unique_ptr<tf2_ros::Buffer> tf_buffer_;
+  std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
+  std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
+  std::unique_ptr<MapperOutputs> outputs_;
+
+  std::unique_ptr<FrameMatcher> matcher_;
+  std::unique_ptr<Slam> slam_;
+  StampGuard stamps_;
+  StageTimer stage_timer_;
+  Features features_;         // of the image at work; kept for its memory
+  Frames frames_;             // odom and base are empty until the first odometry
+  std::string camera_frame_;  // of the newest features
+  std::uint32_t camera_width_px_ = 0;
+  std::string extrinsics_fault_;              // what tf says while the mounting is unknown
+  geometry_msgs::TwistWithCovariance twist_;  // of the newest odometry
+
+  Status totals_;              // its counters only
+  Status latest_;              // as published last
+  bool has_features_ = false;  // within this second
+  bool has_answer_ = false;
+};
+
+}  // namespace ardrone_vslam
