@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapper_nodelet.hpp"
 
-#include <ros/steady_timer.h>
-
 #include <pluginlib/class_list_macros.hpp>
 
 #include "frame_names.hpp"
@@ -11,7 +9,6 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kWarningPeriod_s = 5.0;
 constexpr double kTick_s = 0.05;                // how late the end of a wait may be noticed
 constexpr std::uint32_t kOdometryQueue = 2000;  // 10 s at 200 Hz, while the mapper is busy
 
@@ -37,7 +34,7 @@ void MapperNodelet::onInit() {
     return nh.createWallTimer(ros::WallDuration(period_s),
                               [action](const ros::WallTimerEvent&) { action(); });
   };
-  tick_timer_ = every(kTick_s, [this] { onTick(); });
+  tick_timer_ = every(kTick_s, [this] { processReady(); });
   second_timer_ = every(1.0, [this] { onSecond(); });
   map_timer_ = every(1.0 / node_config_.map_publish_hz, [this] {
     if (slam_) outputs_->publishMap(slam_->landmarks(), frames_.map);
@@ -49,17 +46,15 @@ void MapperNodelet::onInit() {
 }
 
 void MapperNodelet::readParameters() {
-  ObserverBufferConfig buffer_config;
   ParamReader reader(getPrivateNodeHandle());
   reader.read(node_config_);
-  reader.read(buffer_config);
   reader.read(config_);
   for (const auto& sentence : reader.unknownKeys()) NODELET_WARN_STREAM(sentence);
   try {
     reader.finish();
     // Some faults lie between parameters: tell them now, not in mid-air.
     Slam(config_, Eigen::Isometry3d::Identity());
-    matcher_ = std::make_unique<FrameMatcher>(buffer_config, node_config_.odometry_wait_s);
+    matcher_ = std::make_unique<FrameMatcher>(config_.observer, node_config_.odometry_wait_s);
   } catch (const ConfigError& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;
@@ -93,16 +88,13 @@ bool MapperNodelet::acceptFeatures(const ImageFeatures& features) {
   const std::string fault = faultOf(features);
   if (!fault.empty()) {
     ++totals_.dropped_bad_message;
-    NODELET_WARN_STREAM_THROTTLE(kWarningPeriod_s,
-                                 "features dropped: " << features_sub_.getTopic() << ": " << fault);
+    warn(features_sub_.getTopic(), fault);
     return false;
   }
   switch (stamps_.check(toNanoseconds(features.header.stamp))) {
     case StampGuard::Answer::kNotAfter:
       ++totals_.dropped_stamp;
-      NODELET_WARN_STREAM_THROTTLE(
-          kWarningPeriod_s,
-          "features dropped: " << features_sub_.getTopic() << ": stamps must ascend");
+      warn(features_sub_.getTopic(), "its stamp is not after the one before; stamps must ascend");
       return false;
     case StampGuard::Answer::kRestart:
       restart("stamps on " + features_sub_.getTopic() + " jumped back (a bag plays again?)");
@@ -138,9 +130,7 @@ void MapperNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
     }
   }
   ++totals_.odometry_refused;
-  NODELET_WARN_STREAM_THROTTLE(kWarningPeriod_s, "odometry refused ("
-                                                     << totals_.odometry_refused << " so far): "
-                                                     << odometry_sub_.getTopic() << ": " << fault);
+  warn(odometry_sub_.getTopic(), fault);
 }
 
 void MapperNodelet::takeFrameNames(const nav_msgs::Odometry& odometry) {
@@ -150,10 +140,6 @@ void MapperNodelet::takeFrameNames(const nav_msgs::Odometry& odometry) {
   frames_.odom =
       withTfPrefix(tf_prefix_, chosen(node_config_.odom_frame, odometry.header.frame_id));
   frames_.base = withTfPrefix(tf_prefix_, chosen(node_config_.base_frame, odometry.child_frame_id));
-}
-
-void MapperNodelet::onTick() {
-  processReady();
 }
 
 void MapperNodelet::processReady() {
@@ -198,7 +184,7 @@ bool MapperNodelet::prepareSlam() {
 
 void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   toFeatures(*frame.features, features_);
-  const FrameResult& result = slam_->process(features_, frame.observer, stage_timer_.hook());
+  const FrameResult& result = slam_->process(features_, frame.observer, stage_clock_.hook());
   ++totals_.images;
   has_answer_ = true;
   outputs_->publishFrame(result, slam_->T_map_odom(), frames_, twist_);

@@ -12,8 +12,9 @@
 #include "frame_matcher.hpp"
 #include "mapper_outputs.hpp"
 #include "node_config.hpp"
-#include "stage_timer.hpp"
+#include "stage_clock.hpp"
 #include "stamp_guard.hpp"
+#include "warning_limiter.hpp"
 
 namespace ardrone_vslam {
 
@@ -26,7 +27,6 @@ class MapperNodelet : public nodelet::Nodelet {
 
   void onFeatures(const ImageFeaturesConstPtr& features);
   void onOdometry(const nav_msgs::OdometryConstPtr& odometry);
-  void onTick();
   void onSecond();
 
   bool acceptFeatures(const ImageFeatures& features);
@@ -38,6 +38,8 @@ class MapperNodelet : public nodelet::Nodelet {
   bool prepareSlam();
   void restart(const std::string& why);
 
+  /// A warning of a message that is not used, unless the same has just been said.
+  void warn(const std::string& topic, const std::string& fault);
   void publishStatus(const FrameResult& result, const ImageFeatures& features);
   void publishWaiting();
   void fillTotals(Status& status) const;
@@ -61,7 +63,7 @@ class MapperNodelet : public nodelet::Nodelet {
   std::unique_ptr<FrameMatcher> matcher_;
   std::unique_ptr<Slam> slam_;
   StampGuard stamps_;
-  StageTimer stage_timer_;
+  StageClock stage_clock_;
   Features features_;         // of the image at work; kept for its memory
   Frames frames_;             // odom and base are empty until the first odometry
   std::string camera_frame_;  // of the newest features
@@ -69,8 +71,10 @@ class MapperNodelet : public nodelet::Nodelet {
   std::string extrinsics_fault_;              // what tf says while the mounting is unknown
   geometry_msgs::TwistWithCovariance twist_;  // of the newest odometry
 
-  Status totals_;              // its counters only
-  Status latest_;              // as published last
+  Status totals_;  // its counters only
+  Status latest_;  // as published last
+  WarningLimiter limiter_;
+  int seconds_waiting_ = 0;
   bool has_features_ = false;  // within this second
   bool has_answer_ = false;
 };

@@ -5,10 +5,15 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kWarningPeriod_s = 5.0;
+constexpr int kPatience_s = 3;  // drivers need their time to start
 constexpr std::size_t kTrackerStages = 3;
 
 }  // namespace
+
+void MapperNodelet::warn(const std::string& topic, const std::string& fault) {
+  const std::string sentence = topic + ": message not used: " + fault;
+  if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
+}
 
 void MapperNodelet::publishStatus(const FrameResult& result, const ImageFeatures& features) {
   Status status;
@@ -17,7 +22,7 @@ void MapperNodelet::publishStatus(const FrameResult& result, const ImageFeatures
     status.stage.emplace_back(kStageNames[i]);
     status.stage_time.push_back(
         i < kTrackerStages ? features.stage_time[i]
-                           : static_cast<float>(stage_timer_.milliseconds(static_cast<Stage>(i))));
+                           : static_cast<float>(stage_clock_.milliseconds(static_cast<Stage>(i))));
   }
   fillTotals(status);
   status_pub_.publish(status);
@@ -43,7 +48,10 @@ void MapperNodelet::publishWaiting() {
     status.state_name = "waiting_for_odometry";
     status.reason = explain(matcher_->lastMiss(), odometry_sub_.getTopic());
   }
-  NODELET_WARN_STREAM_THROTTLE(kWarningPeriod_s, status.state_name << ": " << status.reason);
+  if (++seconds_waiting_ >= kPatience_s &&
+      limiter_.allows(status.reason, ros::SteadyTime::now().toSec())) {
+    NODELET_WARN_STREAM(status.state_name << ": " << status.reason);
+  }
   if (slam_) status.landmarks = static_cast<std::uint32_t>(slam_->landmarks().size());
   fillTotals(status);
   status_pub_.publish(status);
@@ -62,7 +70,11 @@ void MapperNodelet::fillTotals(Status& status) const {
 }
 
 void MapperNodelet::onSecond() {
-  if (!has_answer_) publishWaiting();
+  if (has_answer_) {
+    seconds_waiting_ = 0;
+  } else {
+    publishWaiting();
+  }
   has_features_ = false;
   has_answer_ = false;
   diagnostics_->force_update();

@@ -73,4 +73,16 @@ void visitParameters(MapperNodeConfig& c, Visitor&& visit) {
         c.queue_size);
 }
 
+struct PathNodeConfig {
+  int max_poses = 100000;
+  double publish_hz = 2.0;
+};
+
+template <class Visitor>
+void visitParameters(PathNodeConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"max_poses", "poses", 1, 10000000, "the path begins anew beyond it"},
+        c.max_poses);
+  visit(ParameterInfo{"publish_hz", "Hz", 0.01, 100.0, "largest rate of the path"}, c.publish_hz);
+}
+
 }  // namespace ardrone_vslam

@@ -16,7 +16,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kWarningPeriod_s = 5.0;
+constexpr int kPatience_s = 3;  // cameras need their time to start
 
 }  // namespace
 
@@ -100,7 +100,7 @@ void TrackerNodelet::onImage(const boost::shared_ptr<const Message>& message,
   if (!image.fault.empty()) return drop(image_topic_, image.fault);
   if (!prepareTracker(*info, message->header.frame_id, image)) return;
   tracker_->process(image.view(), toNanoseconds(message->header.stamp), features_,
-                    stage_timer_.hook());
+                    stage_clock_.hook());
   publish(image, message->header);
 }
 
@@ -166,7 +166,7 @@ void TrackerNodelet::publish(const GreyImage& image, const std_msgs::Header& hea
   toMessage(features_, camera_frame_, *message);
   message->header.stamp = header.stamp;
   for (std::size_t i = 0; i < message->stage_time.size(); ++i) {
-    message->stage_time[i] = static_cast<float>(stage_timer_.milliseconds(static_cast<Stage>(i)));
+    message->stage_time[i] = static_cast<float>(stage_clock_.milliseconds(static_cast<Stage>(i)));
   }
   message->images_dropped = dropped_;
   features_pub_.publish(ImageFeaturesConstPtr(message));  // to const: no copy within the manager
@@ -181,8 +181,9 @@ void TrackerNodelet::publish(const GreyImage& image, const std_msgs::Header& hea
 void TrackerNodelet::drop(const std::string& topic, const std::string& fault) {
   ++dropped_;
   fault_ = topic + ": " + fault;
-  NODELET_WARN_STREAM_THROTTLE(kWarningPeriod_s,
-                               "image dropped (" << dropped_ << " so far): " << fault_);
+  if (limiter_.allows(fault_, ros::SteadyTime::now().toSec())) {
+    NODELET_WARN_STREAM("image dropped (" << dropped_ << " so far): " << fault_);
+  }
 }
 
 void TrackerNodelet::onSecond() {
@@ -201,7 +202,11 @@ void TrackerNodelet::onSecond() {
     waiting_for_ = "images on " + image_topic_ + " and camera_info on " + info_topic_ +
                    " have no stamps in common: the driver must give both the same stamp";
   }
-  if (!waiting_for_.empty()) NODELET_WARN_STREAM_THROTTLE(kWarningPeriod_s, waiting_for_);
+  seconds_waiting_ = waiting_for_.empty() ? 0 : seconds_waiting_ + 1;
+  if (seconds_waiting_ >= kPatience_s &&
+      limiter_.allows(waiting_for_, ros::SteadyTime::now().toSec())) {
+    NODELET_WARN_STREAM(waiting_for_);
+  }
   diagnostics_->force_update();
   processed_before_ = processed_;
   dropped_before_ = dropped_;

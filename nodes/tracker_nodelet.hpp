@@ -14,8 +14,9 @@
 #include "ardrone_vslam/tracker.hpp"
 #include "image_input.hpp"
 #include "node_config.hpp"
-#include "stage_timer.hpp"
+#include "stage_clock.hpp"
 #include "stamp_guard.hpp"
+#include "warning_limiter.hpp"
 
 namespace ardrone_vslam {
 
@@ -62,7 +63,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   std::string camera_frame_;
   Features features_;
   StampGuard stamps_;
-  StageTimer stage_timer_;
+  StageClock stage_clock_;
 
   std::string image_topic_;
   std::string info_topic_;
@@ -77,6 +78,8 @@ class TrackerNodelet : public nodelet::Nodelet {
   std::uint64_t images_before_ = 0;
   std::uint64_t infos_before_ = 0;
   double rate_hz_ = 0;
+  int seconds_waiting_ = 0;
+  WarningLimiter limiter_;
   std::string waiting_for_;  // what is missing this second, in words
 };
 

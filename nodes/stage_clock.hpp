@@ -10,7 +10,7 @@ namespace ardrone_vslam {
 
 /// Measures what each stage of one frame takes. The core reads no clock: it tells a hook which
 /// stage begins.
-class StageTimer {
+class StageClock {
  public:
   /// @return a hook that refers to this timer; forgets the frame before
   StageHook hook() {
