@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frame_matcher.hpp"
 
+#include <algorithm>
+
 #include "conversions.hpp"
 
 namespace ardrone_vslam {
@@ -34,8 +36,20 @@ std::optional<FrameMatcher::Frame> FrameMatcher::next(double now_s, bool hold) {
   return std::nullopt;
 }
 
-void FrameMatcher::clear() {
-  buffer_.clear();
+bool FrameMatcher::forgetAfter(std::int64_t stamp_ns) {
+  const bool is_old_odometry = buffer_.newestStamp_ns() > stamp_ns;
+  if (is_old_odometry) buffer_.clear();
+  const std::size_t count = waiting_.size();
+  waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(),
+                                [stamp_ns](const Waiting& frame) {
+                                  return toNanoseconds(frame.features->header.stamp) > stamp_ns;
+                                }),
+                 waiting_.end());
+  dropped_no_odometry_ += count - waiting_.size();
+  return is_old_odometry || waiting_.size() < count;
+}
+
+void FrameMatcher::dropWaiting() {
   dropped_no_odometry_ += waiting_.size();
   waiting_.clear();
 }

@@ -31,8 +31,12 @@ class FrameMatcher {
   /// @param hold  do not take frames out yet (the mounting is unknown), only drop the late ones
   std::optional<Frame> next(double now_s, bool hold);
 
-  /// Forgets odometry and waiting frames: time began again.
-  void clear();
+  /// Time began again: forgets what belongs to the run before, that is odometry and waiting frames
+  /// with stamps after this one. @return whether there was any
+  bool forgetAfter(std::int64_t stamp_ns);
+
+  /// Drops all waiting frames.
+  void dropWaiting();
 
   std::uint64_t droppedNoOdometry() const { return dropped_no_odometry_; }
   std::uint64_t droppedHeld() const { return dropped_held_; }

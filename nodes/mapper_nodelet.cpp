@@ -24,8 +24,7 @@ void MapperNodelet::onInit() {
   frames_.map = withTfPrefix(tf_prefix_, node_config_.map_frame);
   outputs_ = std::make_unique<MapperOutputs>(nh, node_config_);
   status_pub_ = nh.advertise<Status>("status", 100);
-  tf_buffer_ = std::make_unique<tf2_ros::Buffer>(ros::Duration(10.0), false);
-  tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_, nh);
+  mounting_ = std::make_unique<Mounting>(nh);
   diagnostics_ =
       std::make_unique<diagnostic_updater::Updater>(nh, getPrivateNodeHandle(), getName());
   diagnostics_->setHardwareID("none");
@@ -75,8 +74,10 @@ void MapperNodelet::onFeatures(const ImageFeaturesConstPtr& features) {
   const bool is_other_camera =
       features->header.frame_id != camera_frame_ || features->width != camera_width_px_;
   if (is_other_camera) {
-    if (slam_)
-      restart("the camera changed from " + camera_frame_ + " to " + features->header.frame_id);
+    matcher_->dropWaiting();
+    if (slam_) {
+      beginMapAnew("the camera changed from " + camera_frame_ + " to " + features->header.frame_id);
+    }
     camera_frame_ = features->header.frame_id;
     camera_width_px_ = features->width;
   }
@@ -97,7 +98,7 @@ bool MapperNodelet::acceptFeatures(const ImageFeatures& features) {
       warn(features_sub_.getTopic(), "its stamp is not after the one before; stamps must ascend");
       return false;
     case StampGuard::Answer::kRestart:
-      restart("stamps on " + features_sub_.getTopic() + " jumped back (a bag plays again?)");
+      restartAt(toNanoseconds(features.header.stamp), features_sub_.getTopic());
       return true;
     case StampGuard::Answer::kAscending:
       return true;
@@ -111,7 +112,7 @@ void MapperNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
   if (checked.value) {
     const std::int64_t back_ns = matcher_->newestObserver_ns() - checked.value->stamp_ns;
     if (back_ns >= StampGuard::kRestart_ns) {
-      restart("stamps on " + odometry_sub_.getTopic() + " jumped back (a bag plays again?)");
+      restartAt(checked.value->stamp_ns, odometry_sub_.getTopic());
     }
     switch (matcher_->addObserver(*checked.value)) {
       case ObserverBuffer::Push::kAccepted:
@@ -158,43 +159,41 @@ bool MapperNodelet::prepareSlam() {
     return false;
   }
   const std::string camera = withTfPrefix(tf_prefix_, camera_frame_);
-  try {
-    // The latest one: the mounting is rigid, and drivers stamp it later than the image.
-    const auto found = tf_buffer_->lookupTransform(frames_.base, camera, ros::Time(0)).transform;
-    Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
-    T_base_cam.translation() << found.translation.x, found.translation.y, found.translation.z;
-    T_base_cam.linear() =
-        Eigen::Quaterniond(found.rotation.w, found.rotation.x, found.rotation.y, found.rotation.z)
-            .normalized()
-            .toRotationMatrix();
-    slam_ = std::make_unique<Slam>(config_, T_base_cam);
-    NODELET_INFO_STREAM("frames: " << frames_.map << " -> " << frames_.odom << " -> "
-                                   << frames_.base << " -> " << camera << ", camera at ("
-                                   << T_base_cam.translation().transpose() << ") m");
-    extrinsics_fault_.clear();
-    return true;
-  } catch (const tf2::TransformException& e) {
-    extrinsics_fault_ = "no transform from " + frames_.base + " to " + camera + " (" + e.what() +
-                        "): publish the camera's mounting, for example by `rosrun tf2_ros "
-                        "static_transform_publisher x y z yaw pitch roll " +
-                        frames_.base + " " + camera + "`";
-    return false;
-  }
+  const auto T_base_cam = mounting_->find(frames_.base, camera, extrinsics_fault_);
+  if (!T_base_cam) return false;
+  extrinsics_fault_.clear();
+  slam_ = std::make_unique<Slam>(config_, *T_base_cam);
+  NODELET_INFO_STREAM("frames: " << frames_.map << " -> " << frames_.odom << " -> " << frames_.base
+                                 << " -> " << camera << ", camera at ("
+                                 << T_base_cam->translation().transpose() << ") m");
+  return true;
 }
 
 void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   toFeatures(*frame.features, features_);
   const FrameResult& result = slam_->process(features_, frame.observer, stage_clock_.hook());
+  answered_ns_ = result.stamp_ns;
   ++totals_.images;
   has_answer_ = true;
   outputs_->publishFrame(result, slam_->T_map_odom(), frames_, twist_);
   publishStatus(result, *frame.features);
 }
 
-void MapperNodelet::restart(const std::string& why) {
+void MapperNodelet::restartAt(std::int64_t stamp_ns, const std::string& topic) {
+  // Features and odometry come apart: whichever is first finds the other's old run, the second only
+  // its own.
+  const std::int64_t limit_ns = stamp_ns + StampGuard::kRestart_ns - 1;
+  const bool was_waiting = matcher_->forgetAfter(limit_ns);
+  if (slam_ && answered_ns_ > limit_ns) {
+    beginMapAnew("stamps on " + topic + " jumped back (a bag plays again?)");
+  } else if (was_waiting) {
+    NODELET_WARN_STREAM("stamps on " << topic << " jumped back: what waited for a pose is dropped");
+  }
+}
+
+void MapperNodelet::beginMapAnew(const std::string& why) {
   NODELET_WARN_STREAM(why << ": the map begins anew");
   ++totals_.restarts;
-  matcher_->clear();
   slam_.reset();
   outputs_->clear();
 }

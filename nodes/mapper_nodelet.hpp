@@ -3,7 +3,6 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <nodelet/nodelet.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <memory>
 
@@ -11,6 +10,7 @@
 #include "conversions.hpp"
 #include "frame_matcher.hpp"
 #include "mapper_outputs.hpp"
+#include "mounting.hpp"
 #include "node_config.hpp"
 #include "stage_clock.hpp"
 #include "stamp_guard.hpp"
@@ -36,7 +36,9 @@ class MapperNodelet : public nodelet::Nodelet {
   void processFrame(const FrameMatcher::Frame& frame);
   /// Makes the Slam once the camera's mounting is known. @return false while it is not
   bool prepareSlam();
-  void restart(const std::string& why);
+  /// Time began again at this stamp: forgets what belongs to the run before.
+  void restartAt(std::int64_t stamp_ns, const std::string& topic);
+  void beginMapAnew(const std::string& why);
 
   /// A warning of a message that is not used, unless the same has just been said.
   void warn(const std::string& topic, const std::string& fault);
@@ -55,8 +57,7 @@ class MapperNodelet : public nodelet::Nodelet {
   ros::WallTimer tick_timer_;
   ros::WallTimer map_timer_;
   ros::WallTimer second_timer_;
-  std::unique_ptr<tf2_ros::Buffer> tf_buffer_;
-  std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
+  std::unique_ptr<Mounting> mounting_;
   std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
   std::unique_ptr<MapperOutputs> outputs_;
 
@@ -64,9 +65,10 @@ class MapperNodelet : public nodelet::Nodelet {
   std::unique_ptr<Slam> slam_;
   StampGuard stamps_;
   StageClock stage_clock_;
-  Features features_;         // of the image at work; kept for its memory
-  Frames frames_;             // odom and base are empty until the first odometry
-  std::string camera_frame_;  // of the newest features
+  std::int64_t answered_ns_ = 0;  // stamp of the newest image in the map
+  Features features_;             // of the image at work; kept for its memory
+  Frames frames_;                 // odom and base are empty until the first odometry
+  std::string camera_frame_;      // of the newest features
   std::uint32_t camera_width_px_ = 0;
   std::string extrinsics_fault_;              // what tf says while the mounting is unknown
   geometry_msgs::TwistWithCovariance twist_;  // of the newest odometry

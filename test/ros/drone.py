@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A drone for rostests: it slides sideways along a wall of random blocks and publishes what a
-driver publishes, with stamps of its own that do not depend on the machine's speed."""
+"""A drone for rostests: it slides sideways along a wall of random dots and publishes what a driver
+publishes, with stamps of its own that do not depend on the machine's speed."""
 import threading
 import time
 
@@ -14,7 +14,7 @@ from sensor_msgs.msg import CameraInfo, Image
 from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 
-WIDTH, HEIGHT, FOCAL_PX, WALL_M = 320, 240, 300.0, 3.0
+WIDTH, HEIGHT, FOCAL_PX, WALL_M, WALL_PX = 320, 240, 300.0, 3.0, 4000
 STEP_PX = 5  # between two images; whole, so that the same pixels are seen again
 STEP_M = STEP_PX * WALL_M / FOCAL_PX
 PERIOD_S = 0.1
@@ -63,6 +63,17 @@ def play(recorders):
     rospy.ServiceProxy("/player/pause_playback", SetBool)(False)
 
 
+def paint_wall(random):
+    """Black and white dots of 3x3 pixels (each a FAST corner) on faint blocks."""
+    blocks = random.integers(90, 140, (HEIGHT // 10, WALL_PX // 10))
+    wall = np.kron(blocks, np.ones((10, 10))).astype(np.uint8)
+    for row in range(6, HEIGHT - 6, 14):
+        for column in range(6, WALL_PX - 6, 14):
+            y, x = (row, column) + random.integers(-3, 4, 2)
+            wall[y - 1:y + 2, x - 1:x + 2] = random.choice([0, 20, 220, 255])
+    return wall
+
+
 class Drone:
     """Publishes images, calibration, odometry and mounting; records what the nodelets answer."""
 
@@ -72,15 +83,14 @@ class Drone:
         self.direction = direction
         self.steps = 0
         self.time_s = 1000.0
-        blocks = np.random.default_rng(seed).integers(0, 256, (HEIGHT // 10, 400))
-        self._wall = np.kron(blocks, np.ones((10, 10))).astype(np.uint8)
+        self._wall = paint_wall(np.random.default_rng(seed))
         self._images = rospy.Publisher(camera + "/image_raw", Image, queue_size=10)
         self._infos = rospy.Publisher(camera + "/camera_info", CameraInfo, queue_size=10)
         self._odometry = rospy.Publisher(odometry, Odometry, queue_size=100)
         self._tf = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
         self.pose = Recorder(vslam + "/pose", PoseWithCovarianceStamped)
         self.status = Recorder(vslam + "/status", Status)
-        self.log = Recorder("/rosout_agg", Log)
+        self.log = Recorder("/rosout", Log)
 
     def frame(self, name):
         return self.prefix + "/" + name if self.prefix else name

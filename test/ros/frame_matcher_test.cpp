@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/make_shared.hpp>
+
 #include "conversions.hpp"
 #include "frame_names.hpp"
 #include "stamp_guard.hpp"
@@ -87,14 +89,26 @@ TEST_F(FrameMatcherTest, HeldFramesWaitAsLong) {
   EXPECT_TRUE(matcher_.next(0.7, false));
 }
 
-TEST_F(FrameMatcherTest, ClearForgetsAllButCounts) {
+TEST_F(FrameMatcherTest, ARestartForgetsTheRunBeforeWhicheverInputComesFirst) {
   matcher_.addObserver(observerAt(100 * kSecond_ns, 0));
   matcher_.addFeatures(featuresAt(101 * kSecond_ns), 0);
-  matcher_.clear();
+  EXPECT_TRUE(matcher_.forgetAfter(2 * kSecond_ns));
   EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
   EXPECT_EQ(matcher_.addObserver(observerAt(kSecond_ns, 5)), ObserverBuffer::Push::kAccepted);
+  EXPECT_FALSE(matcher_.forgetAfter(2 * kSecond_ns));  // the second input: nothing old is left
   matcher_.addFeatures(featuresAt(kSecond_ns), 0);
-  EXPECT_TRUE(matcher_.next(0, false));
+  const auto frame = matcher_.next(0, false);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->observer.T_odom_base.translation().x(), 5);
+  EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
+}
+
+TEST_F(FrameMatcherTest, WaitingFramesOfAnotherCameraAreCounted) {
+  matcher_.addFeatures(featuresAt(kSecond_ns), 0);
+  matcher_.dropWaiting();
+  matcher_.addObserver(observerAt(kSecond_ns, 0));
+  EXPECT_FALSE(matcher_.next(0, false));
+  EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
 }
 
 TEST(OdometryMiss, EachReasonNamesTheTopic) {

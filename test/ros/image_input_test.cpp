@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/make_shared.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "debug_image.hpp"

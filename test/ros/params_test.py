@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Wrong parameters: a node does not start, and says all that is wrong at once; unknown ones are
 only warned of, with the name that was meant."""
+import signal
 import subprocess
+import time
 import unittest
 
 import rosgraph
 import rospy
 import rostest
-import time
 
 
 def start(executable, *arguments):
@@ -51,7 +52,7 @@ class Params(unittest.TestCase):
                 break
             time.sleep(0.1)
         time.sleep(0.5)
-        process.terminate()
+        process.send_signal(signal.SIGINT)  # what roslaunch sends
         output, _ = process.communicate(timeout=30)
         self.assertIn("/odd_tracker/thresold is not a parameter", output)
         self.assertIn("did you mean threshold?", output)
