@@ -22,7 +22,7 @@ if(missing)
 endif()
 set(ARDRONE_VSLAM_WITH_ROS TRUE)
 
-file(GLOB message_files RELATIVE ${CMAKE_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
+file(GLOB message_files RELATIVE ${PROJECT_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
 add_message_files(DIRECTORY msg FILES ${message_files})
 generate_messages(DEPENDENCIES std_msgs geometry_msgs)
 catkin_package(

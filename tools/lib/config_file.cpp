@@ -108,10 +108,10 @@ void applyOverride(const std::string& text, std::map<std::string, Section>& sect
 /// pass over them.
 bool isNodeKey(const std::string& section, const std::string& key) {
   static const std::map<std::string, std::vector<std::string>> kNodeKeys{
-      {"tracker", {"queue_size", "image_transport"}},
+      {"tracker", {"image_transport", "rectified", "queue_size"}},
       {"mapper",
-       {"map_frame", "odom_frame", "base_frame", "odometry_wait_s", "publish_tf",
-        "publish_cloud_hz", "queue_size"}}};
+       {"map_frame", "odom_frame", "base_frame", "odometry_wait_s", "transform_tolerance_s",
+        "publish_tf", "map_publish_hz", "max_path_poses", "queue_size"}}};
   const auto found = kNodeKeys.find(section);
   if (found == kNodeKeys.end()) return false;
   for (const auto& name : found->second) {

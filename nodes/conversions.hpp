@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ardrone_vslam/ImageFeatures.h>
+#include <ardrone_vslam/PoseCorrection.h>
+#include <ardrone_vslam/Status.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <visualization_msgs/Marker.h>
+
+#include <optional>
+#include <string>
+
+#include "ardrone_vslam/camera_model.hpp"
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/landmark_map.hpp"
+#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/slam.hpp"
+
+/// The only place that sees both messages and the core's types. Everything that comes in is checked
+/// here, so that the core is only ever given what its headers ask for.
+namespace ardrone_vslam {
+
+/// A converted message, or what is wrong with it and what helps.
+template <class T>
+struct Checked {
+  std::optional<T> value;
+  std::string fault;  ///< empty exactly when there is a value
+};
+
+std::int64_t toNanoseconds(const ros::Time& time);
+ros::Time toRosTime(std::int64_t stamp_ns);
+
+// --- in -----------------------------------------------------------------------------------------
+
+/// Distortion models: plumb_bob, none (empty model and coefficients), and rational_polynomial whose
+/// denominator is zero; every other is refused by name.
+/// @param rectified  the images are rectified: takes P without distortion instead of K and D
+Checked<CameraIntrinsics> toIntrinsics(const sensor_msgs::CameraInfo& info, bool rectified);
+
+/// Pose of base in odom with a normalised quaternion. The covariance is row-major, axes of odom, as
+/// in the message.
+Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry);
+
+/// @return what is wrong with the message (sizes, values not finite, bearings not of unit length),
+/// or nothing
+std::string faultOf(const ImageFeatures& message);
+
+/// @pre faultOf(message) is empty
+void toFeatures(const ImageFeatures& message, Features& features);
+
+// --- out ----------------------------------------------------------------------------------------
+
+/// @param camera_frame  the camera's optical frame
+void toMessage(const Features& features, const std::string& camera_frame, ImageFeatures& message);
+
+/// Names of the three frames of REP-105.
+struct Frames {
+  std::string map;
+  std::string odom;
+  std::string base;
+};
+
+geometry_msgs::Pose toPose(const Eigen::Isometry3d& T_a_b);
+geometry_msgs::Transform toTransform(const Eigen::Isometry3d& T_a_b);
+
+/// The fused pose of base in map.
+geometry_msgs::PoseWithCovarianceStamped toPoseMessage(const FrameResult& result,
+                                                       const Frames& frames);
+/// The same as odometry; the twist (of base, axes of base) is the observer's.
+nav_msgs::Odometry toOdometryMessage(const FrameResult& result, const Frames& frames,
+                                     const geometry_msgs::TwistWithCovariance& twist);
+PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
+                                   const Frames& frames);
+/// Fills the state and the counts of one frame; leaves stage times and totals alone.
+void toStatus(const FrameResult& result, const std::string& map_frame, Status& status);
+
+/// Landmarks as a cloud: x y z [m], deviation [m], times_seen, id.
+sensor_msgs::PointCloud2 toCloud(const LandmarkMap& map, const std::string& map_frame,
+                                 std::int64_t stamp_ns);
+/// Landmarks as one marker of points, from green (deviation at most 1 cm) to red (at least 1 m).
+visualization_msgs::Marker toMarker(const LandmarkMap& map, const std::string& map_frame,
+                                    std::int64_t stamp_ns);
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ardrone_vslam/ImageFeatures.h>
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "ardrone_vslam/observer_buffer.hpp"
+
+namespace ardrone_vslam {
+
+/// Brings images' features and the odometry at their stamps together. Features wait in order, a
+/// bounded time; the caller says what time it is.
+class FrameMatcher {
+ public:
+  struct Frame {
+    ImageFeaturesConstPtr features;
+    ObserverState observer;  ///< interpolated at the image's stamp
+  };
+
+  /// @throws ConfigError when the buffer's parameters are invalid
+  FrameMatcher(const ObserverBufferConfig& config, double wait_s);
+
+  void addFeatures(const ImageFeaturesConstPtr& features, double now_s);
+  ObserverBuffer::Push addObserver(const ObserverState& state) { return buffer_.push(state); }
+
+  /// Takes out the oldest waiting frame if its odometry is there. Drops before it those that waited
+  /// too long or whose odometry can never come.
+  /// @param hold  do not take frames out yet (the mounting is unknown), only drop the late ones
+  std::optional<Frame> next(double now_s, bool hold);
+
+  /// Time began again: forgets what belongs to the run before, that is odometry and waiting frames
+  /// with stamps after this one. @return whether there was any
+  bool forgetAfter(std::int64_t stamp_ns);
+
+  /// Drops all waiting frames.
+  void dropWaiting();
+
+  std::uint64_t droppedNoOdometry() const { return dropped_no_odometry_; }
+  std::uint64_t droppedHeld() const { return dropped_held_; }
+  /// Why the latest frame without odometry had none.
+  ObserverBuffer::Lookup lastMiss() const { return last_miss_; }
+  std::int64_t newestObserver_ns() const { return buffer_.newestStamp_ns(); }
+
+ private:
+  struct Waiting {
+    ImageFeaturesConstPtr features;
+    double since_s;
+  };
+
+  ObserverBuffer buffer_;
+  double wait_s_;
+  std::deque<Waiting> waiting_;
+  std::uint64_t dropped_no_odometry_ = 0;
+  std::uint64_t dropped_held_ = 0;
+  ObserverBuffer::Lookup last_miss_ = ObserverBuffer::Lookup::kEmpty;
+};
+
+/// A sentence for users: why an image has no odometry, and what helps.
+std::string explain(ObserverBuffer::Lookup miss, const std::string& odometry_topic);
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapper_nodelet.hpp"
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "frame_names.hpp"
+#include "params.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr double kTick_s = 0.05;                // how late the end of a wait may be noticed
+constexpr std::uint32_t kOdometryQueue = 2000;  // 10 s at 200 Hz, while the mapper is busy
+
+double now_s() {
+  return ros::SteadyTime::now().toSec();
+}
+
+}  // namespace
+
+void MapperNodelet::onInit() {
+  readParameters();
+  ros::NodeHandle& nh = getNodeHandle();
+  frames_.map = withTfPrefix(tf_prefix_, node_config_.map_frame);
+  outputs_ = std::make_unique<MapperOutputs>(nh, node_config_);
+  status_pub_ = nh.advertise<Status>("status", 100);
+  mounting_ = std::make_unique<Mounting>(nh);
+  diagnostics_ =
+      std::make_unique<diagnostic_updater::Updater>(nh, getPrivateNodeHandle(), getName());
+  diagnostics_->setHardwareID("none");
+  diagnostics_->add("mapper", this, &MapperNodelet::diagnose);
+  const auto every = [&nh](double period_s, auto action) {
+    return nh.createWallTimer(ros::WallDuration(period_s),
+                              [action](const ros::WallTimerEvent&) { action(); });
+  };
+  tick_timer_ = every(kTick_s, [this] { processReady(); });
+  second_timer_ = every(1.0, [this] { onSecond(); });
+  map_timer_ = every(1.0 / node_config_.map_publish_hz, [this] {
+    if (slam_) outputs_->publishMap(slam_->landmarks(), frames_.map);
+  });
+  odometry_sub_ = nh.subscribe("odometry", kOdometryQueue, &MapperNodelet::onOdometry, this,
+                               ros::TransportHints().tcpNoDelay());
+  features_sub_ = nh.subscribe("features", static_cast<std::uint32_t>(node_config_.queue_size),
+                               &MapperNodelet::onFeatures, this);
+}
+
+void MapperNodelet::readParameters() {
+  ParamReader reader(getPrivateNodeHandle());
+  reader.read(node_config_);
+  reader.read(config_);
+  for (const auto& sentence : reader.unknownKeys()) NODELET_WARN_STREAM(sentence);
+  try {
+    reader.finish();
+    // Some faults lie between parameters: tell them now, not in mid-air.
+    Slam(config_, Eigen::Isometry3d::Identity());
+    matcher_ = std::make_unique<FrameMatcher>(config_.observer, node_config_.odometry_wait_s);
+  } catch (const ConfigError& e) {
+    NODELET_FATAL_STREAM(getName() << ": " << e.what());
+    throw;
+  }
+  std::string key;
+  if (getPrivateNodeHandle().searchParam("tf_prefix", key)) {
+    getPrivateNodeHandle().getParam(key, tf_prefix_);
+  }
+  NODELET_INFO_STREAM("ardrone_vslam " ARDRONE_VSLAM_VERSION " mapper: "
+                      << reader.summary()
+                      << (tf_prefix_.empty() ? "" : " tf_prefix=" + tf_prefix_));
+}
+
+void MapperNodelet::onFeatures(const ImageFeaturesConstPtr& features) {
+  has_features_ = true;
+  totals_.images_dropped = features->images_dropped;
+  if (!acceptFeatures(*features)) return;
+  const bool is_other_camera =
+      features->header.frame_id != camera_frame_ || features->width != camera_width_px_;
+  if (is_other_camera) {
+    matcher_->dropWaiting();
+    if (slam_) {
+      beginMapAnew("the camera changed from " + camera_frame_ + " to " + features->header.frame_id);
+    }
+    camera_frame_ = features->header.frame_id;
+    camera_width_px_ = features->width;
+  }
+  matcher_->addFeatures(features, now_s());
+  processReady();
+}
+
+bool MapperNodelet::acceptFeatures(const ImageFeatures& features) {
+  const std::string fault = faultOf(features);
+  if (!fault.empty()) {
+    ++totals_.dropped_bad_message;
+    warn(features_sub_.getTopic(), fault);
+    return false;
+  }
+  switch (stamps_.check(toNanoseconds(features.header.stamp))) {
+    case StampGuard::Answer::kNotAfter:
+      ++totals_.dropped_stamp;
+      warn(features_sub_.getTopic(), "its stamp is not after the one before; stamps must ascend");
+      return false;
+    case StampGuard::Answer::kRestart:
+      restartAt(toNanoseconds(features.header.stamp), features_sub_.getTopic());
+      return true;
+    case StampGuard::Answer::kAscending:
+      return true;
+  }
+  return true;
+}
+
+void MapperNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
+  const auto checked = toObserverState(*odometry);
+  std::string fault = checked.fault;
+  if (checked.value) {
+    const std::int64_t back_ns = matcher_->newestObserver_ns() - checked.value->stamp_ns;
+    if (back_ns >= StampGuard::kRestart_ns) {
+      restartAt(checked.value->stamp_ns, odometry_sub_.getTopic());
+    }
+    switch (matcher_->addObserver(*checked.value)) {
+      case ObserverBuffer::Push::kAccepted:
+        takeFrameNames(*odometry);
+        twist_ = odometry->twist;
+        return processReady();
+      case ObserverBuffer::Push::kNotFinite:
+        fault = "it is not finite";
+        break;
+      case ObserverBuffer::Push::kDuplicateStamp:
+        fault = "its stamp is that of the message before";
+        break;
+      case ObserverBuffer::Push::kBackwardStamp:
+        fault = "its stamp is before that of the message before; stamps must ascend";
+        break;
+    }
+  }
+  ++totals_.odometry_refused;
+  warn(odometry_sub_.getTopic(), fault);
+}
+
+void MapperNodelet::takeFrameNames(const nav_msgs::Odometry& odometry) {
+  const auto chosen = [](const std::string& parameter, const std::string& header) -> const auto& {
+    return parameter.empty() ? header : parameter;
+  };
+  frames_.odom =
+      withTfPrefix(tf_prefix_, chosen(node_config_.odom_frame, odometry.header.frame_id));
+  frames_.base = withTfPrefix(tf_prefix_, chosen(node_config_.base_frame, odometry.child_frame_id));
+}
+
+void MapperNodelet::processReady() {
+  while (const auto frame = matcher_->next(now_s(), !prepareSlam())) processFrame(*frame);
+  totals_.dropped_no_odometry = matcher_->droppedNoOdometry();
+  totals_.dropped_no_extrinsics = matcher_->droppedHeld();
+}
+
+bool MapperNodelet::prepareSlam() {
+  if (slam_) return true;
+  if (camera_frame_.empty() || matcher_->newestObserver_ns() == 0) return false;
+  if (frames_.odom.empty() || frames_.base.empty()) {
+    extrinsics_fault_ = odometry_sub_.getTopic() + " names no " +
+                        (frames_.odom.empty() ? "frame_id; set the parameter odom_frame"
+                                              : "child_frame_id; set the parameter base_frame");
+    return false;
+  }
+  const std::string camera = withTfPrefix(tf_prefix_, camera_frame_);
+  const auto T_base_cam = mounting_->find(frames_.base, camera, extrinsics_fault_);
+  if (!T_base_cam) return false;
+  extrinsics_fault_.clear();
+  slam_ = std::make_unique<Slam>(config_, *T_base_cam);
+  NODELET_INFO_STREAM("frames: " << frames_.map << " -> " << frames_.odom << " -> " << frames_.base
+                                 << " -> " << camera << ", camera at ("
+                                 << T_base_cam->translation().transpose() << ") m");
+  return true;
+}
+
+void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
+  toFeatures(*frame.features, features_);
+  const FrameResult& result = slam_->process(features_, frame.observer, stage_clock_.hook());
+  answered_ns_ = result.stamp_ns;
+  ++totals_.images;
+  has_answer_ = true;
+  outputs_->publishFrame(result, slam_->T_map_odom(), frames_, twist_);
+  publishStatus(result, *frame.features);
+}
+
+void MapperNodelet::restartAt(std::int64_t stamp_ns, const std::string& topic) {
+  // Features and odometry come apart: whichever is first finds the other's old run, the second only
+  // its own.
+  const std::int64_t limit_ns = stamp_ns + StampGuard::kRestart_ns - 1;
+  const bool was_waiting = matcher_->forgetAfter(limit_ns);
+  if (slam_ && answered_ns_ > limit_ns) {
+    beginMapAnew("stamps on " + topic + " jumped back (a bag plays again?)");
+  } else if (was_waiting) {
+    NODELET_WARN_STREAM("stamps on " << topic << " jumped back: what waited for a pose is dropped");
+  }
+}
+
+void MapperNodelet::beginMapAnew(const std::string& why) {
+  NODELET_WARN_STREAM(why << ": the map begins anew");
+  ++totals_.restarts;
+  slam_.reset();
+  outputs_->clear();
+}
+
+}  // namespace ardrone_vslam
+
+PLUGINLIB_EXPORT_CLASS(ardrone_vslam::MapperNodelet, nodelet::Nodelet)

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <nodelet/nodelet.h>
+
+#include <memory>
+
+#include "ardrone_vslam/slam.hpp"
+#include "conversions.hpp"
+#include "frame_matcher.hpp"
+#include "mapper_outputs.hpp"
+#include "mounting.hpp"
+#include "node_config.hpp"
+#include "stage_clock.hpp"
+#include "stamp_guard.hpp"
+#include "warning_limiter.hpp"
+
+namespace ardrone_vslam {
+
+/// Features and odometry in, fused pose and map out. All callbacks run in the nodelet's
+/// single-threaded queue, so nothing here is locked; only tf's listener has a thread of its own.
+class MapperNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override;
+  void readParameters();
+
+  void onFeatures(const ImageFeaturesConstPtr& features);
+  void onOdometry(const nav_msgs::OdometryConstPtr& odometry);
+  void onSecond();
+
+  bool acceptFeatures(const ImageFeatures& features);
+  void takeFrameNames(const nav_msgs::Odometry& odometry);
+  /// Works on every image whose odometry has come.
+  void processReady();
+  void processFrame(const FrameMatcher::Frame& frame);
+  /// Makes the Slam once the camera's mounting is known. @return false while it is not
+  bool prepareSlam();
+  /// Time began again at this stamp: forgets what belongs to the run before.
+  void restartAt(std::int64_t stamp_ns, const std::string& topic);
+  void beginMapAnew(const std::string& why);
+
+  /// A warning of a message that is not used, unless the same has just been said.
+  void warn(const std::string& topic, const std::string& fault);
+  void publishStatus(const FrameResult& result, const ImageFeatures& features);
+  void publishWaiting();
+  void fillTotals(Status& status) const;
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper);
+
+  MapperNodeConfig node_config_;
+  SlamConfig config_;
+  std::string tf_prefix_;
+
+  ros::Subscriber features_sub_;
+  ros::Subscriber odometry_sub_;
+  ros::Publisher status_pub_;
+  ros::WallTimer tick_timer_;
+  ros::WallTimer map_timer_;
+  ros::WallTimer second_timer_;
+  std::unique_ptr<Mounting> mounting_;
+  std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
+  std::unique_ptr<MapperOutputs> outputs_;
+
+  std::unique_ptr<FrameMatcher> matcher_;
+  std::unique_ptr<Slam> slam_;
+  StampGuard stamps_;
+  StageClock stage_clock_;
+  std::int64_t answered_ns_ = 0;  // stamp of the newest image in the map
+  Features features_;             // of the image at work; kept for its memory
+  Frames frames_;                 // odom and base are empty until the first odometry
+  std::string camera_frame_;      // of the newest features
+  std::uint32_t camera_width_px_ = 0;
+  std::string extrinsics_fault_;              // what tf says while the mounting is unknown
+  geometry_msgs::TwistWithCovariance twist_;  // of the newest odometry
+
+  Status totals_;  // its counters only
+  Status latest_;  // as published last
+  WarningLimiter limiter_;
+  int seconds_waiting_ = 0;
+  bool has_features_ = false;  // within this second
+  bool has_answer_ = false;
+};
+
+}  // namespace ardrone_vslam

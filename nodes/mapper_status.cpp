@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the mapper says of itself: status, warnings, diagnostics.
+#include "mapper_nodelet.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kPatience_s = 3;  // drivers need their time to start
+constexpr std::size_t kTrackerStages = 3;
+
+}  // namespace
+
+void MapperNodelet::warn(const std::string& topic, const std::string& fault) {
+  const std::string sentence = topic + ": message not used: " + fault;
+  if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
+}
+
+void MapperNodelet::publishStatus(const FrameResult& result, const ImageFeatures& features) {
+  Status status;
+  toStatus(result, frames_.map, status);
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    status.stage.emplace_back(kStageNames[i]);
+    status.stage_time.push_back(
+        i < kTrackerStages ? features.stage_time[i]
+                           : static_cast<float>(stage_clock_.milliseconds(static_cast<Stage>(i))));
+  }
+  fillTotals(status);
+  status_pub_.publish(status);
+  latest_ = status;
+}
+
+void MapperNodelet::publishWaiting() {
+  Status status;
+  status.header.stamp = ros::Time::now();
+  status.header.frame_id = frames_.map;
+  if (!has_features_) {
+    status.state = Status::WAITING_FOR_FEATURES;
+    status.state_name = "waiting_for_features";
+    status.reason = "no features on " + features_sub_.getTopic() +
+                    ": is the tracker running, and does it get images and camera_info? Its log "
+                    "and diagnostics say";
+  } else if (!extrinsics_fault_.empty()) {
+    status.state = Status::WAITING_FOR_EXTRINSICS;
+    status.state_name = "waiting_for_extrinsics";
+    status.reason = extrinsics_fault_;
+  } else {
+    status.state = Status::WAITING_FOR_ODOMETRY;
+    status.state_name = "waiting_for_odometry";
+    status.reason = explain(matcher_->lastMiss(), odometry_sub_.getTopic());
+  }
+  if (++seconds_waiting_ >= kPatience_s &&
+      limiter_.allows(status.reason, ros::SteadyTime::now().toSec())) {
+    NODELET_WARN_STREAM(status.state_name << ": " << status.reason);
+  }
+  if (slam_) status.landmarks = static_cast<std::uint32_t>(slam_->landmarks().size());
+  fillTotals(status);
+  status_pub_.publish(status);
+  latest_ = status;
+}
+
+void MapperNodelet::fillTotals(Status& status) const {
+  status.images = totals_.images;
+  status.images_dropped = totals_.images_dropped;
+  status.dropped_bad_message = totals_.dropped_bad_message;
+  status.dropped_stamp = totals_.dropped_stamp;
+  status.dropped_no_odometry = totals_.dropped_no_odometry;
+  status.dropped_no_extrinsics = totals_.dropped_no_extrinsics;
+  status.odometry_refused = totals_.odometry_refused;
+  status.restarts = totals_.restarts;
+}
+
+void MapperNodelet::onSecond() {
+  if (has_answer_) {
+    seconds_waiting_ = 0;
+  } else {
+    publishWaiting();
+  }
+  has_features_ = false;
+  has_answer_ = false;
+  diagnostics_->force_update();
+}
+
+void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper) {
+  using diagnostic_msgs::DiagnosticStatus;
+  const bool is_well = latest_.state == Status::LOCALISED ||
+                       latest_.state == Status::BUILDING_MAP ||
+                       latest_.state == Status::OBSERVER_ONLY;
+  const bool is_stuck = latest_.state == Status::WAITING_FOR_ODOMETRY ||
+                        latest_.state == Status::WAITING_FOR_EXTRINSICS;
+  const auto level = is_well    ? DiagnosticStatus::OK
+                     : is_stuck ? DiagnosticStatus::ERROR
+                                : DiagnosticStatus::WARN;
+  wrapper.summary(
+      static_cast<unsigned char>(level),
+      latest_.reason.empty() ? latest_.state_name : latest_.state_name + ": " + latest_.reason);
+  wrapper.add("images answered", totals_.images);
+  wrapper.add("images without odometry", totals_.dropped_no_odometry);
+  wrapper.add("odometry messages refused", totals_.odometry_refused);
+  wrapper.add("landmarks", latest_.landmarks);
+  wrapper.add("landmark matches", latest_.landmark_matches);
+  wrapper.add("deviation [m]", latest_.deviation);
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mounting.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+const ros::Duration kCache(10.0);
+
+Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
+  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
+  T_a_b.translation() << transform.translation.x, transform.translation.y, transform.translation.z;
+  T_a_b.linear() = Eigen::Quaterniond(transform.rotation.w, transform.rotation.x,
+                                      transform.rotation.y, transform.rotation.z)
+                       .normalized()
+                       .toRotationMatrix();
+  return T_a_b;
+}
+
+}  // namespace
+
+// Without the buffer's debug service, whose name two nodelets in one manager would share.
+Mounting::Mounting(ros::NodeHandle& nh) : buffer_(kCache, false), listener_(buffer_, nh) {}
+
+std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
+                                                const std::string& camera_frame,
+                                                std::string& fault) {
+  const bool is_known = base_frame == base_frame_ && camera_frame == camera_frame_;
+  if (is_known && T_base_cam_) return T_base_cam_;
+  base_frame_ = base_frame;
+  camera_frame_ = camera_frame;
+  T_base_cam_.reset();
+  try {
+    T_base_cam_ =
+        toIsometry(buffer_.lookupTransform(base_frame, camera_frame, ros::Time(0)).transform);
+  } catch (const tf2::TransformException& e) {
+    fault = "no transform from " + base_frame + " to " + camera_frame + " (" + e.what() +
+            "): publish the camera's mounting, for example by `rosrun tf2_ros "
+            "static_transform_publisher x y z yaw pitch roll " +
+            base_frame + " " + camera_frame + "`";
+  }
+  return T_base_cam_;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+
+namespace ardrone_vslam {
+
+/// Where the camera sits on the drone, from tf. Taken as rigid: once found it is kept.
+class Mounting {
+ public:
+  explicit Mounting(ros::NodeHandle& nh);
+
+  /// The latest transform, whatever its stamp: drivers stamp the mounting later than the image.
+  /// @param fault  set, with the remedy, when there is none
+  /// @return T_base_cam
+  std::optional<Eigen::Isometry3d> find(const std::string& base_frame,
+                                        const std::string& camera_frame, std::string& fault);
+
+ private:
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  std::string base_frame_;
+  std::string camera_frame_;
+  std::optional<Eigen::Isometry3d> T_base_cam_;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "ardrone_vslam/parameters.hpp"
+
+/// What the nodelets read beside the stages' own parameters. Offline tools pass over these keys
+/// (tools/lib/config_file.cpp; a test holds the two lists together).
+namespace ardrone_vslam {
+
+enum class ImageTransport { kRaw, kCompressed };
+template <>
+struct EnumNames<ImageTransport> {
+  static constexpr std::array<const char*, 2> kNames{"raw", "compressed"};
+};
+
+struct TrackerNodeConfig {
+  ImageTransport image_transport = ImageTransport::kRaw;
+  bool rectified = false;
+  int queue_size = 5;
+};
+
+template <class Visitor>
+void visitParameters(TrackerNodeConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"image_transport", "choice", 0, 0,
+                      "raw: the topic `image`; compressed: `image`/compressed"},
+        c.image_transport);
+  visit(ParameterInfo{"rectified", "switch", 0, 0,
+                      "the images are rectified: use camera_info's P, no distortion"},
+        c.rectified);
+  visit(ParameterInfo{"queue_size", "images", 1, 10000,
+                      "images kept while the tracker is busy; the oldest go first"},
+        c.queue_size);
+}
+
+struct MapperNodeConfig {
+  std::string map_frame = "map";
+  std::string odom_frame;  // empty: the odometry's header.frame_id
+  std::string base_frame;  // empty: the odometry's child_frame_id
+  double odometry_wait_s = 0.5;
+  double transform_tolerance_s = 0.2;
+  bool publish_tf = true;
+  double map_publish_hz = 2.0;
+  int max_path_poses = 5000;
+  int queue_size = 10;
+};
+
+template <class Visitor>
+void visitParameters(MapperNodeConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"map_frame", "name", 0, 0, "frame of the poses and of the map"}, c.map_frame);
+  visit(ParameterInfo{"odom_frame", "name", 0, 0, "empty: the odometry's header.frame_id"},
+        c.odom_frame);
+  visit(ParameterInfo{"base_frame", "name", 0, 0, "empty: the odometry's child_frame_id"},
+        c.base_frame);
+  visit(
+      ParameterInfo{"odometry_wait_s", "s", 0.0, 60.0,
+                    "how long an image waits for its odometry and extrinsics before it is dropped"},
+      c.odometry_wait_s);
+  visit(ParameterInfo{"transform_tolerance_s", "s", 0.0, 10.0,
+                      "tf map -> odom is stamped this much after the image, so that it holds until "
+                      "the next one"},
+        c.transform_tolerance_s);
+  visit(ParameterInfo{"publish_tf", "switch", 0, 0, "send tf map -> odom"}, c.publish_tf);
+  visit(ParameterInfo{"map_publish_hz", "Hz", 0.01, 100.0,
+                      "largest rate of paths, landmark cloud and markers"},
+        c.map_publish_hz);
+  visit(ParameterInfo{"max_path_poses", "poses", 1, 1000000,
+                      "poses kept in each path; the oldest go first"},
+        c.max_path_poses);
+  visit(ParameterInfo{"queue_size", "images", 1, 10000,
+                      "images' features kept while the mapper is busy; the oldest go first"},
+        c.queue_size);
+}
+
+struct PathNodeConfig {
+  int max_poses = 100000;
+  double publish_hz = 2.0;
+};
+
+template <class Visitor>
+void visitParameters(PathNodeConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"max_poses", "poses", 1, 10000000, "the path begins anew beyond it"},
+        c.max_poses);
+  visit(ParameterInfo{"publish_hz", "Hz", 0.01, 100.0, "largest rate of the path"}, c.publish_hz);
+}
+
+}  // namespace ardrone_vslam

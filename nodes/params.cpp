@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "params.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace ardrone_vslam {
+namespace {
+
+/// Keys that ROS itself puts under a node's private namespace.
+const std::set<std::string>& keysOfRos() {
+  static const std::set<std::string> kKeys{"diagnostic_period", "num_worker_threads", "tf_prefix"};
+  return kKeys;
+}
+
+/// Levenshtein's.
+std::size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+std::string textOf(XmlRpc::XmlRpcValue& value) {
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeString) return static_cast<std::string>(value);
+  std::ostringstream text;
+  value.write(text);
+  return text.str();
+}
+
+}  // namespace
+
+bool ParamReader::convert(XmlRpc::XmlRpcValue& given, bool& value) {
+  if (given.getType() != XmlRpc::XmlRpcValue::TypeBoolean) return false;
+  value = static_cast<bool>(given);
+  return true;
+}
+
+bool ParamReader::convert(XmlRpc::XmlRpcValue& given, int& value) {
+  if (given.getType() != XmlRpc::XmlRpcValue::TypeInt) return false;
+  value = static_cast<int>(given);
+  return true;
+}
+
+bool ParamReader::convert(XmlRpc::XmlRpcValue& given, double& value) {
+  int whole = 0;
+  if (convert(given, whole)) {
+    value = whole;
+    return true;
+  }
+  if (given.getType() != XmlRpc::XmlRpcValue::TypeDouble) return false;
+  value = static_cast<double>(given);
+  return true;
+}
+
+bool ParamReader::convert(XmlRpc::XmlRpcValue& given, std::string& value) {
+  if (given.getType() != XmlRpc::XmlRpcValue::TypeString) return false;
+  value = static_cast<std::string>(given);
+  return true;
+}
+
+void ParamReader::wrongType(const ParameterInfo& info, XmlRpc::XmlRpcValue& given,
+                            const std::string& expected) {
+  faults_.push_back(nh_.resolveName(info.name) + " is '" + textOf(given) + "' but must be " +
+                    expected);
+}
+
+void ParamReader::finish() const {
+  if (!faults_.empty()) throw ConfigError(faults_);
+}
+
+std::vector<std::string> ParamReader::unknownKeys() const {
+  std::vector<std::string> all;
+  std::vector<std::string> sentences;
+  if (!nh_.getParamNames(all)) return sentences;
+  const std::string prefix = nh_.getNamespace() + "/";
+  for (const auto& full_name : all) {
+    if (full_name.compare(0, prefix.size(), prefix) != 0) continue;
+    const std::string name = full_name.substr(prefix.size());
+    if (known_.count(name) > 0 || keysOfRos().count(name) > 0) continue;
+    const std::string nearest = nearestName(name, known_);
+    sentences.push_back(full_name + " is not a parameter and has no effect" +
+                        (nearest.empty() ? "" : "; did you mean " + nearest + "?") +
+                        " (docs/parameters.md lists all)");
+  }
+  return sentences;
+}
+
+std::string nearestName(const std::string& name, const std::set<std::string>& known) {
+  std::string nearest;
+  std::size_t smallest = name.size() / 2 + 1;  // more than half of it wrong is not similar
+  for (const auto& candidate : known) {
+    const bool is_part = candidate.find(name) != std::string::npos;
+    const std::size_t distance = is_part ? 1 : editDistance(name, candidate);
+    if (distance < smallest) {
+      smallest = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A drone for rostests: it slides sideways along a wall of random dots and publishes what a driver
+publishes, with stamps of its own that do not depend on the machine's speed."""
+import threading
+import time
+
+import numpy as np
+import rospy
+from ardrone_vslam.msg import Status
+from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Log
+from sensor_msgs.msg import CameraInfo, Image
+from std_srvs.srv import SetBool
+from tf2_msgs.msg import TFMessage
+
+WIDTH, HEIGHT, FOCAL_PX, WALL_M, WALL_PX = 320, 240, 300.0, 3.0, 4000
+STEP_PX = 5  # between two images; whole, so that the same pixels are seen again
+STEP_M = STEP_PX * WALL_M / FOCAL_PX
+PERIOD_S = 0.1
+TIMEOUT_S = 20.0  # of wall time, for an answer that normally takes milliseconds
+
+
+class Recorder:
+    """Keeps all messages of a topic."""
+
+    def __init__(self, topic, message_type):
+        self._lock = threading.Lock()
+        self._messages = []
+        self._subscriber = rospy.Subscriber(topic, message_type, self._add, queue_size=None)
+
+    def _add(self, message):
+        with self._lock:
+            self._messages.append(message)
+
+    def all(self):
+        with self._lock:
+            return list(self._messages)
+
+    def wait(self, condition, timeout_s=TIMEOUT_S):
+        """The first message that fulfils the condition, or None. Wall time: /clock may stand."""
+        end_s = time.monotonic() + timeout_s
+        while time.monotonic() < end_s:
+            for message in self.all():
+                if condition(message):
+                    return message
+            time.sleep(0.02)
+        return None
+
+
+    def connected(self):
+        return self._subscriber.get_num_connections() > 0
+
+
+def play(recorders):
+    """Lets the paused player of replay.launch begin, once all recorders are connected."""
+    end_s = time.monotonic() + TIMEOUT_S
+    while not all(recorder.connected() for recorder in recorders):
+        if time.monotonic() > end_s:
+            raise RuntimeError("the nodelets do not publish what the test wants to record")
+        time.sleep(0.05)
+    rospy.wait_for_service("/player/pause_playback", TIMEOUT_S)
+    rospy.ServiceProxy("/player/pause_playback", SetBool)(False)
+
+
+def paint_wall(random):
+    """Black and white dots of 3x3 pixels (each a FAST corner) on faint blocks."""
+    blocks = random.integers(90, 140, (HEIGHT // 10, WALL_PX // 10))
+    wall = np.kron(blocks, np.ones((10, 10))).astype(np.uint8)
+    for row in range(6, HEIGHT - 6, 14):
+        for column in range(6, WALL_PX - 6, 14):
+            y, x = (row, column) + random.integers(-3, 4, 2)
+            wall[y - 1:y + 2, x - 1:x + 2] = random.choice([0, 20, 220, 255])
+    return wall
+
+
+class Drone:
+    """Publishes images, calibration, odometry and mounting; records what the nodelets answer."""
+
+    def __init__(self, vslam="/vslam", camera="/camera", odometry="/odometry", prefix="", seed=1,
+                 direction=1):
+        self.prefix = prefix
+        self.direction = direction
+        self.steps = 0
+        self.time_s = 1000.0
+        self._wall = paint_wall(np.random.default_rng(seed))
+        self._images = rospy.Publisher(camera + "/image_raw", Image, queue_size=10)
+        self._infos = rospy.Publisher(camera + "/camera_info", CameraInfo, queue_size=10)
+        self._odometry = rospy.Publisher(odometry, Odometry, queue_size=100)
+        self._tf = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        self.pose = Recorder(vslam + "/pose", PoseWithCovarianceStamped)
+        self.status = Recorder(vslam + "/status", Status)
+        self.log = Recorder("/rosout", Log)
+
+    def frame(self, name):
+        return self.prefix + "/" + name if self.prefix else name
+
+    def connect(self):
+        """Waits until the nodelets listen."""
+        end_s = time.monotonic() + TIMEOUT_S
+        publishers = [self._images, self._infos, self._odometry, self._tf]
+        while any(p.get_num_connections() == 0 for p in publishers):
+            if time.monotonic() > end_s:
+                raise RuntimeError("the nodelets do not subscribe to " + ", ".join(
+                    p.name for p in publishers if p.get_num_connections() == 0))
+            time.sleep(0.05)
+
+    def mount_camera(self):
+        """base_link -> camera_optical: looks forward (REP-103)."""
+        mounting = TransformStamped()
+        mounting.header.frame_id = self.frame("base_link")
+        mounting.child_frame_id = self.frame("camera_optical")
+        rotation = mounting.transform.rotation
+        rotation.x, rotation.y, rotation.z, rotation.w = -0.5, 0.5, -0.5, 0.5
+        mounting.transform.translation.x = 0.21
+        self._tf.publish(TFMessage([mounting]))
+
+    def position_m(self):
+        return self.steps * STEP_M * self.direction
+
+    def next(self):
+        """Moves on by one image. @return its stamp"""
+        self.steps += 1
+        self.time_s += PERIOD_S
+        return self.stamp()
+
+    def stamp(self):
+        return rospy.Time.from_sec(round(self.time_s, 3))
+
+    def image(self):
+        message = Image()
+        message.header.stamp = self.stamp()
+        message.header.frame_id = self.frame("camera_optical")
+        message.width, message.height, message.step = WIDTH, HEIGHT, WIDTH
+        message.encoding = "mono8"
+        # To the left the wall's pixels move to the right.
+        left_px = 1500 - self.direction * self.steps * STEP_PX
+        message.data = self._wall[:, left_px:left_px + WIDTH].tobytes()
+        return message
+
+    def info(self):
+        message = CameraInfo()
+        message.header.stamp = self.stamp()
+        message.header.frame_id = self.frame("camera_optical")
+        message.width, message.height = WIDTH, HEIGHT
+        message.distortion_model = "plumb_bob"
+        message.D = [0.0] * 5
+        cx, cy = (WIDTH - 1) / 2, (HEIGHT - 1) / 2
+        message.K = [FOCAL_PX, 0, cx, 0, FOCAL_PX, cy, 0, 0, 1]
+        message.P = [FOCAL_PX, 0, cx, 0, 0, FOCAL_PX, cy, 0, 0, 0, 1, 0]
+        return message
+
+    def odometry(self):
+        message = Odometry()
+        message.header.stamp = self.stamp()
+        message.header.frame_id = self.frame("odom")
+        message.child_frame_id = self.frame("base_link")
+        message.pose.pose.position.y = self.position_m()
+        message.pose.pose.orientation.w = 1.0
+        return message
+
+    def send(self, *messages):
+        for message in messages:
+            publisher = {Image: self._images, CameraInfo: self._infos,
+                         Odometry: self._odometry}[type(message)]
+            publisher.publish(message)
+
+    def answered(self, stamp, timeout_s=TIMEOUT_S):
+        """@return the pose with this stamp, or None"""
+        return self.pose.wait(lambda pose: pose.header.stamp == stamp, timeout_s)
+
+    def fly(self, images):
+        """Sends good images, each after the answer to the one before. @return the poses"""
+        poses = []
+        for _ in range(images):
+            stamp = self.next()
+            self.send(self.odometry(), self.image(), self.info())
+            poses.append(self.answered(stamp))
+            if poses[-1] is None:
+                break
+        return poses

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frame_matcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/make_shared.hpp>
+
+#include "conversions.hpp"
+#include "frame_names.hpp"
+#include "stamp_guard.hpp"
+#include "warning_limiter.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+ImageFeaturesConstPtr featuresAt(std::int64_t stamp_ns) {
+  auto features = boost::make_shared<ImageFeatures>();
+  features->header.stamp = toRosTime(stamp_ns);
+  return features;
+}
+
+ObserverState observerAt(std::int64_t stamp_ns, double x_m) {
+  ObserverState state;
+  state.stamp_ns = stamp_ns;
+  state.T_odom_base.translation().x() = x_m;
+  return state;
+}
+
+class FrameMatcherTest : public testing::Test {
+ protected:
+  FrameMatcher matcher_{ObserverBufferConfig{}, 0.5};
+};
+
+TEST_F(FrameMatcherTest, WaitsForTheOdometryAfterTheImage) {
+  matcher_.addFeatures(featuresAt(10 * kSecond_ns), 0);
+  matcher_.addObserver(observerAt(10 * kSecond_ns - 100, 1));
+  EXPECT_FALSE(matcher_.next(0.1, false));
+  matcher_.addObserver(observerAt(10 * kSecond_ns + 100, 3));
+  const auto frame = matcher_.next(0.2, false);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->observer.stamp_ns, 10 * kSecond_ns);
+  EXPECT_NEAR(frame->observer.T_odom_base.translation().x(), 2, 1e-12);
+  EXPECT_FALSE(matcher_.next(0.2, false));
+  EXPECT_EQ(matcher_.droppedNoOdometry(), 0U);
+}
+
+TEST_F(FrameMatcherTest, FramesComeInOrder) {
+  for (int i = 1; i <= 3; ++i) matcher_.addFeatures(featuresAt(i * kSecond_ns), 0);
+  for (int i = 0; i <= 30; ++i) matcher_.addObserver(observerAt(i * kSecond_ns / 10 + 1, i));
+  for (int i = 1; i <= 2; ++i) {
+    const auto frame = matcher_.next(0, false);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(toNanoseconds(frame->features->header.stamp), i * kSecond_ns);
+  }
+}
+
+TEST_F(FrameMatcherTest, WithoutOdometryTheWaitIsBounded) {
+  matcher_.addFeatures(featuresAt(kSecond_ns), 100.0);
+  EXPECT_FALSE(matcher_.next(100.5, false));
+  EXPECT_EQ(matcher_.droppedNoOdometry(), 0U);
+  EXPECT_FALSE(matcher_.next(100.6, false));
+  EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
+  EXPECT_EQ(matcher_.lastMiss(), ObserverBuffer::Lookup::kEmpty);
+}
+
+TEST_F(FrameMatcherTest, OdometryThatCanNeverComeIsNotWaitedFor) {
+  matcher_.addObserver(observerAt(10 * kSecond_ns, 0));
+  matcher_.addObserver(observerAt(12 * kSecond_ns, 0));
+  matcher_.addFeatures(featuresAt(9 * kSecond_ns), 0);
+  matcher_.addFeatures(featuresAt(11 * kSecond_ns), 0);  // in a hole of 2 s
+  matcher_.addFeatures(featuresAt(12 * kSecond_ns), 0);
+  const auto frame = matcher_.next(0, false);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(toNanoseconds(frame->features->header.stamp), 12 * kSecond_ns);
+  EXPECT_EQ(matcher_.droppedNoOdometry(), 2U);
+  EXPECT_EQ(matcher_.lastMiss(), ObserverBuffer::Lookup::kGap);
+}
+
+TEST_F(FrameMatcherTest, HeldFramesWaitAsLong) {
+  matcher_.addObserver(observerAt(kSecond_ns, 0));
+  matcher_.addFeatures(featuresAt(kSecond_ns), 0);
+  EXPECT_FALSE(matcher_.next(0.4, true));
+  EXPECT_EQ(matcher_.droppedHeld(), 0U);
+  EXPECT_FALSE(matcher_.next(0.6, true));
+  EXPECT_EQ(matcher_.droppedHeld(), 1U);
+  matcher_.addFeatures(featuresAt(kSecond_ns), 0.6);
+  EXPECT_TRUE(matcher_.next(0.7, false));
+}
+
+TEST_F(FrameMatcherTest, ARestartForgetsTheRunBeforeWhicheverInputComesFirst) {
+  matcher_.addObserver(observerAt(100 * kSecond_ns, 0));
+  matcher_.addFeatures(featuresAt(101 * kSecond_ns), 0);
+  EXPECT_TRUE(matcher_.forgetAfter(2 * kSecond_ns));
+  EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
+  EXPECT_EQ(matcher_.addObserver(observerAt(kSecond_ns, 5)), ObserverBuffer::Push::kAccepted);
+  EXPECT_FALSE(matcher_.forgetAfter(2 * kSecond_ns));  // the second input: nothing old is left
+  matcher_.addFeatures(featuresAt(kSecond_ns), 0);
+  const auto frame = matcher_.next(0, false);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->observer.T_odom_base.translation().x(), 5);
+  EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
+}
+
+TEST_F(FrameMatcherTest, WaitingFramesOfAnotherCameraAreCounted) {
+  matcher_.addFeatures(featuresAt(kSecond_ns), 0);
+  matcher_.dropWaiting();
+  matcher_.addObserver(observerAt(kSecond_ns, 0));
+  EXPECT_FALSE(matcher_.next(0, false));
+  EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
+}
+
+TEST(OdometryMiss, EachReasonNamesTheTopic) {
+  using Lookup = ObserverBuffer::Lookup;
+  std::set<std::string> sentences;
+  for (const auto miss : {Lookup::kEmpty, Lookup::kNotYet, Lookup::kTooOld, Lookup::kGap}) {
+    const std::string sentence = explain(miss, "/drone/odometry");
+    EXPECT_NE(sentence.find("/drone/odometry"), std::string::npos);
+    sentences.insert(sentence);
+  }
+  EXPECT_EQ(sentences.size(), 4U);
+}
+
+TEST(StampGuardTest, LateIsDroppedFarBackIsARestart) {
+  using Answer = StampGuard::Answer;
+  StampGuard guard;
+  EXPECT_EQ(guard.check(50 * kSecond_ns), Answer::kAscending);
+  EXPECT_EQ(guard.check(51 * kSecond_ns), Answer::kAscending);
+  EXPECT_EQ(guard.check(51 * kSecond_ns), Answer::kNotAfter);
+  EXPECT_EQ(guard.check(50 * kSecond_ns + 1), Answer::kNotAfter);
+  EXPECT_EQ(guard.check(51 * kSecond_ns + 1), Answer::kAscending);  // the late one did not count
+  EXPECT_EQ(guard.check(10 * kSecond_ns), Answer::kRestart);
+  EXPECT_EQ(guard.check(11 * kSecond_ns), Answer::kAscending);
+}
+
+TEST(FrameNames, TfPrefix) {
+  EXPECT_EQ(withTfPrefix("", "odom"), "odom");
+  EXPECT_EQ(withTfPrefix("drone", "odom"), "drone/odom");
+  EXPECT_EQ(withTfPrefix("/drone", "odom"), "drone/odom");
+  EXPECT_EQ(withTfPrefix("drone", "drone/odom"), "drone/odom");
+  EXPECT_EQ(withTfPrefix("drone", "drone2/odom"), "drone/drone2/odom");
+  EXPECT_EQ(withTfPrefix("drone", "/map"), "map");
+  EXPECT_EQ(withTfPrefix("drone", ""), "");
+}
+
+TEST(WarningLimiterTest, TheSameIsSaidSeldomAnotherSoon) {
+  WarningLimiter limiter;
+  EXPECT_TRUE(limiter.allows("a", 0));
+  EXPECT_FALSE(limiter.allows("a", 4.9));
+  EXPECT_TRUE(limiter.allows("a", 5.1));
+  EXPECT_FALSE(limiter.allows("b", 5.2));
+  EXPECT_TRUE(limiter.allows("b", 5.4));
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

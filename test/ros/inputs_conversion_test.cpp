@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "conversions.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+sensor_msgs::CameraInfo goodInfo() {
+  sensor_msgs::CameraInfo info;
+  info.width = 640;
+  info.height = 360;
+  info.distortion_model = "plumb_bob";
+  info.D = {-0.52, 0.27, 0.001, -0.002, 0.03};
+  info.K = {570, 0, 320, 0, 571, 180, 0, 0, 1};
+  info.P = {500, 0, 310, 0, 0, 501, 170, 0, 0, 0, 1, 0};
+  return info;
+}
+
+TEST(CameraInfoConversion, PlumbBob) {
+  const auto camera = toIntrinsics(goodInfo(), false).value;
+  ASSERT_TRUE(camera);
+  CameraIntrinsics expected;
+  expected.width_px = 640;
+  expected.height_px = 360;
+  expected.fx_px = 570;
+  expected.fy_px = 571;
+  expected.cx_px = 320;
+  expected.cy_px = 180;
+  expected.k1 = -0.52;
+  expected.k2 = 0.27;
+  expected.p1 = 0.001;
+  expected.p2 = -0.002;
+  expected.k3 = 0.03;
+  EXPECT_TRUE(*camera == expected);
+}
+
+TEST(CameraInfoConversion, RectifiedTakesProjectionAndNoDistortion) {
+  auto info = goodInfo();
+  info.distortion_model = "equidistant";  // of the camera, not of its rectified images
+  const auto camera = toIntrinsics(info, true).value;
+  ASSERT_TRUE(camera);
+  EXPECT_EQ(camera->fx_px, 500);
+  EXPECT_EQ(camera->fy_px, 501);
+  EXPECT_EQ(camera->cx_px, 310);
+  EXPECT_EQ(camera->cy_px, 170);
+  EXPECT_EQ(camera->k1, 0);
+}
+
+TEST(CameraInfoConversion, NoLens) {
+  auto info = goodInfo();
+  info.distortion_model.clear();
+  info.D.clear();
+  const auto camera = toIntrinsics(info, false).value;
+  ASSERT_TRUE(camera);
+  EXPECT_EQ(camera->k1, 0);
+}
+
+TEST(CameraInfoConversion, FourCoefficients) {
+  auto info = goodInfo();
+  info.D.pop_back();
+  const auto camera = toIntrinsics(info, false).value;
+  ASSERT_TRUE(camera);
+  EXPECT_EQ(camera->p2, -0.002);
+  EXPECT_EQ(camera->k3, 0);
+}
+
+TEST(CameraInfoConversion, RationalWithoutDenominatorIsPlumbBob) {
+  auto info = goodInfo();
+  info.distortion_model = "rational_polynomial";
+  info.D.resize(8, 0.0);
+  const auto camera = toIntrinsics(info, false).value;
+  ASSERT_TRUE(camera);
+  EXPECT_EQ(camera->k3, 0.03);
+}
+
+struct SpoiledInfo {
+  std::vector<const char*> expected;
+  std::function<void(sensor_msgs::CameraInfo&)> spoil;
+};
+
+class CameraInfoFault : public testing::TestWithParam<SpoiledInfo> {};
+
+TEST_P(CameraInfoFault, IsNamed) {
+  auto info = goodInfo();
+  GetParam().spoil(info);
+  const auto checked = toIntrinsics(info, false);
+  EXPECT_FALSE(checked.value);
+  for (const char* part : GetParam().expected) {
+    EXPECT_NE(checked.fault.find(part), std::string::npos) << checked.fault;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CameraInfoFault,
+    testing::Values(
+        SpoiledInfo{{"'rational_polynomial'", "D[6]", "plumb_bob"},
+                    [](auto& i) {
+                      i.distortion_model = "rational_polynomial";
+                      i.D.resize(8, 0.0);
+                      i.D[6] = 0.1;
+                    }},
+        SpoiledInfo{{"'equidistant'", "rectif"},
+                    [](auto& i) { i.distortion_model = "equidistant"; }},
+        SpoiledInfo{{"no distortion_model"}, [](auto& i) { i.distortion_model.clear(); }},
+        SpoiledInfo{{"D has 2"}, [](auto& i) { i.D.resize(2); }},
+        SpoiledInfo{{"D is not finite"}, [](auto& i) { i.D[1] = kNaN; }},
+        SpoiledInfo{{"K is not finite"}, [](auto& i) { i.K[2] = kNaN; }},
+        SpoiledInfo{{"uncalibrated", "camera_calibration"}, [](auto& i) { i.K.fill(0); }},
+        SpoiledInfo{{"image size of 0x360"}, [](auto& i) { i.width = 0; }},
+        SpoiledInfo{{"(320, 180)", "another image size"},
+                    [](auto& i) {
+                      i.width = 300;
+                      i.height = 200;
+                    }},
+        SpoiledInfo{{"binning"}, [](auto& i) { i.binning_x = 2; }}));
+
+nav_msgs::Odometry goodOdometry() {
+  nav_msgs::Odometry odometry;
+  odometry.header.stamp = ros::Time(12, 345);
+  odometry.pose.pose.position.x = 1;
+  odometry.pose.pose.position.y = 2;
+  odometry.pose.pose.position.z = 3;
+  odometry.pose.pose.orientation.z = 0.6;
+  odometry.pose.pose.orientation.w = 0.8;
+  for (std::size_t i = 0; i < 36; ++i) odometry.pose.covariance[i] = 0.01 * static_cast<double>(i);
+  return odometry;
+}
+
+TEST(OdometryConversion, PoseAndCovariance) {
+  const auto state = toObserverState(goodOdometry()).value;
+  ASSERT_TRUE(state);
+  EXPECT_EQ(state->stamp_ns, 12'000'000'345);
+  EXPECT_EQ(state->T_odom_base.translation(), Eigen::Vector3d(1, 2, 3));
+  // Turned by 2 asin(0.6) about z.
+  const Eigen::Vector3d forward = state->T_odom_base.linear() * Eigen::Vector3d::UnitX();
+  EXPECT_TRUE(forward.isApprox(Eigen::Vector3d(0.28, 0.96, 0), 1e-12));
+  EXPECT_EQ(state->covariance(0, 1), 0.01);
+  EXPECT_EQ(state->covariance(1, 0), 0.06);
+}
+
+TEST(OdometryConversion, QuaternionIsNormalised) {
+  auto odometry = goodOdometry();
+  odometry.pose.pose.orientation.z *= 1.05;
+  odometry.pose.pose.orientation.w *= 1.05;
+  const auto state = toObserverState(odometry).value;
+  ASSERT_TRUE(state);
+  const Eigen::Matrix3d r = state->T_odom_base.linear();
+  EXPECT_TRUE((r * r.transpose()).isIdentity(1e-12));
+}
+
+struct SpoiledOdometry {
+  const char* expected;
+  std::function<void(nav_msgs::Odometry&)> spoil;
+};
+
+class OdometryFault : public testing::TestWithParam<SpoiledOdometry> {};
+
+TEST_P(OdometryFault, IsNamed) {
+  auto odometry = goodOdometry();
+  GetParam().spoil(odometry);
+  const auto checked = toObserverState(odometry);
+  EXPECT_FALSE(checked.value);
+  EXPECT_NE(checked.fault.find(GetParam().expected), std::string::npos) << checked.fault;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, OdometryFault,
+    testing::Values(
+        SpoiledOdometry{"position", [](auto& o) { o.pose.pose.position.z = kNaN; }},
+        SpoiledOdometry{"orientation is not finite",
+                        [](auto& o) { o.pose.pose.orientation.x = kNaN; }},
+        SpoiledOdometry{"norm 0", [](auto& o) { o.pose.pose.orientation = {}; }},
+        SpoiledOdometry{"norm 1.2", [](auto& o) { o.pose.pose.orientation.z = 0.9; }},
+        SpoiledOdometry{"covariance is not finite", [](auto& o) { o.pose.covariance[8] = kNaN; }},
+        SpoiledOdometry{"negative variance -1 at row 5",
+                        [](auto& o) { o.pose.covariance[35] = -1; }},
+        SpoiledOdometry{"stamp is zero", [](auto& o) { o.header.stamp = ros::Time(); }}));
+
+TEST(TimeConversion, RoundTripIsExact) {
+  for (const std::int64_t stamp_ns :
+       {std::int64_t{1}, std::int64_t{999'999'999}, std::int64_t{1'700'000'000'123'456'789}}) {
+    EXPECT_EQ(toNanoseconds(toRosTime(stamp_ns)), stamp_ns);
+  }
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is missing is said by name, with the remedy, in `status` and in the diagnostics: first the
+features, then the odometry, then the camera's mounting; once all is there, poses come."""
+import os
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from ardrone_vslam.msg import Status
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from drone import Drone, Recorder  # noqa: E402
+
+
+class MissingOdometry(unittest.TestCase):
+    def keep_sending(self, drone, with_odometry, until):
+        """Sends images until a status fulfils the condition. @return it, or None after 15 s"""
+        end_s = time.monotonic() + 15
+        while time.monotonic() < end_s:
+            drone.next()
+            if with_odometry:
+                drone.send(drone.odometry())
+            drone.send(drone.image(), drone.info())
+            found = drone.status.wait(until, 0.1)
+            if found:
+                return found
+        return None
+
+    def test_each_is_named(self):
+        rospy.init_node("missing_odometry_test")
+        drone = Drone()
+        diagnostics = Recorder("/diagnostics", DiagnosticArray)
+        drone.connect()
+
+        status = drone.status.wait(lambda s: s.state == Status.WAITING_FOR_FEATURES)
+        self.assertIsNotNone(status)
+        self.assertIn("/vslam/features", status.reason)
+        self.assertIn("tracker", status.reason)
+
+        status = self.keep_sending(
+            drone, False, lambda s: s.state == Status.WAITING_FOR_ODOMETRY and
+            s.dropped_no_odometry > 0)
+        self.assertIsNotNone(status)
+        self.assertEqual(status.state_name, "waiting_for_odometry")
+        self.assertIn("no odometry has come on /odometry", status.reason)
+        self.assertIn("remap", status.reason)
+        self.assertEqual(status.images, 0)
+
+        def is_error(array):
+            return any("mapper" in s.name and s.level == DiagnosticStatus.ERROR and
+                       "no odometry" in s.message for s in array.status)
+        self.assertIsNotNone(diagnostics.wait(is_error))
+
+        status = self.keep_sending(
+            drone, True, lambda s: s.state == Status.WAITING_FOR_EXTRINSICS and
+            s.dropped_no_extrinsics > 0)
+        self.assertIsNotNone(status)
+        self.assertIn("base_link to camera_optical", status.reason)
+        self.assertIn("static_transform_publisher", status.reason)
+        self.assertEqual(status.images, 0)
+
+        drone.mount_camera()
+        self.assertIsNotNone(self.keep_sending(drone, True, lambda s: s.images > 0))
+        self.assertIsNotNone(drone.fly(1)[0])
+
+        def is_well(array):
+            return any("mapper" in s.name and s.level == DiagnosticStatus.OK for s in array.status)
+        self.assertIsNotNone(self.keep_sending(drone, True, lambda _: any(
+            is_well(array) for array in diagnostics.all())))
+
+
+if __name__ == "__main__":
+    rostest.rosrun("ardrone_vslam", "missing_odometry", MissingOdometry)

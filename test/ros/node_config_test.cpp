@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The yaml files are read by the nodelets and by the offline tools: both must know the same keys.
+#include "node_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "config_file.hpp"
+#include "params.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+template <class Config>
+std::vector<std::string> namesOf(Config config) {
+  std::vector<std::string> names;
+  visitParameters(config,
+                  [&names](const ParameterInfo& info, auto&) { names.emplace_back(info.name); });
+  return names;
+}
+
+/// Loads a yaml with all these keys in a section; @return what is wrong with it.
+std::string loadingFault(const std::string& section, const std::vector<std::string>& keys) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("ardrone_vslam_node_config_test_" + section + ".yaml");
+  {
+    std::ofstream file(path);
+    file << section << ":\n";
+    for (const auto& key : keys) file << "  " << key << ": 1\n";
+  }
+  std::string fault;
+  try {
+    loadConfig(path.string(), {});
+  } catch (const ConfigError& e) {
+    fault = e.what();
+  }
+  std::filesystem::remove(path);
+  return fault;
+}
+
+TEST(NodeConfig, OfflineToolsPassOverTheNodesKeys) {
+  EXPECT_EQ(loadingFault("tracker", namesOf(TrackerNodeConfig{})), "");
+  EXPECT_EQ(loadingFault("mapper", namesOf(MapperNodeConfig{})), "");
+}
+
+TEST(NodeConfig, OfflineToolsRefuseOtherKeys) {
+  EXPECT_NE(loadingFault("tracker", {"publish_tf"}), "");
+  EXPECT_NE(loadingFault("mapper", {"publish_ft"}), "");
+}
+
+TEST(NodeConfig, NoNameIsUsedTwiceInANode) {
+  const auto check = [](std::vector<std::string> names, const std::vector<std::string>& more) {
+    names.insert(names.end(), more.begin(), more.end());
+    const std::set<std::string> different(names.begin(), names.end());
+    EXPECT_EQ(different.size(), names.size());
+  };
+  check(namesOf(TrackerNodeConfig{}), namesOf(TrackerConfig{}));
+  check(namesOf(MapperNodeConfig{}), namesOf(SlamConfig{}));
+}
+
+TEST(NodeConfig, ShippedFilesLoad) {
+  for (const auto* name : {"kitti.yaml", "ardrone_front.yaml"}) {
+    EXPECT_NO_THROW(loadConfig(std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/" + name, {}))
+        << name;
+  }
+}
+
+TEST(NodeConfig, NearestName) {
+  const std::set<std::string> known{"threshold", "features_per_frame", "max_landmarks"};
+  EXPECT_EQ(nearestName("thresold", known), "threshold");
+  EXPECT_EQ(nearestName("landmarks", known), "max_landmarks");
+  EXPECT_EQ(nearestName("feature_per_frames", known), "features_per_frame");
+  EXPECT_EQ(nearestName("colour", known), "");
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

@@ -1,0 +1,74 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Wrong parameters: a node does not start, and says all that is wrong at once; unknown ones are
+only warned of, with the name that was meant."""
+import signal
+import subprocess
+import time
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+
+
+def start(executable, *arguments):
+    return subprocess.Popen([rospy.get_param("~" + executable), *arguments],
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+class Params(unittest.TestCase):
+    def assert_refused(self, executable, arguments, said):
+        process = start(executable, *arguments)
+        output, _ = process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 1, output)
+        for part in said:
+            self.assertIn(part, output)
+
+    def test_tracker_lists_all_faults(self):
+        self.assert_refused("tracker_node", [
+            "__name:=bad_tracker", "_threshold:=high", "_features_per_frame:=10.5",
+            "_suppression:=none", "_arc_length_px:=4", "_rectified:=1"], [
+                "/bad_tracker/threshold is 'high' but must be a whole number",
+                "/bad_tracker/features_per_frame is '10.5' but must be a whole number",
+                "/bad_tracker/suppression is 'none' but must be one of: climb, strict",
+                "arc_length_px is 4 but must be between 9 and 12",
+                "/bad_tracker/rectified is '1' but must be true or false"])
+
+    def test_mapper_lists_all_faults(self):
+        self.assert_refused("mapper_node", [
+            "__name:=bad_mapper", "_odometry_wait_s:=-1", "_estimator:=kalman"], [
+                "odometry_wait_s is -1 but must be between 0 and 60",
+                "/bad_mapper/estimator is 'kalman' but must be one of: thesis, observer"])
+
+    def test_unknown_parameter_is_warned_of(self):
+        process = start("tracker_node", "__name:=odd_tracker", "_thresold:=30",
+                        "_queue_size:=7")
+        master = rosgraph.Master("/params_test")
+        end_s = time.monotonic() + 30
+        while time.monotonic() < end_s:
+            published = [topic for topic, _ in master.getSystemState()[0]]
+            if "/features" in published and process.poll() is None:
+                break
+            time.sleep(0.1)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)  # what roslaunch sends
+        output, _ = process.communicate(timeout=30)
+        self.assertIn("/odd_tracker/thresold is not a parameter", output)
+        self.assertIn("did you mean threshold?", output)
+        self.assertIn("queue_size=7", output)
+        self.assertIn("threshold=35", output)
+
+    def test_help_and_version(self):
+        for executable in ["tracker_node", "mapper_node"]:
+            for argument, code, said in [("--help", 0, "Usage"), ("--version", 0, "ardrone_vslam "),
+                                         ("--bogus", 2, "--bogus")]:
+                process = start(executable, argument)
+                output, _ = process.communicate(timeout=30)
+                self.assertEqual(process.returncode, code)
+                self.assertIn(said, output)
+
+
+if __name__ == "__main__":
+    rospy.init_node("params_test")
+    rostest.rosrun("ardrone_vslam", "params", Params)

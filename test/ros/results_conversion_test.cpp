@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+
+#include "conversions.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+const Frames kFrames{"map", "odom", "base_link"};
+
+FrameResult someResult() {
+  FrameResult result;
+  result.stamp_ns = 5'000'000'007;
+  result.state = SlamState::kLocalised;
+  result.T_map_base.translation() << 1, 2, 3;
+  result.T_map_base.linear() =
+      Eigen::AngleAxisd(0.5, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  result.T_odom_base.translation() << 4, 5, 6;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) result.covariance(row, column) = 10 * row + column;
+  }
+  result.deviation_m = 0.25;
+  result.features = 100;
+  result.landmark_candidates = 30;
+  result.landmark_matches = 20;
+  result.feature_candidates = 40;
+  result.feature_matches = 35;
+  result.landmarks = 500;
+  return result;
+}
+
+Eigen::Isometry3d fromPose(const geometry_msgs::Pose& pose) {
+  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
+  T_a_b.translation() << pose.position.x, pose.position.y, pose.position.z;
+  T_a_b.linear() = Eigen::Quaterniond(pose.orientation.w, pose.orientation.x, pose.orientation.y,
+                                      pose.orientation.z)
+                       .toRotationMatrix();
+  return T_a_b;
+}
+
+TEST(ResultConversion, Pose) {
+  const FrameResult result = someResult();
+  const auto message = toPoseMessage(result, kFrames);
+  EXPECT_EQ(message.header.stamp, ros::Time(5, 7));
+  EXPECT_EQ(message.header.frame_id, "map");
+  EXPECT_TRUE(fromPose(message.pose.pose).isApprox(result.T_map_base, 1e-12));
+  EXPECT_EQ(message.pose.covariance[1], 1);  // row-major
+  EXPECT_EQ(message.pose.covariance[6], 10);
+}
+
+TEST(ResultConversion, OdometryCarriesTheObserversTwist) {
+  geometry_msgs::TwistWithCovariance twist;
+  twist.twist.linear.x = 0.7;
+  const auto message = toOdometryMessage(someResult(), kFrames, twist);
+  EXPECT_EQ(message.header.frame_id, "map");
+  EXPECT_EQ(message.child_frame_id, "base_link");
+  EXPECT_EQ(message.twist.twist.linear.x, 0.7);
+  EXPECT_EQ(message.pose, toPoseMessage(someResult(), kFrames).pose);
+}
+
+TEST(ResultConversion, Correction) {
+  const FrameResult result = someResult();
+  const Eigen::Isometry3d T_map_odom = result.T_map_base * result.T_odom_base.inverse();
+  const auto message = toCorrectionMessage(result, T_map_odom, kFrames);
+  EXPECT_TRUE(fromPose(message.observer_pose).isApprox(result.T_odom_base, 1e-12));
+  EXPECT_TRUE(fromPose(message.fused_pose.pose).isApprox(result.T_map_base, 1e-12));
+  EXPECT_EQ(message.map_to_odom.translation.x, T_map_odom.translation().x());
+  EXPECT_EQ(message.deviation, 0.25);
+  EXPECT_TRUE(message.corrected);
+  FrameResult not_corrected = result;
+  not_corrected.state = SlamState::kTooFewLandmarks;
+  EXPECT_FALSE(toCorrectionMessage(not_corrected, T_map_odom, kFrames).corrected);
+}
+
+TEST(ResultConversion, StatusCountsWhatWasRemoved) {
+  Status status;
+  status.images = 77;
+  toStatus(someResult(), "map", status);
+  EXPECT_EQ(status.state, Status::LOCALISED);
+  EXPECT_EQ(status.state_name, "localised");
+  EXPECT_EQ(status.reason, "");
+  EXPECT_EQ(status.landmark_mismatches, 10U);
+  EXPECT_EQ(status.feature_mismatches, 5U);
+  EXPECT_EQ(status.images, 77U);
+}
+
+TEST(ResultConversion, EveryOtherStateHasAReason) {
+  const std::vector<std::pair<SlamState, std::uint8_t>> states{
+      {SlamState::kBuildingMap, Status::BUILDING_MAP},
+      {SlamState::kTooFewLandmarks, Status::TOO_FEW_LANDMARKS},
+      {SlamState::kFixRejected, Status::FIX_REJECTED},
+      {SlamState::kObserverOnly, Status::OBSERVER_ONLY}};
+  for (const auto& [state, constant] : states) {
+    FrameResult result = someResult();
+    result.state = state;
+    Status status;
+    toStatus(result, "map", status);
+    EXPECT_EQ(status.state, constant);
+    EXPECT_NE(status.reason, "");
+  }
+}
+
+LandmarkMap someMap() {
+  LandmarkMap map(LandmarkMapConfig{});
+  for (int i = 0; i < 5; ++i) {
+    Landmark landmark;
+    landmark.position_map << i, 2 * i, -i;
+    landmark.deviation_m = 0.01 + 0.3 * i;
+    landmark.times_seen = 3 + i;
+    map.add(landmark);
+  }
+  return map;
+}
+
+TEST(MapConversion, Cloud) {
+  const LandmarkMap map = someMap();
+  const auto cloud = toCloud(map, "map", 9);
+  ASSERT_EQ(cloud.width * cloud.height, map.size());
+  sensor_msgs::PointCloud2ConstIterator<float> y(cloud, "y");
+  sensor_msgs::PointCloud2ConstIterator<float> deviation(cloud, "deviation");
+  sensor_msgs::PointCloud2ConstIterator<std::uint32_t> seen(cloud, "times_seen");
+  sensor_msgs::PointCloud2ConstIterator<std::uint32_t> id(cloud, "id");
+  for (const Landmark& landmark : map.all()) {
+    EXPECT_EQ(*y, static_cast<float>(landmark.position_map.y()));
+    EXPECT_EQ(*deviation, static_cast<float>(landmark.deviation_m));
+    EXPECT_EQ(*seen, static_cast<std::uint32_t>(landmark.times_seen));
+    EXPECT_EQ(*id, landmark.id);
+    ++y;
+    ++deviation;
+    ++seen;
+    ++id;
+  }
+}
+
+TEST(MapConversion, EmptyMap) {
+  const LandmarkMap map(LandmarkMapConfig{});
+  EXPECT_EQ(toCloud(map, "map", 9).width, 0U);
+  EXPECT_EQ(toMarker(map, "map", 9).action, visualization_msgs::Marker::DELETE);
+}
+
+TEST(MapConversion, MarkerColoursByDeviation) {
+  const auto marker = toMarker(someMap(), "map", 9);
+  ASSERT_EQ(marker.points.size(), 5U);
+  ASSERT_EQ(marker.colors.size(), 5U);
+  EXPECT_EQ(marker.points[3].y, 6);
+  EXPECT_EQ(marker.colors[0].g, 1);  // 1 cm: green
+  EXPECT_EQ(marker.colors[0].r, 0);
+  EXPECT_EQ(marker.colors[4].r, 1);  // beyond 1 m: red
+  EXPECT_EQ(marker.colors[4].g, 0);
+  EXPECT_GT(marker.colors[2].r, marker.colors[1].r - 1e-6F);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
