@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "observer_model.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
