@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// make_world: renders a flight through a synthetic room, as a bag or as a TUM-like folder.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#ifdef ARDRONE_VSLAM_WITH_ROS
+#include "bag_writer.hpp"
+#endif
+#include "config_path.hpp"
+#include "progress_line.hpp"
+#include "tum_folder_writer.hpp"
+#include "world_sequence.hpp"
+
+namespace {
+
+using namespace ardrone_vslam;
+
+struct Options {
+  WorldOptions world;
+  std::string out;
+  bool force = false;
+  std::string observer_profile;
+  std::string start;  // "X,Y,YAW" [m, m, rad]; empty: the flight's own
+  std::string images = "raw";
+  std::string compression = "none";
+};
+
+void addOptions(CLI::App& app, Options& o) {
+  app.set_version_flag("--version",
+                       std::string("make_world (ardrone_vslam) " ARDRONE_VSLAM_VERSION));
+  app.add_option("flight", o.world.flight, "which flight")
+      ->required()
+      ->check(CLI::IsMember(flightNames()));
+  app.add_option("--out", o.out, "FILE.bag, or else a folder to make")->required();
+  app.add_flag("--force", o.force, "replace what is there");
+  app.add_option("--seconds", o.world.duration_s, "of flight")
+      ->capture_default_str()
+      ->check(CLI::Range(0.001, 1e6));
+  app.add_option("--rate", o.world.rate_hz, "images a second")
+      ->capture_default_str()
+      ->check(CLI::Range(0.001, 1e3));
+  app.add_option("--observer-profile", o.observer_profile,
+                 "how the simulated odometry drifts: truth, wheel, drone, hover, harsh "
+                 "(config/observer_profiles.yaml); default: drone in a bag, no odometry in a "
+                 "folder");
+  app.add_option("--seed", o.world.seed, "of the noise in odometry and images")
+      ->capture_default_str();
+  app.add_option("--world-seed", o.world.world_seed, "of the room")->capture_default_str();
+  app.add_option("--start", o.start,
+                 "X,Y,YAW, where the flight begins [m, m, rad] in the room of 8 x 6 m whose middle "
+                 "is 0,0; default: on the flight's path");
+  app.add_option("--compressed", o.images, "images in a bag")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"raw", "png", "jpeg"}));
+  app.add_option("--compression", o.compression, "of the bag's chunks")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"none", "lz4", "bz2"}));
+}
+
+bool isBag(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".bag";
+}
+
+FlightStart parseStart(const std::string& text) {
+  FlightStart start;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &start.x_m, &start.y_m, &start.yaw_rad, &rest) !=
+      3) {
+    throw std::invalid_argument("--start: '" + text + "' must be X,Y,YAW, for example 1,-0.5,1.57");
+  }
+  return start;
+}
+
+void loadProfile(Options& o) {
+  const std::string profiles = findConfigFile("observer_profiles.yaml");
+  const auto names = observerProfileNames(profiles);
+  if (std::find(names.begin(), names.end(), o.observer_profile) == names.end()) {
+    std::string known;
+    for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;
+    throw std::invalid_argument("--observer-profile: there is no profile '" + o.observer_profile +
+                                "'; known are " + known);
+  }
+  o.world.observer = loadObserverProfile(o.observer_profile, profiles);
+}
+
+#ifdef ARDRONE_VSLAM_WITH_ROS
+void writeWorldBag(WorldSequence& world, const Options& o, ProgressLine& progress) {
+  using Format = BagWriteOptions::ImageFormat;
+  using Compression = BagWriteOptions::Compression;
+  BagWriteOptions write;
+  write.image_format = o.images == "png"    ? Format::kPng
+                       : o.images == "jpeg" ? Format::kJpeg
+                                            : Format::kRaw;
+  write.compression = o.compression == "lz4"   ? Compression::kLz4
+                      : o.compression == "bz2" ? Compression::kBz2
+                                               : Compression::kNone;
+  write.observer_profile = o.world.observer;
+  write.seed = o.world.seed;
+  write.tool = "make_world (ardrone_vslam) " ARDRONE_VSLAM_VERSION ", flight " + o.world.flight +
+               ", world seed " + std::to_string(o.world.world_seed);
+  write.progress = [&progress](std::size_t done, std::size_t) { progress.update(done); };
+  writeBag(world, write, o.out);
+}
+#else
+void writeWorldBag(WorldSequence&, const Options& o, ProgressLine&) {
+  throw std::runtime_error(o.out +
+                           ": this make_world was built without ROS and cannot write bags; name a "
+                           "folder, or build with ROS (scripts/install_dependencies)");
+}
+#endif
+
+/// Only a folder as make_world makes it: --force must not empty anything else.
+void removeOldFolder(const std::string& path) {
+  namespace fs = std::filesystem;
+  if (!fs::exists(path)) return;
+  if (!fs::is_directory(path + "/image") || !fs::exists(path + "/times.txt")) {
+    throw std::runtime_error(path + ": is no folder of images (image/, times.txt) that --force " +
+                             "could replace; remove it yourself or choose another name");
+  }
+  fs::remove_all(path);
+}
+
+void writeWorldFolder(WorldSequence& world, const Options& o, ProgressLine& progress) {
+  TumFolderOptions write;
+  if (o.world.observer) {
+    write.observer_comment = "profile " + o.world.observer->name + ", seed " +
+                             std::to_string(o.world.seed) + ", drawn scale error " +
+                             std::to_string(world.scaleError());
+  }
+  write.progress = [&progress](std::size_t done, std::size_t) { progress.update(done); };
+  if (o.force) removeOldFolder(o.out);
+  writeTumFolder(world, o.out, write);
+}
+
+int run(Options& o) {
+  const bool bag = isBag(o.out);
+  if (!o.force && std::filesystem::exists(o.out)) {
+    throw std::runtime_error(o.out + ": is there already; choose another name or give --force");
+  }
+  if (bag && o.observer_profile.empty()) o.observer_profile = "drone";
+  if (!o.observer_profile.empty()) loadProfile(o);
+  if (!o.start.empty()) o.world.start = parseStart(o.start);
+  // Base of a folder is by its definition where the camera is.
+  if (!bag) o.world.T_base_cam = forwardCamera();
+  WorldSequence world(o.world);
+  {
+    ProgressLine progress("make_world", world.size());
+    bag ? writeWorldBag(world, o, progress) : writeWorldFolder(world, o, progress);
+  }
+  std::cout << o.out << ": " << world.size() << " images, world seed " << o.world.world_seed;
+  if (o.world.observer) {
+    std::cout << "; observer profile " << o.world.observer->name << ", seed " << o.world.seed
+              << ", scale error " << world.scaleError();
+  }
+  std::cout << '\n';
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Renders a flight of an AR.Drone through a synthetic room: images, exact truth, odometry."};
+  Options options;
+  addOptions(app, options);
+  try {
+    app.parse(argc, argv);
+    return run(options);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  } catch (const std::invalid_argument& e) {
+    std::cerr << "make_world: " << e.what() << '\n';
+    return 2;
+  } catch (const std::exception& e) {
+    std::cerr << "make_world: " << e.what() << '\n';
+    return 1;
+  }
+}
