@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Folders as make_world writes them, and the program itself.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "tum_folder_writer.hpp"
+#include "world_sequence.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MakeWorld : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Exit code of make_world with these arguments; what it prints goes to the file `output`.
+  int run(const std::string& arguments) const {
+    const std::string command =
+        std::string(ARDRONE_VSLAM_MAKE_WORLD) + " " + arguments + " > " + path("output") + " 2>&1";
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+
+  std::string text(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+
+ private:
+  fs::path folder_ =
+      fs::path(testing::TempDir()) /
+      ("make_world_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+};
+
+WorldOptions fewImages() {
+  WorldOptions options;
+  options.duration_s = 2;
+  options.rate_hz = 2;
+  options.observer =
+      loadObserverProfile("wheel", ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");
+  return options;
+}
+
+TEST_F(MakeWorld, FolderHoldsWhatTheSequenceGives) {
+  WorldSequence world(fewImages());  // base in the middle of the drone
+  TumFolderOptions options;
+  options.observer_comment = "profile wheel, seed 0";
+  std::size_t last_progress = 0;
+  options.progress = [&](std::size_t done, std::size_t) { last_progress = done; };
+  writeTumFolder(world, path("flight"), options);
+  EXPECT_EQ(last_progress, 4U);
+  EXPECT_FALSE(fs::exists(path("flight.part")));
+  EXPECT_EQ(text("flight/times.txt"), "1.000000000\n1.500000000\n2.000000000\n2.500000000\n");
+  EXPECT_NE(text("flight/camera.yaml").find("data: [-0.525, 0.274, 0, 0, 0]"), std::string::npos);
+  EXPECT_NE(text("flight/observer_tum.txt").find("# profile wheel, seed 0"), std::string::npos);
+  const cv::Mat image = cv::imread(path("flight/image/000003.png"), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(image.type(), CV_8UC1);
+  EXPECT_EQ(cv::norm(image, world.image(3), cv::NORM_INF), 0);
+
+  const Trajectory T_world_cam = readTum(path("flight/poses_tum.txt"));
+  ASSERT_EQ(T_world_cam.size(), 4U);
+  EXPECT_TRUE(T_world_cam.poses()[3].T_map_base.isApprox(
+      world.truth().poses()[3].T_map_base * world.T_base_cam(), 1e-7));
+  const auto observer = readTumPoses(path("flight/observer_tum.txt"));
+  ASSERT_EQ(observer.size(), world.observer().size());
+  // The folder's base is the camera: 0.21 m before the drone's, with the same axes.
+  EXPECT_TRUE(observer[40].T_map_base.isApprox(
+      world.observer()[40].T_odom_base * Eigen::Translation3d(0.21, 0, 0), 1e-7));
+}
+
+TEST_F(MakeWorld, FolderIsReadAgainAsItWas) {
+  WorldOptions options = fewImages();
+  options.T_base_cam = forwardCamera();
+  options.observer = loadObserverProfile(
+      "harsh", ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");  // repeated stamps
+  WorldSequence world(options);
+  writeTumFolder(world, path("flight"));
+  const auto read = openFolder(path("flight"));
+  ASSERT_EQ(read->size(), world.size());
+  EXPECT_EQ(read->camera(), world.camera());
+  EXPECT_TRUE(read->T_base_cam().isApprox(world.T_base_cam()));
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    EXPECT_EQ(read->stamp_ns(i), world.stamp_ns(i));
+    EXPECT_EQ(cv::norm(read->image(i), world.image(i), cv::NORM_INF), 0);
+    EXPECT_TRUE(
+        read->truth().poses()[i].T_map_base.isApprox(world.truth().poses()[i].T_map_base, 1e-8));
+  }
+  ASSERT_EQ(read->observer().size(), world.observer().size());
+  for (std::size_t i = 0; i < world.observer().size(); ++i) {
+    EXPECT_EQ(read->observer()[i].stamp_ns, world.observer()[i].stamp_ns);
+    EXPECT_TRUE(read->observer()[i].T_odom_base.isApprox(world.observer()[i].T_odom_base, 1e-7));
+  }
+}
+
+TEST_F(MakeWorld, AFailingImageLeavesNothingBehind) {
+  class Failing : public WorldSequence {
+   public:
+    using WorldSequence::WorldSequence;
+    cv::Mat image(std::size_t index) override {
+      if (index == 2) throw std::runtime_error("third image");
+      return WorldSequence::image(index);
+    }
+  };
+  Failing world(fewImages());
+  EXPECT_THROW(writeTumFolder(world, path("flight")), std::runtime_error);
+  EXPECT_FALSE(fs::exists(path("flight")));
+  EXPECT_FALSE(fs::exists(path("flight.part")));
+}
+
+TEST_F(MakeWorld, TheSameArgumentsGiveTheSameBytes) {
+  const std::string arguments =
+      "laps --seconds 1 --rate 2 --observer-profile harsh --seed 5 --world-seed 6 --start "
+      "-0.5,1,0.5 "
+      "--out ";
+  ASSERT_EQ(run(arguments + path("a")), 0) << text("output");
+  ASSERT_EQ(run(arguments + path("b/")), 0) << text("output");
+  for (const char* name : {"image/000000.png", "image/000001.png", "times.txt", "camera.yaml",
+                           "poses_tum.txt", "observer_tum.txt"}) {
+    EXPECT_FALSE(text(std::string("a/") + name).empty()) << name;
+    EXPECT_EQ(text(std::string("a/") + name), text(std::string("b/") + name)) << name;
+  }
+  EXPECT_NE(text("a/observer_tum.txt").find("profile harsh, seed 5, drawn scale error"),
+            std::string::npos);
+}
+
+TEST_F(MakeWorld, WritesBagsWhereRosIs) {
+  const std::string arguments = "laps --seconds 0.2 --rate 10 --out ";
+  const int exit_code = run(arguments + path("a.bag"));
+#if ARDRONE_VSLAM_MAKE_WORLD_WRITES_BAGS
+  ASSERT_EQ(exit_code, 0) << text("output");
+  EXPECT_NE(text("output").find("profile drone, seed 0"), std::string::npos);
+  EXPECT_EQ(text("a.bag").substr(0, 12), "#ROSBAG V2.0");
+  ASSERT_EQ(run(arguments + path("b.bag")), 0);
+  EXPECT_EQ(text("a.bag"), text("b.bag"));
+#else
+  EXPECT_EQ(exit_code, 1);
+  EXPECT_NE(text("output").find("built without ROS"), std::string::npos);
+#endif
+}
+
+TEST_F(MakeWorld, ExitCodesTellUsageFromFaults) {
+  const std::string brief = "laps --seconds 0.1 --rate 10 --out ";
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_NE(text("output").find("--observer-profile"), std::string::npos);
+  EXPECT_EQ(run("--version"), 0);
+  EXPECT_NE(text("output").find("make_world (ardrone_vslam) "), std::string::npos);
+  EXPECT_EQ(run("laps"), 2);
+  EXPECT_EQ(run("loops --out " + path("x")), 2);
+  EXPECT_EQ(run(brief + path("x") + " --observer-profile mars"), 2);
+  EXPECT_NE(text("output").find("known are truth, wheel, drone, hover, harsh"), std::string::npos);
+  EXPECT_EQ(run(brief + path("x") + " --start 9,0,0"), 2);
+  EXPECT_NE(text("output").find("0.5 m from the walls"), std::string::npos);
+  for (const char* start : {"1,2", "1,2,3,4", "a,b,c", "1 2 3"}) {
+    EXPECT_EQ(run(brief + path("x") + " --start '" + start + "'"), 2) << start;
+    EXPECT_NE(text("output").find("must be X,Y,YAW"), std::string::npos) << start;
+  }
+  EXPECT_EQ(run(brief + "/proc/nowhere/x"), 1);
+  EXPECT_NE(text("output").find("/proc/nowhere/x"), std::string::npos);
+  EXPECT_FALSE(fs::exists(path("x")));
+}
+
+TEST_F(MakeWorld, ForceReplacesAFlightAndNothingElse) {
+  const std::string brief = "laps --seconds 0.1 --rate 10 --out ";
+  ASSERT_EQ(run(brief + path("flight")), 0);
+  EXPECT_EQ(run(brief + path("flight")), 1);
+  EXPECT_EQ(run(brief + path("flight") + " --force"), 0);
+  fs::create_directories(path("precious/photos"));
+  EXPECT_EQ(run(brief + path("precious") + " --force"), 1);
+  EXPECT_TRUE(fs::exists(path("precious/photos")));
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
