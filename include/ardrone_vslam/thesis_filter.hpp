@@ -20,7 +20,7 @@ struct EnumNames<MeanKind> {
 struct ThesisFilterConfig {
   MeanKind mean = MeanKind::kPrinted;
   bool common_drift = true;
-  int min_landmarks = 3;
+  int min_landmarks = 10;
   double initial_deviation_m = 0.01;
   double observer_noise_m_per_sqrt_m = 0.015;
   double observer_noise_m_per_sqrt_s = 0.03;
