@@ -26,8 +26,10 @@ void Associator::begin(const FrameView& view, std::size_t target_count) {
   feature_taken_.assign(view.size(), false);
   targets_in_view_.clear();
   feature_of_track_.clear();
-  for (std::size_t i = 0; i < view.size(); ++i)
-    feature_of_track_[view.features().track_id[i]] = static_cast<int>(i);
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    const std::uint32_t track_id = view.features().track_id[i];
+    if (track_id != kNoTrack) feature_of_track_[track_id] = static_cast<int>(i);
+  }
 }
 
 int Associator::featureOfTrack(std::uint32_t track_id) const {
