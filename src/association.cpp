@@ -172,12 +172,12 @@ bool Associator::isEpipolarMismatch(const FrameView& view, const MapFeature& fir
   const Ray present = view.ray(static_cast<std::size_t>(feature));
   const auto offset = epipolarOffset(first.ray, present);
   if (!offset) return false;  // no baseline yet: nothing to test, and nothing to triangulate either
-  // An uncertain baseline turns the epipolar plane about the first ray.
+  // An uncertain baseline turns the epipolar plane about the first ray, and the parallax with it.
   const double baseline_m = (present.origin_map - first.ray.origin_map).norm();
   const double turn_rad =
       config_.threshold_deviations * view.deviationSince_m(first.position_variance_m2) / baseline_m;
   const double pixels_rad = config_.epipolar_threshold_px / view.focalLength_px();
-  const double threshold = pixels_rad + turn_rad * std::abs(offset->along);
+  const double threshold = pixels_rad + turn_rad * std::hypot(offset->along, offset->across);
   return offset->across > threshold || offset->along < -threshold ||
          offset->ahead < -(pixels_rad + turn_rad);
 }
