@@ -26,8 +26,10 @@ void Associator::begin(const FrameView& view, std::size_t target_count) {
   feature_taken_.assign(view.size(), false);
   targets_in_view_.clear();
   feature_of_track_.clear();
-  for (std::size_t i = 0; i < view.size(); ++i)
-    feature_of_track_[view.features().track_id[i]] = static_cast<int>(i);
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    const std::uint32_t track_id = view.features().track_id[i];
+    if (track_id != kNoTrack) feature_of_track_[track_id] = static_cast<int>(i);
+  }
 }
 
 int Associator::featureOfTrack(std::uint32_t track_id) const {
@@ -46,54 +48,63 @@ void Associator::search(const FrameView& view, const Descriptor& descriptor, con
   });
 }
 
-int Associator::mutualBest(int target) const {
+int Associator::bestFeature(int target) const {
   const BestTwo& best = best_of_target_[static_cast<std::size_t>(target)];
   if (!accept(best, config_.matcher)) return kNobody;
-  return best_of_feature_[static_cast<std::size_t>(best.index)].index == target ? best.index
-                                                                                : kNobody;
+  const auto feature = static_cast<std::size_t>(best.index);
+  if (feature_taken_[feature]) return kNobody;  // by a target before, if there is no cross check
+  if (config_.matcher.cross_check && best_of_feature_[feature].index != target) return kNobody;
+  return best.index;
+}
+
+double Associator::margin_px(const FrameView& view, const Landmark& landmark) const {
+  const double distance_m = (landmark.position_map - view.origin_map()).norm();
+  return config_.threshold_deviations * view.focalLength_px() *
+         view.deviationSince_m(landmark.position_variance_m2) / distance_m;
+}
+
+bool Associator::landmarkWindow(const FrameView& view, const Landmark& landmark,
+                                Window& window) const {
+  const Eigen::Vector3d offset = landmark.position_map - view.origin_map();
+  const double distance = offset.norm();
+  const double smallest_cosine = std::cos(radians(config_.max_view_angle_deg));
+  if (distance < kSmallestDistance_m ||
+      landmark.view_direction_map.dot(offset) < smallest_cosine * distance)
+    return false;
+  if (!view.idealPixel(offset, landmark.elevation, window.centre_px)) return false;
+  window.radius_px = static_cast<float>(config_.search_radius_px + margin_px(view, landmark));
+  return true;
+}
+
+bool Associator::decideLandmark(const FrameView& view, const LandmarkMap& map,
+                                const Association& candidate, AssociationResult& result) {
+  ++result.candidates;
+  if (isLandmarkMismatch(view, map.all()[static_cast<std::size_t>(candidate.target)],
+                         candidate.feature)) {
+    ++result.mismatches;
+    return false;
+  }
+  result.matches.push_back(candidate);
+  feature_taken_[static_cast<std::size_t>(candidate.feature)] = true;
+  return true;
 }
 
 void Associator::matchLandmarks(const FrameView& view, const LandmarkMap& map,
                                 AssociationResult& result) {
   result = {};
   begin(view, map.size());
-  const double smallest_cosine = std::cos(radians(config_.max_view_angle_deg));
-  const auto margin_px = [&](const Landmark& landmark) {
-    const double distance_m = (landmark.position_map - view.origin_map()).norm();
-    return config_.threshold_deviations * view.focalLength_px() *
-           view.deviationSince_m(landmark.position_variance_m2) / distance_m;
-  };
-  const auto decide = [&](int target, int feature) {
-    ++result.candidates;
-    const Landmark& landmark = map.all()[static_cast<std::size_t>(target)];
-    if (isLandmarkMismatch(view, landmark, feature, margin_px(landmark))) {
-      ++result.mismatches;
-      return;
-    }
-    result.matches.push_back({target, feature});
-    feature_taken_[static_cast<std::size_t>(feature)] = true;
-  };
-
   // Tracks first: they need no search, and their features are not offered to other landmarks.
   window_of_target_.clear();
   for (std::size_t i = 0; i < map.size(); ++i) {
     const Landmark& landmark = map.all()[i];
-    const Eigen::Vector3d offset = landmark.position_map - view.origin_map();
-    const double distance = offset.norm();
     Window window;
-    if (distance < kSmallestDistance_m ||
-        landmark.view_direction_map.dot(offset) < smallest_cosine * distance)
-      continue;
-    if (!view.idealPixel(offset, landmark.elevation, window.centre_px)) continue;
-    window.radius_px = static_cast<float>(config_.search_radius_px + margin_px(landmark));
+    if (!landmarkWindow(view, landmark, window)) continue;
     ++result.in_view;
+    const int target = static_cast<int>(i);
     const int feature = featureOfTrack(landmark.track_id);
-    if (feature != kNobody && !feature_taken_[static_cast<std::size_t>(feature)]) {
-      const std::size_t matches_before = result.matches.size();
-      decide(static_cast<int>(i), feature);
-      if (result.matches.size() > matches_before) continue;
-    }
-    targets_in_view_.push_back(static_cast<int>(i));
+    const bool free = feature != kNobody && !feature_taken_[static_cast<std::size_t>(feature)];
+    if (free && decideLandmark(view, map, {target, feature}, result)) continue;
+    targets_in_view_.push_back(target);
     window_of_target_.push_back(window);
   }
   for (std::size_t k = 0; k < targets_in_view_.size(); ++k) {
@@ -102,18 +113,18 @@ void Associator::matchLandmarks(const FrameView& view, const LandmarkMap& map,
            target);
   }
   for (const int target : targets_in_view_) {
-    const int feature = mutualBest(target);
-    const std::size_t matches_before = result.matches.size();
-    if (feature != kNobody) decide(target, feature);
-    if (result.matches.size() == matches_before) result.missed.push_back(target);
+    const int feature = bestFeature(target);
+    if (feature == kNobody || !decideLandmark(view, map, {target, feature}, result))
+      result.missed.push_back(target);
   }
 }
 
-bool Associator::isLandmarkMismatch(const FrameView& view, const Landmark& landmark, int feature,
-                                    double margin_px) const {
+bool Associator::isLandmarkMismatch(const FrameView& view, const Landmark& landmark,
+                                    int feature) const {
   const Ray ray = view.ray(static_cast<std::size_t>(feature));
   const Eigen::Vector3d predicted = (landmark.position_map - ray.origin_map).normalized();
-  const double angle = (config_.landmark_threshold_px + margin_px) / view.focalLength_px();
+  const double angle =
+      (config_.landmark_threshold_px + margin_px(view, landmark)) / view.focalLength_px();
   return !(predicted.dot(ray.direction_map) > std::cos(std::min(angle, M_PI)));  // (5.36)
 }
 
@@ -151,7 +162,7 @@ void Associator::matchMapFeatures(const FrameView& view, const FeatureMap& map,
     search(view, entry.descriptor, window, static_cast<int>(i));
   }
   for (const int target : targets_in_view_) {
-    const int feature = mutualBest(target);
+    const int feature = bestFeature(target);
     if (feature != kNobody) decide(target, feature);
   }
 }
@@ -161,13 +172,14 @@ bool Associator::isEpipolarMismatch(const FrameView& view, const MapFeature& fir
   const Ray present = view.ray(static_cast<std::size_t>(feature));
   const auto offset = epipolarOffset(first.ray, present);
   if (!offset) return false;  // no baseline yet: nothing to test, and nothing to triangulate either
-  // An uncertain baseline turns the epipolar plane about the first ray.
+  // An uncertain baseline turns the epipolar plane about the first ray, and the parallax with it.
   const double baseline_m = (present.origin_map - first.ray.origin_map).norm();
   const double turn_rad =
-      view.deviationSince_m(first.position_variance_m2) / baseline_m * std::abs(offset->along);
-  const double threshold = config_.epipolar_threshold_px / view.focalLength_px() +
-                           config_.threshold_deviations * turn_rad;
-  return offset->across > threshold || offset->along < -threshold;
+      config_.threshold_deviations * view.deviationSince_m(first.position_variance_m2) / baseline_m;
+  const double pixels_rad = config_.epipolar_threshold_px / view.focalLength_px();
+  const double threshold = pixels_rad + turn_rad * std::hypot(offset->along, offset->across);
+  return offset->across > threshold || offset->along < -threshold ||
+         offset->ahead < -(pixels_rad + turn_rad);
 }
 
 }  // namespace ardrone_vslam

@@ -10,7 +10,9 @@ FeatureMap::FeatureMap(const FeatureMapConfig& config) : config_(config) {
 }
 
 void FeatureMap::add(const MapFeature& feature) {
-  index_of_track_[feature.track_id] = features_.size();
+  const int stale = indexOfTrack(feature.track_id);
+  if (stale >= 0) features_[static_cast<std::size_t>(stale)].track_id = kNoTrack;
+  if (feature.track_id != kNoTrack) index_of_track_[feature.track_id] = features_.size();
   features_.push_back(feature);
   removed_.push_back(false);
 }
@@ -48,7 +50,9 @@ int FeatureMap::compact(std::int64_t now_ns) {
   features_.resize(kept);
   removed_.assign(kept, false);
   index_of_track_.clear();
-  for (std::size_t i = 0; i < kept; ++i) index_of_track_[features_[i].track_id] = i;
+  for (std::size_t i = 0; i < kept; ++i) {
+    if (features_[i].track_id != kNoTrack) index_of_track_[features_[i].track_id] = i;
+  }
   return dropped;
 }
 

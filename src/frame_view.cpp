@@ -4,6 +4,15 @@
 #include <algorithm>
 
 namespace ardrone_vslam {
+namespace {
+
+/// Cosine of 87 degrees off the axis: no ideal pixel is computed beyond, as they go to infinity.
+constexpr float kFlattest = 0.05F;
+
+/// Cells of the grid along one side, at most; keeps its cost bounded for very wide lenses.
+constexpr float kMostCells = 256.F;
+
+}  // namespace
 
 void FrameView::reset(const Features& features, const Eigen::Isometry3d& T_map_cam, bool planar) {
   features_ = &features;
@@ -21,18 +30,20 @@ void FrameView::reset(const Features& features, const Eigen::Isometry3d& T_map_c
       ray.z() = 0;
     }
     rays_map_.push_back(ray.normalized());
-    ideal_px_.push_back(features.focal_length_px * bearing.head<2>() / bearing.z());
+    ideal_px_.push_back(features.focal_length_px * bearing.head<2>() /
+                        std::max(kFlattest, bearing.z()));
     lower_px_ = lower_px_.cwiseMin(ideal_px_.back());
     upper_px_ = upper_px_.cwiseMax(ideal_px_.back());
   }
   for (Eigen::Vector2f& pixel : ideal_px_) pixel -= lower_px_;
   const Eigen::Vector2f extent = upper_px_ - lower_px_;
-  grid_.build(ideal_px_, static_cast<int>(extent.x()) + 1, static_cast<int>(extent.y()) + 1);
+  const float cell_px = std::max(32.F, extent.maxCoeff() / kMostCells);
+  grid_.build(ideal_px_, static_cast<int>(extent.x()) + 1, static_cast<int>(extent.y()) + 1,
+              cell_px);
 }
 
 bool FrameView::idealPixel(const Eigen::Vector3d& direction_map, double elevation,
                            Eigen::Vector2f& pixel_px) const {
-  constexpr double kFlattest = 0.05;  // 87 degrees off the axis
   Eigen::Vector3d direction = direction_map;
   if (planar_) direction.z() = elevation * direction.head<2>().norm();
   const Eigen::Vector3d direction_cam = R_cam_map_ * direction;

@@ -65,7 +65,8 @@ int Mapper::triangulateMatches(const FrameView& view, const std::vector<Associat
     const auto feature = static_cast<std::size_t>(match.feature);
     const auto entry = static_cast<std::size_t>(match.target);
     const MapFeature& first = features.all()[entry];
-    const bool same_track = first.track_id == view.features().track_id[feature];
+    const bool same_track =
+        first.track_id != kNoTrack && first.track_id == view.features().track_id[feature];
     const auto point = triangulate(first.ray, view.ray(feature));
     if (!point || point->parallax_rad < min_parallax_rad) {
       if (same_track)

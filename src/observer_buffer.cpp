@@ -24,9 +24,11 @@ ObserverState interpolate(const ObserverState& a, const ObserverState& b, std::i
   ObserverState state;
   state.stamp_ns = stamp_ns;
   state.T_odom_base.linear() = q_a.slerp(s, q_b).normalized().toRotationMatrix();
+  // In this form equal values stay equal to the bit: a covariance that does not grow must not seem
+  // to grow by rounding.
   state.T_odom_base.translation() =
-      (1 - s) * a.T_odom_base.translation() + s * b.T_odom_base.translation();
-  state.covariance = (1 - s) * a.covariance + s * b.covariance;
+      a.T_odom_base.translation() + s * (b.T_odom_base.translation() - a.T_odom_base.translation());
+  state.covariance = a.covariance + s * (b.covariance - a.covariance);
   return state;
 }
 

@@ -57,7 +57,12 @@ const LandmarkMap& Slam::landmarks() const {
 }
 
 Eigen::Isometry3d Slam::T_map_odom() const {
-  return state_->result.T_map_base * state_->result.T_odom_base.inverse();
+  // Both poses have the observer's orientation, so that only the positions differ; this form stays
+  // exact far from the origin.
+  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
+  T_map_odom.translation() =
+      state_->result.T_map_base.translation() - state_->result.T_odom_base.translation();
+  return T_map_odom;
 }
 
 const FrameResult& Slam::process(const Features& features, const ObserverState& observer,
@@ -65,6 +70,7 @@ const FrameResult& Slam::process(const Features& features, const ObserverState& 
   State& s = *state_;
   assert(observer.stamp_ns == features.stamp_ns &&
          "the observer state must be for the image's stamp");
+  assert((!s.started || features.stamp_ns > s.result.stamp_ns) && "stamps must ascend");
   const auto enter = [&hook](Stage stage) {
     if (hook) hook(stage);
   };
@@ -142,7 +148,9 @@ void Slam::State::refineAndMap() {
   for (const Association& match : landmark_matches.matches)
     used[static_cast<std::size_t>(match.feature)] = true;
   mapper.refine(view, landmark_matches.matches, landmark_map);
-  result.removed_landmarks = mapper.countMissed(landmark_matches.missed, landmark_map);
+  // An image that shows nothing (dark, lens covered) says nothing about the landmarks either.
+  if (view.size() > 0)
+    result.removed_landmarks = mapper.countMissed(landmark_matches.missed, landmark_map);
 
   associator.matchMapFeatures(view, feature_map, used, feature_matches);
   result.new_landmarks =

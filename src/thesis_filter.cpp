@@ -10,6 +10,16 @@
 #include "ardrone_vslam/triangulation.hpp"
 
 namespace ardrone_vslam {
+namespace {
+
+/// The part of a covariance that exceeds `shared_m2`, along each of its principal axes.
+Eigen::Matrix3d excess(const Eigen::Matrix3d& covariance, double shared_m2) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
+  const Eigen::Vector3d above = (eigen.eigenvalues().array() - shared_m2).max(0.0);
+  return eigen.eigenvectors() * above.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+}  // namespace
 
 ThesisFilter::ThesisFilter(const ThesisFilterConfig& config) : config_(config) {
   validate(config);
@@ -26,13 +36,15 @@ void ThesisFilter::predict(const ObserverState& observer) {
   const Eigen::Vector3d increment =
       observer.T_odom_base.translation() - observer_.T_odom_base.translation();
   const double seconds = static_cast<double>(observer.stamp_ns - observer_.stamp_ns) * 1e-9;
-  const double growth =
-      (observer.covariance - observer_.covariance).topLeftCorner<3, 3>().trace() / 3;
+  constexpr double kRounding = 1e-12;  // a constant covariance does not grow by its rounding
+  const double then = observer_.covariance.topLeftCorner<3, 3>().trace() / 3;
+  const double growth = observer.covariance.topLeftCorner<3, 3>().trace() / 3 - then;
   double variance = growth;
-  if (!(growth > 0)) {
+  if (!(growth > kRounding * then)) {
     variance = config_.observer_noise_m_per_sqrt_m * config_.observer_noise_m_per_sqrt_m *
                    increment.norm() +
-               config_.observer_noise_m_per_sqrt_s * config_.observer_noise_m_per_sqrt_s * seconds;
+               config_.observer_noise_m_per_sqrt_s * config_.observer_noise_m_per_sqrt_s *
+                   std::max(seconds, 0.0);
   }
   position_map_ += increment;
   covariance_ += variance * Eigen::Matrix3d::Identity();
@@ -113,10 +125,9 @@ std::optional<PositionFix> ThesisFilter::exactMean(const std::vector<Sighting>& 
 bool ThesisFilter::fuse(const PositionFix& fix) {
   // Lesson 4: the landmarks share the error that the pose had when they were made; the fix only
   // speaks of the drift since.
-  const double shared_m2 =
-      config_.common_drift ? std::min(fix.shared_variance_m2, covariance_.trace() / 3) : 0.0;
-  const Eigen::Matrix3d shared = shared_m2 * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d drift = covariance_ - shared;
+  const Eigen::Matrix3d drift =
+      config_.common_drift ? excess(covariance_, fix.shared_variance_m2) : covariance_;
+  const Eigen::Matrix3d shared = covariance_ - drift;
   const Eigen::Vector3d innovation = fix.position_map - position_map_;  // (6.8)
   const Eigen::Matrix3d inverse = (drift + fix.covariance).inverse();   // (6.9)
   if (innovation.dot(inverse * innovation) > config_.gate_deviations * config_.gate_deviations)
@@ -126,6 +137,7 @@ bool ThesisFilter::fuse(const PositionFix& fix) {
   const Eigen::Matrix3d rest = Eigen::Matrix3d::Identity() - gain;
   // Joseph form of (6.12): symmetric and positive whatever the rounding.
   covariance_ = shared + rest * drift * rest.transpose() + gain * fix.covariance * gain.transpose();
+  covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
   return true;
 }
 

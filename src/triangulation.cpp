@@ -51,8 +51,10 @@ std::optional<TriangulatedPoint> triangulate(const Ray& first, const Ray& presen
 std::optional<EpipolarOffset> epipolarOffset(const Ray& first, const Ray& present) {
   const auto normal = epipolarNormal(first, present);
   if (!normal) return std::nullopt;
+  const Eigen::Vector3d motion = (present.origin_map - first.origin_map).normalized();
   return EpipolarOffset{std::abs(present.direction_map.dot(*normal)),
-                        first.direction_map.cross(present.direction_map).dot(*normal)};
+                        first.direction_map.cross(present.direction_map).dot(*normal),
+                        motion.cross(present.direction_map).dot(*normal)};
 }
 
 double depthDeviation_m(double deviation_m, double parallax_rad) {

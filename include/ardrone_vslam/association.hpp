@@ -85,9 +85,12 @@ class Associator {
   int featureOfTrack(std::uint32_t track_id) const;
   void search(const FrameView& view, const Descriptor& descriptor, const Window& window,
               int target);
-  int mutualBest(int target) const;
-  bool isLandmarkMismatch(const FrameView& view, const Landmark& landmark, int feature,
-                          double margin_px) const;
+  int bestFeature(int target) const;
+  double margin_px(const FrameView& view, const Landmark& landmark) const;
+  bool landmarkWindow(const FrameView& view, const Landmark& landmark, Window& window) const;
+  bool decideLandmark(const FrameView& view, const LandmarkMap& map, const Association& candidate,
+                      AssociationResult& result);
+  bool isLandmarkMismatch(const FrameView& view, const Landmark& landmark, int feature) const;
   bool isEpipolarMismatch(const FrameView& view, const MapFeature& first, int feature) const;
 
   AssociationConfig config_;

@@ -13,7 +13,7 @@ namespace ardrone_vslam {
 
 /// Something seen once, without depth yet: waits for a second view from elsewhere.
 struct MapFeature {
-  std::uint32_t track_id = 0;
+  std::uint32_t track_id = kNoTrack;
   Ray ray;  ///< from where and in which direction it was seen
   double elevation =
       0;  ///< tangent of the ray's elevation; used in 2-D mode, where rays have no height
@@ -42,8 +42,8 @@ class FeatureMap {
  public:
   explicit FeatureMap(const FeatureMapConfig& config);
 
-  /// Stores a feature; one of the same track that is there already loses its track and waits for a
-  /// match by descriptor.
+  /// Stores a feature. An entry of the same track that is there already loses its track for good
+  /// (the track left its point: a mismatch) and waits for a match by descriptor.
   void add(const MapFeature& feature);
   /// Marks an entry for removal; indices stay valid until `compact`.
   void remove(std::size_t index);

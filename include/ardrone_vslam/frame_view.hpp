@@ -18,7 +18,8 @@ namespace ardrone_vslam {
 class FrameView {
  public:
   /// @param planar  2-D mode: the rays lose their z component and are normalised again (thesis 7.2)
-  /// @pre features outlives the view
+  /// Bearings more than 87 degrees off the optical axis are found only by their tracks.
+  /// @pre features outlives the view; its bearings are finite unit vectors
   void reset(const Features& features, const Eigen::Isometry3d& T_map_cam, bool planar);
 
   /// How well the position is known: its variance per axis, and whether drift is shared

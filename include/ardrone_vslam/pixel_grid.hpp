@@ -47,10 +47,13 @@ class PixelGrid {
   }
 
  private:
-  int column(float x_px) const {
-    return std::clamp(static_cast<int>(x_px / cell_px_), 0, columns_ - 1);
+  /// Clamps before the conversion, so that no float (nor NaN, which goes to 0) is out of an int's
+  /// range.
+  static int cell(float position, int cells) {
+    return static_cast<int>(std::min(std::max(0.F, position), static_cast<float>(cells - 1)));
   }
-  int row(float y_px) const { return std::clamp(static_cast<int>(y_px / cell_px_), 0, rows_ - 1); }
+  int column(float x_px) const { return cell(x_px / cell_px_, columns_); }
+  int row(float y_px) const { return cell(y_px / cell_px_, rows_); }
   std::size_t cellOf(const Eigen::Vector2f& p) const {
     return static_cast<std::size_t>(row(p.y()) * columns_ + column(p.x()));
   }

@@ -31,6 +31,8 @@ struct EpipolarOffset {
       0;  ///< sine of the angle between ray and plane, >= 0 (5.37-5.44 as one plane test)
   double along = 0;  ///< signed sine of the parallax within the plane; negative: the rays diverge,
                      ///< no point in front
+  double ahead = 0;  ///< signed sine of the angle from the motion to the present ray within the
+                     ///< plane; negative: rays that converge do so behind the first camera
 };
 
 /// @return nothing where the plane does not exist (coincident positions, motion along the first
