@@ -23,9 +23,9 @@ struct ThesisFilterConfig {
   int min_landmarks = 10;
   double initial_deviation_m = 0.01;
   double observer_noise_m_per_sqrt_m = 0.015;
-  double observer_noise_m_per_sqrt_s = 0.03;
+  double observer_noise_m_per_sqrt_s = 0.06;
   double fix_deviation_floor_m = 0.01;
-  double fix_angle_floor_deg = 1.0;
+  double fix_angle_floor_deg = 2.0;
   double gate_deviations = 5.0;
   double attitude_deviation_deg = 0.3;
 };
