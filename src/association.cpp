@@ -71,7 +71,7 @@ bool Associator::landmarkWindow(const FrameView& view, const Landmark& landmark,
   if (distance < kSmallestDistance_m ||
       landmark.view_direction_map.dot(offset) < smallest_cosine * distance)
     return false;
-  if (!view.idealPixel(offset, landmark.elevation, window.centre_px)) return false;
+  if (!view.idealPixel(offset, landmark.height_m / distance, window.centre_px)) return false;
   window.radius_px = static_cast<float>(config_.search_radius_px + margin_px(view, landmark));
   return true;
 }

@@ -11,7 +11,7 @@ void rememberSighting(const FrameView& view, std::size_t feature, Landmark& land
   landmark.track_id = view.features().track_id[feature];
   landmark.descriptor = view.features().descriptor[feature];
   landmark.view_direction_map = view.ray(feature).direction_map;
-  landmark.elevation = view.elevation(feature);
+  landmark.height_m = view.elevation(feature) * (landmark.position_map - view.origin_map()).norm();
   landmark.last_seen_ns = view.features().stamp_ns;
   landmark.times_missed = 0;
   ++landmark.times_seen;

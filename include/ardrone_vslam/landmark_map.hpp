@@ -23,8 +23,8 @@ struct Landmark {
   double position_variance_m2 =
       0;  ///< of the base position, per axis, when the landmark was made (P_a of lesson 4)
   Descriptor descriptor;
-  double elevation =
-      0;  ///< tangent of the last ray's elevation; used in 2-D mode, where positions have no height
+  double height_m =
+      0;  ///< above the camera that saw it last; used in 2-D mode, where positions have no height
   int times_seen = 0;
   int times_missed = 0;  ///< in view but not matched, since the last match
   std::int64_t first_seen_ns = 0;
