@@ -30,6 +30,7 @@ void Mapper::refine(const FrameView& view, const std::vector<Association>& match
     const auto feature = static_cast<std::size_t>(match.feature);
     Landmark& landmark = map.at(static_cast<std::size_t>(match.target));
     const Ray ray = view.ray(feature);
+    widenBaseline(view, feature, landmark);
     const double depth = (landmark.position_map - ray.origin_map).dot(ray.direction_map);  // (5.20)
     const Eigen::Vector3d measured = ray.origin_map + depth * ray.direction_map;           // (5.21)
     const double sigma_p = std::hypot(config_.position_deviation_m,
@@ -41,6 +42,17 @@ void Mapper::refine(const FrameView& view, const std::vector<Association>& match
     landmark.deviation_m = std::sqrt((1 - gain) * variance);             // (5.34)
     rememberSighting(view, feature, landmark);
   }
+}
+
+void Mapper::widenBaseline(const FrameView& view, std::size_t feature, Landmark& landmark) const {
+  // Only while the track that made it goes on: later the drift between the two views would turn the
+  // map.
+  if (landmark.track_id != view.features().track_id[feature]) return;
+  const auto point = triangulate(landmark.first_ray, view.ray(feature));
+  if (!point || point->parallax_rad < config_.baseline_growth * landmark.parallax_rad) return;
+  landmark.position_map = point->position_map;
+  landmark.parallax_rad = point->parallax_rad;
+  landmark.depth_deviation_m = depthDeviation_m(landmark.deviation_m, point->parallax_rad);
 }
 
 int Mapper::countMissed(const std::vector<int>& missed, LandmarkMap& map) const {
@@ -83,6 +95,8 @@ int Mapper::triangulateMatches(const FrameView& view, const std::vector<Associat
     landmark.position_variance_m2 = view.positionVariance_m2();
     landmark.deviation_m = measurementDeviation_m(sigma_p, point->depth_m, sigma_a);  // (5.19)
     landmark.depth_deviation_m = depthDeviation_m(landmark.deviation_m, point->parallax_rad);
+    landmark.first_ray = first.ray;
+    landmark.parallax_rad = point->parallax_rad;
     landmark.first_seen_ns = first.stamp_ns;
     landmark.times_seen = 1;
     rememberSighting(view, feature, landmark);

@@ -8,6 +8,7 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/parameters.hpp"
+#include "ardrone_vslam/triangulation.hpp"
 
 namespace ardrone_vslam {
 
@@ -19,7 +20,9 @@ struct Landmark {
   Eigen::Vector3d view_direction_map =
       Eigen::Vector3d::Zero();   ///< unit ray camera -> landmark when last described
   double deviation_m = 0;        ///< sigma_l (5.19, 5.34)
-  double depth_deviation_m = 0;  ///< along the ray of its first triangulation
+  double depth_deviation_m = 0;  ///< along the ray of its last triangulation
+  Ray first_ray;                 ///< of the first view, by which it was triangulated
+  double parallax_rad = 0;       ///< between the first view and the one of its last triangulation
   double position_variance_m2 =
       0;  ///< of the base position, per axis, when the landmark was made (P_a of lesson 4)
   Descriptor descriptor;

@@ -15,6 +15,7 @@ struct MapperConfig {
   double angle_deviation_px = 1.0;
   double position_deviation_m = 0.01;
   double min_parallax_deg = 1.0;
+  double baseline_growth = 1.2;
   double max_depth_m = 1000.0;
   int drop_unconfirmed_after = 5;
 };
@@ -30,6 +31,11 @@ void visitParameters(MapperConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"min_parallax_deg", "deg", 0.01, 90,
                       "angle between the first and the present view that makes a landmark"},
         c.min_parallax_deg);
+  visit(
+      ParameterInfo{
+          "baseline_growth", "-", 1.0, 1e6,
+          "a young landmark is triangulated again when its parallax has grown by this factor"},
+      c.baseline_growth);
   visit(ParameterInfo{"max_depth_m", "m", 0.1, 1e5, "points further away do not become landmarks"},
         c.max_depth_m);
   visit(
@@ -73,6 +79,10 @@ class Mapper {
   void storeRest(const FrameView& view, const std::vector<bool>& used, FeatureMap& features) const;
 
  private:
+  /// Depth comes from parallax, which grows while a track goes on; the scalar update across the ray
+  /// hardly mends it.
+  void widenBaseline(const FrameView& view, std::size_t feature, Landmark& landmark) const;
+
   MapperConfig config_;
 };
 
