@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // replay: images and odometry of a bag or folder through tracker and mapper, without a ROS master.
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <future>
@@ -58,7 +57,8 @@ void addOptions(CLI::App& app, Options& o) {
       ->excludes(seed);
   app.add_option("--frames", o.frames, "A:B:STEP, frames A up to but without B");
   app.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
-  app.add_option("--threads", o.threads, "2: decode ahead; results do not depend on it")
+  app.add_option("--threads", o.threads,
+                 "2: decode ahead, spread the seeds; results do not depend on it")
       ->check(CLI::Range(1, 256));
 #ifdef ARDRONE_VSLAM_WITH_ROS
   app.add_option("--image-topic", o.bag.image_topic, "of a bag; default: the only one there is");
@@ -137,6 +137,21 @@ Observers observersOf(const Sequence& sequence, const Options& o) {
   return observers;
 }
 
+/// Calls work(i) for i = 0 .. count - 1, spread over at most `threads` threads.
+template <class Work>
+void forEach(std::size_t count, int threads, const Work& work) {
+  const std::size_t workers = std::min(count, static_cast<std::size_t>(threads));
+  std::vector<std::future<void>> others;
+  const auto share = [&](std::size_t worker) {
+    for (std::size_t i = worker; i < count; i += workers) work(i);
+  };
+  for (std::size_t worker = 1; worker < workers; ++worker) {
+    others.push_back(std::async(std::launch::async, share, worker));
+  }
+  share(0);
+  for (auto& other : others) other.get();
+}
+
 std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
                               const Observers& observers, int threads) {
   std::vector<std::unique_ptr<BackEnd>> back_ends;
@@ -148,7 +163,7 @@ std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
   std::size_t done = 0;
   // The front end does not depend on the observer: it runs once for all seeds.
   runFrontEnd(sequence, config.tracker, threads, [&](const TrackedFrame& frame) {
-    for (auto& back_end : back_ends) back_end->process(frame);
+    forEach(back_ends.size(), threads, [&](std::size_t i) { back_ends[i]->process(frame); });
     progress.update(++done);
   });
   std::vector<RunResult> results;
