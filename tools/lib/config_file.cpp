@@ -3,7 +3,10 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
+#include <numeric>
 
 namespace ardrone_vslam {
 namespace {
@@ -14,12 +17,10 @@ using Section = std::map<std::string, std::string>;  // key -> value as written
 struct SectionReader {
   const char* section_name;
   Section* values;
-  std::vector<std::string>* known;
   std::vector<std::string>* faults;
 
   template <class T>
   void operator()(const ParameterInfo& info, T& value) const {
-    known->push_back(info.name);
     const auto entry = values->find(info.name);
     if (entry == values->end()) return;
     const std::string text = entry->second;
@@ -32,8 +33,10 @@ struct SectionReader {
       } catch (const YAML::Exception&) {
         faults->push_back(std::string(section_name) + "/" + info.name + " is '" + text +
                           "' but must be a " +
-                          (std::is_same_v<T, bool> ? "switch (true or false)" : "number") + " [" +
-                          info.unit + "]");
+                          (std::is_same_v<T, bool>  ? "switch (true or false)"
+                           : std::is_same_v<T, int> ? "whole number"
+                                                    : "number") +
+                          " [" + info.unit + "]");
       }
     }
   }
@@ -58,9 +61,16 @@ std::map<std::string, Section> readSections(const std::string& path,
   std::map<std::string, Section> sections;
   if (path.empty()) return sections;
   try {
+    if (std::filesystem::is_directory(path)) throw YAML::BadFile(path);
     const YAML::Node root = YAML::LoadFile(path);
+    if (!root.IsMap() && !root.IsNull()) {
+      faults.push_back(path + ": must hold the sections tracker: and mapper:");
+      return sections;
+    }
     for (const auto& section : root) {
       const auto name = section.first.as<std::string>();
+      sections[name];  // one whose keys are all commented out is there, and empty
+      if (section.second.IsNull()) continue;
       if (!section.second.IsMap()) {
         faults.push_back(path + ": '" + name + "' must be a section of keys (tracker: or mapper:)");
         continue;
@@ -120,22 +130,50 @@ bool isNodeKey(const std::string& section, const std::string& key) {
   return false;
 }
 
+/// Number of letters to insert, remove or replace to make one word of the other (Levenshtein).
+std::size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+bool looksLike(const std::string& written, const std::string& name) {
+  constexpr std::size_t kSlips = 3;
+  constexpr std::size_t kWordLength = 4;  // shorter pieces are part of too many names
+  const bool contained =
+      written.size() >= kWordLength &&
+      (name.find(written) != std::string::npos || written.find(name) != std::string::npos);
+  return contained || editDistance(written, name) <= std::min(kSlips, written.size() / 2);
+}
+
+template <class Config>
+void addSimilar(const char* section, Config config, const std::string& written, std::string& hint) {
+  visitParameters(config, [&](const ParameterInfo& info, auto&) {
+    if (looksLike(written, info.name))
+      hint += std::string(hint.empty() ? "; did you mean " : " or ") + section + "/" + info.name;
+  });
+}
+
 template <class Config>
 void readSection(const char* name, std::map<std::string, Section>& sections, Config& config,
                  std::vector<std::string>& faults) {
   Section values = sections[name];
   sections.erase(name);
-  std::vector<std::string> known;
-  visitParameters(config, SectionReader{name, &values, &known, &faults});
+  visitParameters(config, SectionReader{name, &values, &faults});
   for (const auto& leftover : values) {
     if (isNodeKey(name, leftover.first)) continue;
-    std::string hint;
-    for (const auto& candidate : known) {
-      if (candidate.find(leftover.first) != std::string::npos ||
-          leftover.first.find(candidate) != std::string::npos) {
-        hint += std::string(hint.empty() ? "; did you mean " : " or ") + candidate;
-      }
-    }
+    std::string hint;  // over both sections: --set puts a key that it does not know into one
+    addSimilar("tracker", TrackerConfig{}, leftover.first, hint);
+    addSimilar("mapper", SlamConfig{}, leftover.first, hint);
     faults.push_back(std::string(name) + "/" + leftover.first + " is not a parameter" + hint +
                      " (docs/parameters.md lists all)");
   }

@@ -19,7 +19,7 @@ struct PipelineConfig {
 /// Reads the file (an empty path: the defaults), then applies each "key=value" or
 /// "section/key=value" of `overrides`.
 /// @throws ConfigError listing every fault: unreadable file, unknown key (with the nearest known
-/// ones), wrong type, range
+/// ones of both sections), wrong type, range
 PipelineConfig loadConfig(const std::string& path, const std::vector<std::string>& overrides);
 
 }  // namespace ardrone_vslam

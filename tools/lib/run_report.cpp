@@ -196,6 +196,18 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   return summary;
 }
 
+namespace {
+
+bool isWorseWhenLarger(const std::string& key) {
+  for (const char* name : {"seed", "landmark_matches_median", "landmarks", "camera_frames",
+                           "frames_per_second", "observer_scale_error"}) {
+    if (key == name) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 Json summaryOfSeeds(const std::vector<Json>& summaries) {
   Json result;
   for (const char* name : {"sequence", "frames", "profile", "estimator"})
@@ -204,9 +216,7 @@ Json summaryOfSeeds(const std::vector<Json>& summaries) {
   for (const Json& summary : summaries) seeds.push_back(summary["seed"]);
   result["seeds"] = seeds;
   for (const auto& item : summaries.front().items()) {
-    if (result.contains(item.key()) || item.key() == "seed" ||
-        item.key() == "landmark_matches_median")
-      continue;
+    if (result.contains(item.key()) || !isWorseWhenLarger(item.key())) continue;
     std::vector<double> values;
     for (const Json& summary : summaries) {
       if (summary[item.key()].is_number()) values.push_back(summary[item.key()].get<double>());
