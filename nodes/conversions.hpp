@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ardrone_vslam/ImageFeatures.h>
+#include <ardrone_vslam/Features.h>
 #include <ardrone_vslam/PoseCorrection.h>
 #include <ardrone_vslam/Status.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
@@ -47,15 +47,15 @@ Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry);
 
 /// @return what is wrong with the message (sizes, values not finite, bearings not of unit length),
 /// or nothing
-std::string faultOf(const ImageFeatures& message);
+std::string faultOf(const Features& message);
 
 /// @pre faultOf(message) is empty
-void toFeatures(const ImageFeatures& message, Features& features);
+void toFeatures(const Features& message, ImageFeatures& features);
 
 // --- out ----------------------------------------------------------------------------------------
 
 /// @param camera_frame  the camera's optical frame
-void toMessage(const Features& features, const std::string& camera_frame, ImageFeatures& message);
+void toMessage(const ImageFeatures& features, const std::string& camera_frame, Features& message);
 
 /// Names of the three frames of REP-105.
 struct Frames {

@@ -86,7 +86,7 @@ std::string sizeFault(const char* name, std::size_t size, std::size_t expected) 
               "; fill all arrays alike");
 }
 
-std::string sizesFault(const ImageFeatures& m) {
+std::string sizesFault(const Features& m) {
   const std::size_t n = m.x.size();
   for (const auto& fault :
        {sizeFault("y", m.y.size(), n), sizeFault("score", m.score.size(), n),
@@ -161,7 +161,7 @@ Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
   return {state, {}};
 }
 
-std::string faultOf(const ImageFeatures& m) {
+std::string faultOf(const Features& m) {
   if (m.header.stamp.isZero()) return "its stamp is zero; set header.stamp to the image's";
   if (m.header.frame_id.empty()) return "it names no frame_id; give the camera's optical frame";
   if (m.width == 0 || m.height == 0) return "its image size is zero; set width and height";
@@ -181,7 +181,7 @@ std::string faultOf(const ImageFeatures& m) {
   return {};
 }
 
-void toFeatures(const ImageFeatures& message, Features& features) {
+void toFeatures(const Features& message, ImageFeatures& features) {
   features.clear();
   features.stamp_ns = toNanoseconds(message.header.stamp);
   features.width_px = static_cast<int>(message.width);

@@ -62,7 +62,7 @@ std_msgs::ColorRGBA colourOf(double deviation_m) {
 
 }  // namespace
 
-void toMessage(const Features& features, const std::string& camera_frame, ImageFeatures& message) {
+void toMessage(const ImageFeatures& features, const std::string& camera_frame, Features& message) {
   message.header = headerOf(features.stamp_ns, camera_frame);
   message.width = static_cast<std::uint32_t>(features.width_px);
   message.height = static_cast<std::uint32_t>(features.height_px);

@@ -19,7 +19,7 @@ cv::Scalar colourOf(int age_frames) {
 
 }  // namespace
 
-cv::Mat drawFeatures(const cv::Mat& grey, const Features& features) {
+cv::Mat drawFeatures(const cv::Mat& grey, const ImageFeatures& features) {
   cv::Mat drawn;
   cv::cvtColor(grey, drawn, cv::COLOR_GRAY2BGR);
   for (std::size_t i = 0; i < features.size(); ++i) {

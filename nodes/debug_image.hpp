@@ -9,6 +9,6 @@ namespace ardrone_vslam {
 
 /// The grey image in colour with a circle around each feature: blue for a new one, over green to
 /// red for a track of ten images or more.
-cv::Mat drawFeatures(const cv::Mat& grey, const Features& features);
+cv::Mat drawFeatures(const cv::Mat& grey, const ImageFeatures& features);
 
 }  // namespace ardrone_vslam

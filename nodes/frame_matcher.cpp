@@ -10,7 +10,7 @@ namespace ardrone_vslam {
 FrameMatcher::FrameMatcher(const ObserverBufferConfig& config, double wait_s)
     : buffer_(config), wait_s_(wait_s) {}
 
-void FrameMatcher::addFeatures(const ImageFeaturesConstPtr& features, double now_s) {
+void FrameMatcher::addFeatures(const FeaturesConstPtr& features, double now_s) {
   waiting_.push_back({features, now_s});
 }
 

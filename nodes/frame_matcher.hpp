@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ardrone_vslam/ImageFeatures.h>
+#include <ardrone_vslam/Features.h>
 
 #include <deque>
 #include <optional>
@@ -11,19 +11,19 @@
 
 namespace ardrone_vslam {
 
-/// Brings images' features and the odometry at their stamps together. Features wait in order, a
-/// bounded time; the caller says what time it is.
+/// Brings images' features and the odometry at their stamps together. ImageFeatures wait in order,
+/// a bounded time; the caller says what time it is.
 class FrameMatcher {
  public:
   struct Frame {
-    ImageFeaturesConstPtr features;
+    FeaturesConstPtr features;
     ObserverState observer;  ///< interpolated at the image's stamp
   };
 
   /// @throws ConfigError when the buffer's parameters are invalid
   FrameMatcher(const ObserverBufferConfig& config, double wait_s);
 
-  void addFeatures(const ImageFeaturesConstPtr& features, double now_s);
+  void addFeatures(const FeaturesConstPtr& features, double now_s);
   ObserverBuffer::Push addObserver(const ObserverState& state) { return buffer_.push(state); }
 
   /// Takes out the oldest waiting frame if its odometry is there. Drops before it those that waited
@@ -46,7 +46,7 @@ class FrameMatcher {
 
  private:
   struct Waiting {
-    ImageFeaturesConstPtr features;
+    FeaturesConstPtr features;
     double since_s;
   };
 

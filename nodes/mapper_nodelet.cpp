@@ -67,7 +67,7 @@ void MapperNodelet::readParameters() {
                       << (tf_prefix_.empty() ? "" : " tf_prefix=" + tf_prefix_));
 }
 
-void MapperNodelet::onFeatures(const ImageFeaturesConstPtr& features) {
+void MapperNodelet::onFeatures(const FeaturesConstPtr& features) {
   has_features_ = true;
   totals_.images_dropped = features->images_dropped;
   if (!acceptFeatures(*features)) return;
@@ -85,7 +85,7 @@ void MapperNodelet::onFeatures(const ImageFeaturesConstPtr& features) {
   processReady();
 }
 
-bool MapperNodelet::acceptFeatures(const ImageFeatures& features) {
+bool MapperNodelet::acceptFeatures(const Features& features) {
   const std::string fault = faultOf(features);
   if (!fault.empty()) {
     ++totals_.dropped_bad_message;
@@ -180,8 +180,8 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
 }
 
 void MapperNodelet::restartAt(std::int64_t stamp_ns, const std::string& topic) {
-  // Features and odometry come apart: whichever is first finds the other's old run, the second only
-  // its own.
+  // ImageFeatures and odometry come apart: whichever is first finds the other's old run, the second
+  // only its own.
   const std::int64_t limit_ns = stamp_ns + StampGuard::kRestart_ns - 1;
   const bool was_waiting = matcher_->forgetAfter(limit_ns);
   if (slam_ && answered_ns_ > limit_ns) {

@@ -18,18 +18,18 @@
 
 namespace ardrone_vslam {
 
-/// Features and odometry in, fused pose and map out. All callbacks run in the nodelet's
+/// ImageFeatures and odometry in, fused pose and map out. All callbacks run in the nodelet's
 /// single-threaded queue, so nothing here is locked; only tf's listener has a thread of its own.
 class MapperNodelet : public nodelet::Nodelet {
  private:
   void onInit() override;
   void readParameters();
 
-  void onFeatures(const ImageFeaturesConstPtr& features);
+  void onFeatures(const FeaturesConstPtr& features);
   void onOdometry(const nav_msgs::OdometryConstPtr& odometry);
   void onSecond();
 
-  bool acceptFeatures(const ImageFeatures& features);
+  bool acceptFeatures(const Features& features);
   void takeFrameNames(const nav_msgs::Odometry& odometry);
   /// Works on every image whose odometry has come.
   void processReady();
@@ -42,7 +42,7 @@ class MapperNodelet : public nodelet::Nodelet {
 
   /// A warning of a message that is not used, unless the same has just been said.
   void warn(const std::string& topic, const std::string& fault);
-  void publishStatus(const FrameResult& result, const ImageFeatures& features);
+  void publishStatus(const FrameResult& result, const Features& features);
   void publishWaiting();
   void fillTotals(Status& status) const;
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper);
@@ -66,7 +66,7 @@ class MapperNodelet : public nodelet::Nodelet {
   StampGuard stamps_;
   StageClock stage_clock_;
   std::int64_t answered_ns_ = 0;  // stamp of the newest image in the map
-  Features features_;             // of the image at work; kept for its memory
+  ImageFeatures features_;        // of the image at work; kept for its memory
   Frames frames_;                 // odom and base are empty until the first odometry
   std::string camera_frame_;      // of the newest features
   std::uint32_t camera_width_px_ = 0;

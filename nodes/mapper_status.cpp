@@ -15,7 +15,7 @@ void MapperNodelet::warn(const std::string& topic, const std::string& fault) {
   if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
 }
 
-void MapperNodelet::publishStatus(const FrameResult& result, const ImageFeatures& features) {
+void MapperNodelet::publishStatus(const FrameResult& result, const Features& features) {
   Status status;
   toStatus(result, frames_.map, status);
   for (std::size_t i = 0; i < kStageCount; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracker_nodelet.hpp"
 
-#include <ardrone_vslam/ImageFeatures.h>
+#include <ardrone_vslam/Features.h>
 #include <cv_bridge/cv_bridge.h>
 #include <image_transport/camera_common.h>
 #include <image_transport/image_transport.h>
@@ -23,7 +23,7 @@ constexpr int kPatience_s = 3;  // cameras need their time to start
 
 void TrackerNodelet::onInit() {
   readParameters();
-  features_pub_ = getNodeHandle().advertise<ImageFeatures>(
+  features_pub_ = getNodeHandle().advertise<Features>(
       "features", static_cast<std::uint32_t>(node_config_.queue_size));
   transport_ = std::make_unique<image_transport::ImageTransport>(getNodeHandle());
   debug_pub_ = transport_->advertise("debug_image", 1);
@@ -163,14 +163,14 @@ bool TrackerNodelet::prepareTracker(const sensor_msgs::CameraInfo& info, const s
 }
 
 void TrackerNodelet::publish(const GreyImage& image, const std_msgs::Header& header) {
-  const auto message = boost::make_shared<ImageFeatures>();
+  const auto message = boost::make_shared<Features>();
   toMessage(features_, camera_frame_, *message);
   message->header.stamp = header.stamp;
   for (std::size_t i = 0; i < message->stage_time.size(); ++i) {
     message->stage_time[i] = static_cast<float>(stage_clock_.milliseconds(static_cast<Stage>(i)));
   }
   message->images_dropped = dropped_;
-  features_pub_.publish(ImageFeaturesConstPtr(message));  // to const: no copy within the manager
+  features_pub_.publish(FeaturesConstPtr(message));  // to const: no copy within the manager
   ++processed_;
   fault_.clear();
   if (debug_pub_.getNumSubscribers() == 0) return;

@@ -61,7 +61,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   std::unique_ptr<Tracker> tracker_;
   CameraIntrinsics camera_;
   std::string camera_frame_;
-  Features features_;
+  ImageFeatures features_;
   StampGuard stamps_;
   StageClock stage_clock_;
 

@@ -3,7 +3,7 @@
 
 namespace ardrone_vslam {
 
-void Features::clear() {
+void ImageFeatures::clear() {
   pixel_px.clear();
   bearing_cam.clear();
   score.clear();
@@ -12,7 +12,7 @@ void Features::clear() {
   descriptor.clear();
 }
 
-void Features::reserve(std::size_t count) {
+void ImageFeatures::reserve(std::size_t count) {
   pixel_px.reserve(count);
   bearing_cam.reserve(count);
   score.reserve(count);

@@ -12,13 +12,13 @@ namespace ardrone_vslam {
 struct FrameTracker::State {
   FrameTrackerConfig config;
   MatcherConfig matcher;
-  Features previous;
+  ImageFeatures previous;
   PixelGrid grid;                    // of the previous frame
   std::vector<BestTwo> of_present;   // best previous feature of each present one
   std::vector<BestTwo> of_previous;  // and the other way round
   std::uint32_t next_id = 1;
 
-  void search(const Features& features);
+  void search(const ImageFeatures& features);
 };
 
 FrameTracker::FrameTracker(const FrameTrackerConfig& config) : state_(std::make_unique<State>()) {
@@ -30,7 +30,7 @@ FrameTracker::FrameTracker(const FrameTrackerConfig& config) : state_(std::make_
 
 FrameTracker::~FrameTracker() = default;
 
-void FrameTracker::State::search(const Features& features) {
+void FrameTracker::State::search(const ImageFeatures& features) {
   grid.build(previous.pixel_px, previous.width_px, previous.height_px);
   of_present.assign(features.size(), BestTwo{});
   of_previous.assign(previous.size(), BestTwo{});
@@ -47,7 +47,7 @@ void FrameTracker::State::search(const Features& features) {
   }
 }
 
-void FrameTracker::assign(Features& features) {
+void FrameTracker::assign(ImageFeatures& features) {
   State& s = *state_;
   s.search(features);
   features.track_id.resize(features.size());

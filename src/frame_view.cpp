@@ -14,7 +14,8 @@ constexpr float kMostCells = 256.F;
 
 }  // namespace
 
-void FrameView::reset(const Features& features, const Eigen::Isometry3d& T_map_cam, bool planar) {
+void FrameView::reset(const ImageFeatures& features, const Eigen::Isometry3d& T_map_cam,
+                      bool planar) {
   features_ = &features;
   planar_ = planar;
   origin_map_ = T_map_cam.translation();

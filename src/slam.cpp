@@ -38,7 +38,7 @@ struct Slam::State {
   std::vector<bool> used;  // the frame's features that need not be stored
   FrameResult result;
 
-  void predict(const Features& features, const ObserverState& observer);
+  void predict(const ImageFeatures& features, const ObserverState& observer);
   void setVariance();
   void localise();
   void refineAndMap();
@@ -65,7 +65,7 @@ Eigen::Isometry3d Slam::T_map_odom() const {
   return T_map_odom;
 }
 
-const FrameResult& Slam::process(const Features& features, const ObserverState& observer,
+const FrameResult& Slam::process(const ImageFeatures& features, const ObserverState& observer,
                                  const StageHook& hook) {
   State& s = *state_;
   assert(observer.stamp_ns == features.stamp_ns &&
@@ -94,7 +94,7 @@ const FrameResult& Slam::process(const Features& features, const ObserverState& 
   return s.result;
 }
 
-void Slam::State::predict(const Features& features, const ObserverState& observer) {
+void Slam::State::predict(const ImageFeatures& features, const ObserverState& observer) {
   if (started) {
     filter.predict(observer);
   } else {

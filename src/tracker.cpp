@@ -24,7 +24,7 @@ struct Tracker::State {
   std::vector<int> described;             // indices into keypoints
 
   void keepCornersWithBearing();
-  void collect(const ImageView& image, std::int64_t stamp_ns, Features& features) const;
+  void collect(const ImageView& image, std::int64_t stamp_ns, ImageFeatures& features) const;
 };
 
 Tracker::Tracker(const TrackerConfig& config, const CameraIntrinsics& camera) {
@@ -38,7 +38,7 @@ const CameraModel& Tracker::camera() const {
   return state_->camera;
 }
 
-void Tracker::process(const ImageView& image, std::int64_t stamp_ns, Features& features,
+void Tracker::process(const ImageView& image, std::int64_t stamp_ns, ImageFeatures& features,
                       const StageHook& hook) {
   State& s = *state_;
   assert(image.width_px == s.camera.intrinsics().width_px &&
@@ -76,7 +76,7 @@ void Tracker::State::keepCornersWithBearing() {
 }
 
 void Tracker::State::collect(const ImageView& image, std::int64_t stamp_ns,
-                             Features& features) const {
+                             ImageFeatures& features) const {
   features.stamp_ns = stamp_ns;
   features.width_px = image.width_px;
   features.height_px = image.height_px;

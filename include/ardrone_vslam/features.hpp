@@ -28,7 +28,7 @@ static_assert(sizeof(Descriptor) == 64, "a descriptor is exactly 512 bits");
 constexpr std::uint32_t kNoTrack = 0;  ///< a track id that no feature of a tracker has
 
 /// All features of one image: arrays of equal length, entry i of each belongs to feature i.
-struct Features {
+struct ImageFeatures {
   std::int64_t stamp_ns = 0;  ///< the image's time stamp
   int width_px = 0;
   int height_px = 0;

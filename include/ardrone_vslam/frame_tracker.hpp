@@ -37,7 +37,7 @@ class FrameTracker {
   /// Fills `track_id` and `age_frames`; pixels and descriptors must be there. Mutual best matches
   /// within the search radius carry on their track, all others begin a new one. Keeps a copy for
   /// the next frame.
-  void assign(Features& features);
+  void assign(ImageFeatures& features);
 
  private:
   struct State;

@@ -20,7 +20,7 @@ class FrameView {
   /// @param planar  2-D mode: the rays lose their z component and are normalised again (thesis 7.2)
   /// Bearings more than 87 degrees off the optical axis are found only by their tracks.
   /// @pre features outlives the view; its bearings are finite unit vectors
-  void reset(const Features& features, const Eigen::Isometry3d& T_map_cam, bool planar);
+  void reset(const ImageFeatures& features, const Eigen::Isometry3d& T_map_cam, bool planar);
 
   /// How well the position is known: its variance per axis, and whether drift is shared
   /// (estimator.md, lesson 4).
@@ -37,7 +37,7 @@ class FrameView {
     return std::sqrt(std::max(position_variance_m2_ - shared_m2, 0.0));
   }
 
-  const Features& features() const { return *features_; }
+  const ImageFeatures& features() const { return *features_; }
   std::size_t size() const { return rays_map_.size(); }
   Ray ray(std::size_t index) const { return {origin_map_, rays_map_[index]}; }
   const Eigen::Vector3d& origin_map() const { return origin_map_; }
@@ -68,7 +68,7 @@ class FrameView {
   }
 
  private:
-  const Features* features_ = nullptr;
+  const ImageFeatures* features_ = nullptr;
   bool planar_ = false;
   bool common_drift_ = false;
   double position_variance_m2_ = 0;

@@ -50,7 +50,7 @@ struct FrameResult {
   int map_features = 0;  ///< in the feature map, after this frame
 };
 
-/// Features and observer states -> fused poses and a map (thesis algorithm 5 in the order of
+/// ImageFeatures and observer states -> fused poses and a map (thesis algorithm 5 in the order of
 /// algorithm.md 10).
 class Slam {
  public:
@@ -61,7 +61,7 @@ class Slam {
 
   /// One frame. Stamps must ascend and the observer state must be for the image's stamp (asserted).
   /// At the first frame map equals odom.
-  const FrameResult& process(const Features& features, const ObserverState& observer,
+  const FrameResult& process(const ImageFeatures& features, const ObserverState& observer,
                              const StageHook& hook = {});
 
   const LandmarkMap& landmarks() const;

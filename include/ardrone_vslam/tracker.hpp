@@ -34,8 +34,8 @@ void visitParameters(TrackerConfig& c, Visitor&& visit) {
         c.undistort);
 }
 
-/// Image -> Features: corners, descriptors, bearings, track ids (thesis algorithm 1). One instance
-/// per camera.
+/// Image -> ImageFeatures: corners, descriptors, bearings, track ids (thesis algorithm 1). One
+/// instance per camera.
 class Tracker {
  public:
   /// @throws ConfigError listing every invalid parameter; std::invalid_argument for an impossible
@@ -47,7 +47,7 @@ class Tracker {
   /// @param features  cleared and filled; corners whose descriptor or bearing does not exist are
   /// left out
   /// @param hook  told which stage begins; may be empty
-  void process(const ImageView& image, std::int64_t stamp_ns, Features& features,
+  void process(const ImageView& image, std::int64_t stamp_ns, ImageFeatures& features,
                const StageHook& hook = {});
 
   const CameraModel& camera() const;

@@ -10,7 +10,7 @@ import unittest
 
 import rospy
 import rostest
-from ardrone_vslam.msg import ImageFeatures, Status
+from ardrone_vslam.msg import Features, Status
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from drone import Drone, HEIGHT, WIDTH  # noqa: E402
@@ -23,7 +23,7 @@ class BadMessages(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node("bad_messages_test")
         cls.drone = Drone()
-        cls.features = rospy.Publisher("/vslam/features", ImageFeatures, queue_size=10)
+        cls.features = rospy.Publisher("/vslam/features", Features, queue_size=10)
         cls.drone.connect()
         cls.drone.mount_camera()
 
@@ -69,7 +69,7 @@ class BadMessages(unittest.TestCase):
     def refuse_features(self, change, *said):
         before = self.fly_well()
         self.drone.next()
-        message = ImageFeatures()
+        message = Features()
         message.header = self.drone.image().header
         message.width, message.height, message.focal_length = WIDTH, HEIGHT, 300
         message.x, message.y, message.score, message.track_id, message.age = [1], [1], [9], [7], [0]
@@ -161,7 +161,7 @@ class BadMessages(unittest.TestCase):
             odometry.header.stamp -= rospy.Duration(0.5)
         self.refuse_odometry(change, "/odometry", "stamps must ascend")
 
-    # Features
+    # features
 
     def test_features_of_wrong_size(self):
         def change(features):

@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::int64_t kStamp_ns = 1'234'567'890'123'456'789;
 
-Features randomFeatures(std::size_t count, std::uint64_t seed) {
+ImageFeatures randomFeatures(std::size_t count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<float> number(-1.F, 1.F);
-  Features features;
+  ImageFeatures features;
   features.stamp_ns = kStamp_ns;
   features.width_px = 640;
   features.height_px = 360;
@@ -34,7 +34,7 @@ Features randomFeatures(std::size_t count, std::uint64_t seed) {
   return features;
 }
 
-void expectEqual(const Features& a, const Features& b) {
+void expectEqual(const ImageFeatures& a, const ImageFeatures& b) {
   EXPECT_EQ(a.stamp_ns, b.stamp_ns);
   EXPECT_EQ(a.width_px, b.width_px);
   EXPECT_EQ(a.height_px, b.height_px);
@@ -49,36 +49,36 @@ void expectEqual(const Features& a, const Features& b) {
 
 TEST(FeaturesConversion, RoundTripIsExact) {
   for (const std::size_t count : {0U, 1U, 2U, 1000U}) {
-    const Features sent = randomFeatures(count, 7 + count);
-    ImageFeatures message;
+    const ImageFeatures sent = randomFeatures(count, 7 + count);
+    Features message;
     toMessage(sent, "camera_optical", message);
     EXPECT_EQ(faultOf(message), "");
     EXPECT_EQ(message.header.frame_id, "camera_optical");
-    Features received = randomFeatures(3, 1);  // what was there before must go
+    ImageFeatures received = randomFeatures(3, 1);  // what was there before must go
     toFeatures(message, received);
     expectEqual(sent, received);
   }
 }
 
 TEST(FeaturesConversion, MessageMayBeUsedAgain) {
-  ImageFeatures message;
+  Features message;
   toMessage(randomFeatures(50, 1), "camera_optical", message);
-  const Features fewer = randomFeatures(20, 2);
+  const ImageFeatures fewer = randomFeatures(20, 2);
   toMessage(fewer, "camera_optical", message);
-  Features received;
+  ImageFeatures received;
   toFeatures(message, received);
   expectEqual(fewer, received);
 }
 
 struct Spoiled {
   const char* expected;  // part of the sentence
-  std::function<void(ImageFeatures&)> spoil;
+  std::function<void(Features&)> spoil;
 };
 
 class FeaturesFault : public testing::TestWithParam<Spoiled> {};
 
 TEST_P(FeaturesFault, IsNamed) {
-  ImageFeatures message;
+  Features message;
   toMessage(randomFeatures(10, 3), "camera_optical", message);
   ASSERT_EQ(faultOf(message), "");
   GetParam().spoil(message);
@@ -90,23 +90,23 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 
 INSTANTIATE_TEST_SUITE_P(
     All, FeaturesFault,
-    testing::Values(
-        Spoiled{"stamp is zero", [](ImageFeatures& m) { m.header.stamp = ros::Time(); }},
-        Spoiled{"no frame_id", [](ImageFeatures& m) { m.header.frame_id.clear(); }},
-        Spoiled{"image size", [](ImageFeatures& m) { m.width = 0; }},
-        Spoiled{"focal_length", [](ImageFeatures& m) { m.focal_length = 0; }},
-        Spoiled{"focal_length", [](ImageFeatures& m) { m.focal_length = kNaN; }},
-        Spoiled{"'y' has 9", [](ImageFeatures& m) { m.y.pop_back(); }},
-        Spoiled{"'score' has 11", [](ImageFeatures& m) { m.score.push_back(1); }},
-        Spoiled{"'track_id' has 0", [](ImageFeatures& m) { m.track_id.clear(); }},
-        Spoiled{"'age' has 9", [](ImageFeatures& m) { m.age.pop_back(); }},
-        Spoiled{"'bearing' has 29", [](ImageFeatures& m) { m.bearing.pop_back(); }},
-        Spoiled{"'descriptor' has 639", [](ImageFeatures& m) { m.descriptor.pop_back(); }},
-        Spoiled{"'y' has 10 entries where 'x' asks for 0", [](ImageFeatures& m) { m.x.clear(); }},
-        Spoiled{"not finite", [](ImageFeatures& m) { m.x[4] = kInf; }},
-        Spoiled{"bearing 2", [](ImageFeatures& m) { m.bearing[7] = kNaN; }},
-        Spoiled{"bearing 0", [](ImageFeatures& m) { m.bearing[2] = 2; }},
-        Spoiled{"track_id 3", [](ImageFeatures& m) { m.track_id[3] = 0; }}));
+    testing::Values(Spoiled{"stamp is zero", [](Features& m) { m.header.stamp = ros::Time(); }},
+                    Spoiled{"no frame_id", [](Features& m) { m.header.frame_id.clear(); }},
+                    Spoiled{"image size", [](Features& m) { m.width = 0; }},
+                    Spoiled{"focal_length", [](Features& m) { m.focal_length = 0; }},
+                    Spoiled{"focal_length", [](Features& m) { m.focal_length = kNaN; }},
+                    Spoiled{"'y' has 9", [](Features& m) { m.y.pop_back(); }},
+                    Spoiled{"'score' has 11", [](Features& m) { m.score.push_back(1); }},
+                    Spoiled{"'track_id' has 0", [](Features& m) { m.track_id.clear(); }},
+                    Spoiled{"'age' has 9", [](Features& m) { m.age.pop_back(); }},
+                    Spoiled{"'bearing' has 29", [](Features& m) { m.bearing.pop_back(); }},
+                    Spoiled{"'descriptor' has 639", [](Features& m) { m.descriptor.pop_back(); }},
+                    Spoiled{"'y' has 10 entries where 'x' asks for 0",
+                            [](Features& m) { m.x.clear(); }},
+                    Spoiled{"not finite", [](Features& m) { m.x[4] = kInf; }},
+                    Spoiled{"bearing 2", [](Features& m) { m.bearing[7] = kNaN; }},
+                    Spoiled{"bearing 0", [](Features& m) { m.bearing[2] = 2; }},
+                    Spoiled{"track_id 3", [](Features& m) { m.track_id[3] = 0; }}));
 
 }  // namespace
 }  // namespace ardrone_vslam

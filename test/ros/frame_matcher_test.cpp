@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-ImageFeaturesConstPtr featuresAt(std::int64_t stamp_ns) {
-  auto features = boost::make_shared<ImageFeatures>();
+FeaturesConstPtr featuresAt(std::int64_t stamp_ns) {
+  auto features = boost::make_shared<Features>();
   features->header.stamp = toRosTime(stamp_ns);
   return features;
 }

@@ -114,7 +114,7 @@ TEST(ImageInput, CompressedFaultsAreNamed) {
 
 TEST(DebugImage, CirclesTellTheAge) {
   const cv::Mat grey(40, 60, CV_8UC1, cv::Scalar(50));
-  Features features;
+  ImageFeatures features;
   features.pixel_px = {{15, 20}, {45, 20}};
   features.age_frames = {0, 30};
   const cv::Mat drawn = drawFeatures(grey, features);

@@ -11,7 +11,7 @@ import numpy as np
 import rosbag
 import rospy
 import rostest
-from ardrone_vslam.msg import ImageFeatures, PoseCorrection, Status
+from ardrone_vslam.msg import Features, PoseCorrection, Status
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry, Path
@@ -42,7 +42,7 @@ class Pipeline(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node("pipeline_test")
         recorders = {
-            "features": ImageFeatures, "pose": PoseWithCovarianceStamped,
+            "features": Features, "pose": PoseWithCovarianceStamped,
             "odometry_fused": Odometry, "correction": PoseCorrection, "status": Status,
             "path": Path, "observer_path": Path, "landmarks": PointCloud2,
             "landmark_markers": Marker, "debug_image": Image}

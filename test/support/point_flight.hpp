@@ -113,7 +113,8 @@ inline FlightRun run(PointWorld& world, const Flight& flight,
   Slam slam(config, T_base_cam);
   FlightRun run;
   for (std::size_t i = 0; i < flight.size(); ++i) {
-    const Features features = world.look(flight[i].T_map_base * T_base_cam, flight[i].stamp_ns);
+    const ImageFeatures features =
+        world.look(flight[i].T_map_base * T_base_cam, flight[i].stamp_ns);
     run.results.push_back(slam.process(features, observer[i]));
   }
   run.landmarks = slam.landmarks().all();

@@ -75,8 +75,8 @@ class PointWorld {
 
   /// One view; the views of one world must be asked for in the order of their stamps, as features
   /// get track ids.
-  Features look(const Eigen::Isometry3d& T_map_cam, std::int64_t stamp_ns) {
-    Features features = emptyView(stamp_ns);
+  ImageFeatures look(const Eigen::Isometry3d& T_map_cam, std::int64_t stamp_ns) {
+    ImageFeatures features = emptyView(stamp_ns);
     const Eigen::Isometry3d T_cam_map = T_map_cam.inverse();
     for (const WorldPoint& point : points_) {
       const Eigen::Vector3d p = T_cam_map * point.position_map;
@@ -91,8 +91,8 @@ class PointWorld {
   }
 
   /// A view without any corner, as of a dark image.
-  Features emptyView(std::int64_t stamp_ns) const {
-    Features features;
+  ImageFeatures emptyView(std::int64_t stamp_ns) const {
+    ImageFeatures features;
     features.stamp_ns = stamp_ns;
     features.width_px = kWidth_px;
     features.height_px = kHeight_px;
@@ -131,7 +131,7 @@ class PointWorld {
            pixel.y() <= kHeight_px - 1;
   }
 
-  void addFeature(Eigen::Vector2d pixel, const Descriptor& descriptor, Features& features) {
+  void addFeature(Eigen::Vector2d pixel, const Descriptor& descriptor, ImageFeatures& features) {
     Descriptor seen = flipped(descriptor, faults_.flipped_bits);
     pixel += faults_.pixel_noise_px * Eigen::Vector2d(random_.normal(), random_.normal());
     if (random_.chance(faults_.wrong_share)) {

@@ -19,7 +19,7 @@ using StageTimes_ms = std::array<double, kStageCount>;
 
 /// One image after the front end.
 struct TrackedFrame {
-  Features features;
+  ImageFeatures features;
   StageTimes_ms times_ms{};
 };
 
@@ -48,7 +48,7 @@ using Progress = std::function<void(std::size_t)>;
 void runFrontEnd(Sequence& sequence, const TrackerConfig& config, int threads,
                  const std::function<void(const TrackedFrame& frame)>& consume);
 
-/// Features + observer -> poses and map, as the nodelets do it: odometry interpolated at the
+/// ImageFeatures + observer -> poses and map, as the nodelets do it: odometry interpolated at the
 /// image's stamp by an ObserverBuffer.
 class BackEnd {
  public:
