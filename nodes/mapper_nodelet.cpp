@@ -70,6 +70,8 @@ void MapperNodelet::readParameters() {
 void MapperNodelet::onFeatures(const ImageFeaturesConstPtr& features) {
   has_features_ = true;
   totals_.images_dropped = features->images_dropped;
+  gaps_.see(features->header.seq);
+  totals_.dropped_queue = gaps_.lost();
   if (!acceptFeatures(*features)) return;
   const bool is_other_camera =
       features->header.frame_id != camera_frame_ || features->width != camera_width_px_;

@@ -64,6 +64,7 @@ class MapperNodelet : public nodelet::Nodelet {
   std::unique_ptr<FrameMatcher> matcher_;
   std::unique_ptr<Slam> slam_;
   StampGuard stamps_;
+  GapCounter gaps_;
   StageClock stage_clock_;
   std::int64_t answered_ns_ = 0;  // stamp of the newest image in the map
   Features features_;             // of the image at work; kept for its memory
