@@ -70,6 +70,8 @@ void MapperNodelet::readParameters() {
 void MapperNodelet::onFeatures(const FeaturesConstPtr& features) {
   has_features_ = true;
   totals_.images_dropped = features->images_dropped;
+  gaps_.see(features->header.seq);
+  totals_.dropped_queue = gaps_.lost();
   if (!acceptFeatures(*features)) return;
   const bool is_other_camera =
       features->header.frame_id != camera_frame_ || features->width != camera_width_px_;
@@ -180,7 +182,7 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
 }
 
 void MapperNodelet::restartAt(std::int64_t stamp_ns, const std::string& topic) {
-  // ImageFeatures and odometry come apart: whichever is first finds the other's old run, the second
+  // Features and odometry come apart: whichever is first finds the other's old run, the second
   // only its own.
   const std::int64_t limit_ns = stamp_ns + StampGuard::kRestart_ns - 1;
   const bool was_waiting = matcher_->forgetAfter(limit_ns);

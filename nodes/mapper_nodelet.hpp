@@ -18,7 +18,7 @@
 
 namespace ardrone_vslam {
 
-/// ImageFeatures and odometry in, fused pose and map out. All callbacks run in the nodelet's
+/// Features and odometry in, fused pose and map out. All callbacks run in the nodelet's
 /// single-threaded queue, so nothing here is locked; only tf's listener has a thread of its own.
 class MapperNodelet : public nodelet::Nodelet {
  private:
@@ -64,6 +64,7 @@ class MapperNodelet : public nodelet::Nodelet {
   std::unique_ptr<FrameMatcher> matcher_;
   std::unique_ptr<Slam> slam_;
   StampGuard stamps_;
+  GapCounter gaps_;
   StageClock stage_clock_;
   std::int64_t answered_ns_ = 0;  // stamp of the newest image in the map
   ImageFeatures features_;        // of the image at work; kept for its memory

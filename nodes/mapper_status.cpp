@@ -5,7 +5,6 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr int kPatience_s = 3;  // drivers need their time to start
 constexpr std::size_t kTrackerStages = 3;
 
 }  // namespace
@@ -48,8 +47,7 @@ void MapperNodelet::publishWaiting() {
     status.state_name = "waiting_for_odometry";
     status.reason = explain(matcher_->lastMiss(), odometry_sub_.getTopic());
   }
-  if (++seconds_waiting_ >= kPatience_s &&
-      limiter_.allows(status.reason, ros::SteadyTime::now().toSec())) {
+  if (isReminderDue(++seconds_waiting_)) {
     NODELET_WARN_STREAM(status.state_name << ": " << status.reason);
   }
   if (slam_) status.landmarks = static_cast<std::uint32_t>(slam_->landmarks().size());
@@ -63,6 +61,7 @@ void MapperNodelet::fillTotals(Status& status) const {
   status.images_dropped = totals_.images_dropped;
   status.dropped_bad_message = totals_.dropped_bad_message;
   status.dropped_stamp = totals_.dropped_stamp;
+  status.dropped_queue = totals_.dropped_queue;
   status.dropped_no_odometry = totals_.dropped_no_odometry;
   status.dropped_no_extrinsics = totals_.dropped_no_extrinsics;
   status.odometry_refused = totals_.odometry_refused;

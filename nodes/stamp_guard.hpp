@@ -29,4 +29,18 @@ class StampGuard {
   std::int64_t newest_ns_ = 0;  // stamps of zero are refused before they come here
 };
 
+/// Counts messages that were lost between two nodes, by the gaps in their sequence numbers.
+class GapCounter {
+ public:
+  void see(std::uint32_t sequence) {
+    if (newest_ != 0 && sequence > newest_) lost_ += sequence - newest_ - 1;
+    newest_ = sequence;  // a smaller one: the sender began again
+  }
+  std::uint64_t lost() const { return lost_; }
+
+ private:
+  std::uint32_t newest_ = 0;
+  std::uint64_t lost_ = 0;
+};
+
 }  // namespace ardrone_vslam

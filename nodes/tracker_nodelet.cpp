@@ -15,12 +15,6 @@
 #include "params.hpp"
 
 namespace ardrone_vslam {
-namespace {
-
-constexpr int kPatience_s = 3;  // cameras need their time to start
-
-}  // namespace
-
 void TrackerNodelet::onInit() {
   readParameters();
   features_pub_ = getNodeHandle().advertise<Features>(
@@ -170,8 +164,8 @@ void TrackerNodelet::publish(const GreyImage& image, const std_msgs::Header& hea
     message->stage_time[i] = static_cast<float>(stage_clock_.milliseconds(static_cast<Stage>(i)));
   }
   message->images_dropped = dropped_;
+  message->header.seq = static_cast<std::uint32_t>(++processed_);  // a gap tells of a lost message
   features_pub_.publish(FeaturesConstPtr(message));  // to const: no copy within the manager
-  ++processed_;
   fault_.clear();
   if (debug_pub_.getNumSubscribers() == 0) return;
   const cv_bridge::CvImage drawn(header, sensor_msgs::image_encodings::BGR8,
@@ -204,10 +198,7 @@ void TrackerNodelet::onSecond() {
                    " have no stamps in common: the driver must give both the same stamp";
   }
   seconds_waiting_ = waiting_for_.empty() ? 0 : seconds_waiting_ + 1;
-  if (seconds_waiting_ >= kPatience_s &&
-      limiter_.allows(waiting_for_, ros::SteadyTime::now().toSec())) {
-    NODELET_WARN_STREAM(waiting_for_);
-  }
+  if (isReminderDue(seconds_waiting_)) NODELET_WARN_STREAM(waiting_for_);
   diagnostics_->force_update();
   processed_before_ = processed_;
   dropped_before_ = dropped_;
@@ -225,6 +216,7 @@ void TrackerNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
     status.summary(DiagnosticStatus::OK, "tracking");
   }
   status.add("images per second", rate_hz_);
+  status.add("images received", images_);
   status.add("images processed", processed_);
   status.add("images dropped", dropped_);
   status.add("features in the latest image", features_.size());

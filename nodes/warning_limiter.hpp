@@ -26,4 +26,13 @@ class WarningLimiter {
   double at_s_ = 0;
 };
 
+/// Whether to say again what one waits for: after 3 s (drivers need their time to start), then
+/// every 30 s.
+inline bool isReminderDue(int seconds_waiting) {
+  constexpr int kPatience_s = 3;
+  constexpr int kPeriod_s = 30;
+  return seconds_waiting == kPatience_s ||
+         (seconds_waiting > 0 && seconds_waiting % kPeriod_s == 0);
+}
+
 }  // namespace ardrone_vslam

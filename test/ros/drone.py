@@ -10,7 +10,7 @@ from ardrone_vslam.msg import Status
 from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
-from sensor_msgs.msg import CameraInfo, Image
+from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 
@@ -78,13 +78,16 @@ class Drone:
     """Publishes images, calibration, odometry and mounting; records what the nodelets answer."""
 
     def __init__(self, vslam="/vslam", camera="/camera", odometry="/odometry", prefix="", seed=1,
-                 direction=1):
+                 direction=1, compressed=False):
         self.prefix = prefix
         self.direction = direction
         self.steps = 0
         self.time_s = 1000.0
         self._wall = paint_wall(np.random.default_rng(seed))
-        self._images = rospy.Publisher(camera + "/image_raw", Image, queue_size=10)
+        self._image = self.compressed_image if compressed else self.image
+        self._images = rospy.Publisher(
+            camera + "/image_raw" + ("/compressed" if compressed else ""),
+            CompressedImage if compressed else Image, queue_size=10)
         self._infos = rospy.Publisher(camera + "/camera_info", CameraInfo, queue_size=10)
         self._odometry = rospy.Publisher(odometry, Odometry, queue_size=100)
         self._tf = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
@@ -138,6 +141,14 @@ class Drone:
         message.data = self._wall[:, left_px:left_px + WIDTH].tobytes()
         return message
 
+    def compressed_image(self):
+        """In PGM, which OpenCV decodes as it does JPEG."""
+        image = self.image()
+        message = CompressedImage()
+        message.header, message.format = image.header, "pgm"
+        message.data = b"P5 %d %d 255\n" % (WIDTH, HEIGHT) + image.data
+        return message
+
     def info(self):
         message = CameraInfo()
         message.header.stamp = self.stamp()
@@ -161,7 +172,7 @@ class Drone:
 
     def send(self, *messages):
         for message in messages:
-            publisher = {Image: self._images, CameraInfo: self._infos,
+            publisher = {Image: self._images, CompressedImage: self._images, CameraInfo: self._infos,
                          Odometry: self._odometry}[type(message)]
             publisher.publish(message)
 
@@ -174,7 +185,7 @@ class Drone:
         poses = []
         for _ in range(images):
             stamp = self.next()
-            self.send(self.odometry(), self.image(), self.info())
+            self.send(self.odometry(), self._image(), self.info())
             poses.append(self.answered(stamp))
             if poses[-1] is None:
                 break

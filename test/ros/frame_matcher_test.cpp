@@ -134,6 +134,16 @@ TEST(StampGuardTest, LateIsDroppedFarBackIsARestart) {
   EXPECT_EQ(guard.check(11 * kSecond_ns), Answer::kAscending);
 }
 
+TEST(GapCounterTest, CountsWhatIsMissing) {
+  GapCounter gaps;
+  for (const std::uint32_t sequence : {5U, 6U, 9U, 10U}) gaps.see(sequence);
+  EXPECT_EQ(gaps.lost(), 2U);
+  for (const std::uint32_t sequence : {1U, 2U}) gaps.see(sequence);  // the sender began again
+  EXPECT_EQ(gaps.lost(), 2U);
+  gaps.see(4);
+  EXPECT_EQ(gaps.lost(), 3U);
+}
+
 TEST(FrameNames, TfPrefix) {
   EXPECT_EQ(withTfPrefix("", "odom"), "odom");
   EXPECT_EQ(withTfPrefix("drone", "odom"), "drone/odom");
@@ -151,6 +161,14 @@ TEST(WarningLimiterTest, TheSameIsSaidSeldomAnotherSoon) {
   EXPECT_TRUE(limiter.allows("a", 5.1));
   EXPECT_FALSE(limiter.allows("b", 5.2));
   EXPECT_TRUE(limiter.allows("b", 5.4));
+}
+
+TEST(ReminderTest, SoonOnceThenSeldom) {
+  std::vector<int> said;
+  for (int second = 0; second <= 65; ++second) {
+    if (isReminderDue(second)) said.push_back(second);
+  }
+  EXPECT_EQ(said, (std::vector<int>{3, 30, 60}));
 }
 
 }  // namespace

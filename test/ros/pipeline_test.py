@@ -131,7 +131,8 @@ class Pipeline(unittest.TestCase):
         answers = [s for s in self.all("status") if s.header.stamp in set(self.answerable)]
         last = answers[-1]
         self.assertEqual(last.images, len(self.answerable))
-        self.assertEqual(last.images_dropped + last.dropped_bad_message + last.dropped_stamp, 0)
+        self.assertEqual(last.images_dropped + last.dropped_bad_message + last.dropped_stamp +
+                         last.dropped_queue, 0)
         self.assertEqual(last.dropped_no_odometry, len(self.images) - len(self.answerable))
         self.assertEqual(list(last.stage),
                          ["detect", "describe", "track", "associate", "localise", "map"])

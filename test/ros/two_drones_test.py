@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Two drones side by side, told apart by namespace and tf_prefix: each gets its own poses, and tf
-has a tree of each."""
+has a tree of each. The left one's images are raw, the right one's compressed."""
 import os
 import sys
 import time
@@ -22,8 +22,9 @@ class TwoDrones(unittest.TestCase):
         rospy.init_node("two_drones_test")
         tf = Recorder("/tf", TFMessage)
         drones = [Drone("/" + name, "/" + name + "/camera", "/" + name + "/odometry", name, seed,
-                        direction)
-                  for name, seed, direction in [("left", 1, 1), ("right", 2, -1)]]
+                        direction, compressed)
+                  for name, seed, direction, compressed in [("left", 1, 1, False),
+                                                            ("right", 2, -1, True)]]
         for drone in drones:
             drone.connect()
         for drone in drones:
