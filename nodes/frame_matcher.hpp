@@ -11,7 +11,7 @@
 
 namespace ardrone_vslam {
 
-/// Brings images' features and the odometry at their stamps together. ImageFeatures wait in order,
+/// Brings images' features and the odometry at their stamps together. Features wait in order,
 /// a bounded time; the caller says what time it is.
 class FrameMatcher {
  public:

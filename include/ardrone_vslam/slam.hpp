@@ -50,7 +50,7 @@ struct FrameResult {
   int map_features = 0;  ///< in the feature map, after this frame
 };
 
-/// ImageFeatures and observer states -> fused poses and a map (thesis algorithm 5 in the order of
+/// Features and observer states -> fused poses and a map (thesis algorithm 5 in the order of
 /// algorithm.md 10).
 class Slam {
  public:

@@ -48,7 +48,7 @@ using Progress = std::function<void(std::size_t)>;
 void runFrontEnd(Sequence& sequence, const TrackerConfig& config, int threads,
                  const std::function<void(const TrackedFrame& frame)>& consume);
 
-/// ImageFeatures + observer -> poses and map, as the nodelets do it: odometry interpolated at the
+/// Features + observer -> poses and map, as the nodelets do it: odometry interpolated at the
 /// image's stamp by an ObserverBuffer.
 class BackEnd {
  public:
