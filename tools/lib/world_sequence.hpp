@@ -55,7 +55,7 @@ class WorldSequence : public Sequence {
   const std::vector<ObserverState>& observer() const override { return observer_.states; }
 
   /// That the observer drew; 0 without one.
-  double scaleError() const { return observer_.scale_error; }
+  double observerScaleError() const override { return observer_.scale_error; }
   const WorldOptions& options() const { return options_; }
 
  private:
