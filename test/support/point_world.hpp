@@ -110,7 +110,8 @@ class PointWorld {
   }
 
   /// The same descriptor with `bits` different bits.
-  Descriptor flipped(Descriptor descriptor, int bits) {
+  Descriptor flipped(const Descriptor& original, int bits) {
+    Descriptor descriptor = original;
     Descriptor mask;
     for (int done = 0; done < bits;) {
       const int bit = random_.integer(0, 511);

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/observer_buffer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace ardrone_vslam {
+namespace {
+
+using Push = ObserverBuffer::Push;
+using Lookup = ObserverBuffer::Lookup;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+ObserverState stateAt(std::int64_t stamp_ns, double x_m = 0, double yaw_rad = 0) {
+  ObserverState state;
+  state.stamp_ns = stamp_ns;
+  state.T_odom_base.translation().x() = x_m;
+  state.T_odom_base.linear() =
+      Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return state;
+}
+
+double yawOf(const ObserverState& state) {
+  return std::atan2(state.T_odom_base.linear()(1, 0), state.T_odom_base.linear()(0, 0));
+}
+
+TEST(ObserverBuffer, InterpolatesPositionOrientationAndCovariance) {
+  ObserverBuffer buffer({});
+  ObserverState first = stateAt(kSecond_ns, 2, 3.0);
+  ObserverState second = stateAt(kSecond_ns + 400'000'000, 6, 3.4);  // across the wrap at pi
+  first.covariance.setIdentity();
+  second.covariance = 5 * Matrix6d::Identity();
+  ASSERT_EQ(buffer.push(first), Push::kAccepted);
+  ASSERT_EQ(buffer.push(second), Push::kAccepted);
+  ObserverState state;
+  ASSERT_EQ(buffer.at(kSecond_ns + 100'000'000, state), Lookup::kFound);
+  EXPECT_EQ(state.stamp_ns, kSecond_ns + 100'000'000);
+  EXPECT_NEAR(state.T_odom_base.translation().x(), 3, 1e-12);
+  EXPECT_NEAR(yawOf(state), 3.1, 1e-12);
+  EXPECT_NEAR(state.covariance(4, 4), 2, 1e-12);
+}
+
+TEST(ObserverBuffer, EqualNeighboursStayEqualToTheBit) {
+  ObserverState first = stateAt(0, 0.1);
+  first.covariance.setConstant(0.1);
+  ObserverState second = first;
+  second.stamp_ns = 1000;
+  for (std::int64_t stamp = 1; stamp < 1000; ++stamp) {
+    const ObserverState between = interpolate(first, second, stamp);
+    ASSERT_EQ(between.covariance, first.covariance) << stamp;
+    ASSERT_EQ(between.T_odom_base.translation(), first.T_odom_base.translation()) << stamp;
+  }
+}
+
+TEST(ObserverBuffer, StoredStatesAreGivenAsTheyAre) {
+  ObserverBuffer buffer({});
+  buffer.push(stateAt(1, 0.1, 0.3));
+  buffer.push(stateAt(2, 0.7, 0.9));
+  ObserverState state;
+  for (const std::int64_t stamp : {1, 2}) {
+    ASSERT_EQ(buffer.at(stamp, state), Lookup::kFound);
+    EXPECT_EQ(state.T_odom_base.translation().x(), stamp == 1 ? 0.1 : 0.7);
+  }
+}
+
+TEST(ObserverBuffer, RefusesWhatIsNotFiniteDuplicateOrBackward) {
+  ObserverBuffer buffer({});
+  ObserverState nan_position = stateAt(1);
+  nan_position.T_odom_base.translation().y() = std::nan("");
+  ObserverState nan_rotation = stateAt(1);
+  nan_rotation.T_odom_base.linear()(2, 1) = std::nan("");
+  ObserverState endless_covariance = stateAt(1);
+  endless_covariance.covariance(0, 0) = std::numeric_limits<double>::infinity();
+  for (const ObserverState& bad : {nan_position, nan_rotation, endless_covariance})
+    EXPECT_EQ(buffer.push(bad), Push::kNotFinite);
+  EXPECT_TRUE(buffer.empty());
+
+  ASSERT_EQ(buffer.push(stateAt(10, 1)), Push::kAccepted);
+  EXPECT_EQ(buffer.push(stateAt(10, 2)), Push::kDuplicateStamp);
+  EXPECT_EQ(buffer.push(stateAt(9, 3)), Push::kBackwardStamp);
+  ObserverState state;
+  ASSERT_EQ(buffer.at(10, state), Lookup::kFound);
+  EXPECT_EQ(state.T_odom_base.translation().x(), 1) << "a refused state changes nothing";
+  EXPECT_EQ(buffer.newestStamp_ns(), 10);
+}
+
+TEST(ObserverBuffer, EveryAnswerOfALookup) {
+  ObserverBufferConfig config;
+  config.max_gap_s = 0.5;
+  ObserverBuffer buffer(config);
+  ObserverState state = stateAt(-1, 42);
+  EXPECT_EQ(buffer.at(5, state), Lookup::kEmpty);
+  buffer.push(stateAt(kSecond_ns));
+  EXPECT_EQ(buffer.at(kSecond_ns - 1, state), Lookup::kTooOld);
+  EXPECT_EQ(buffer.at(kSecond_ns + 1, state), Lookup::kNotYet);
+  buffer.push(stateAt(kSecond_ns + 500'000'001));
+  EXPECT_EQ(buffer.at(kSecond_ns + 1, state), Lookup::kGap);
+  EXPECT_EQ(state.T_odom_base.translation().x(), 42) << "untouched unless found";
+  EXPECT_EQ(buffer.at(kSecond_ns + 500'000'001, state), Lookup::kFound) << "the gap's end is there";
+  buffer.push(stateAt(kSecond_ns + 1'000'000'001));
+  EXPECT_EQ(buffer.at(kSecond_ns + 600'000'000, state), Lookup::kFound) << "exactly max_gap_s";
+}
+
+TEST(ObserverBuffer, ForgetsWhatIsOlderThanItsLength) {
+  ObserverBufferConfig config;
+  config.buffer_s = 1;
+  config.max_gap_s = 10;
+  ObserverBuffer buffer(config);
+  for (int i = 0; i <= 30; ++i) buffer.push(stateAt(i * kSecond_ns / 10));
+  ObserverState state;
+  EXPECT_EQ(buffer.at(2 * kSecond_ns, state), Lookup::kFound);
+  EXPECT_EQ(buffer.at(2 * kSecond_ns - 1, state), Lookup::kTooOld);
+  buffer.push(stateAt(100 * kSecond_ns));
+  EXPECT_EQ(buffer.at(100 * kSecond_ns, state), Lookup::kFound) << "the newest always stays";
+  buffer.clear();
+  EXPECT_EQ(buffer.at(100 * kSecond_ns, state), Lookup::kEmpty);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/thesis_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "../../tools/lib/random_source.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr double kPixel_rad = 1.0 / 570;
+
+/// No floors, no gate that matters, landmarks independent: the printed equations alone.
+ThesisFilterConfig printedOnly() {
+  ThesisFilterConfig config;
+  config.common_drift = false;
+  config.min_landmarks = 1;
+  config.fix_deviation_floor_m = 0;
+  config.fix_angle_floor_deg = 0;
+  config.gate_deviations = 1e6;
+  return config;
+}
+
+ObserverState observerAt(double seconds, const Eigen::Vector3d& position) {
+  ObserverState state;
+  state.stamp_ns = static_cast<std::int64_t>(seconds * 1e9);
+  state.T_odom_base.translation() = position;
+  return state;
+}
+
+PositionFix fixAt(const Eigen::Vector3d& position, double deviation_m, double shared_m2 = 0) {
+  PositionFix fix;
+  fix.position_map = position;
+  fix.covariance = deviation_m * deviation_m * Eigen::Matrix3d::Identity();
+  fix.shared_variance_m2 = shared_m2;
+  return fix;
+}
+
+/// Landmarks 2 to 10 m ahead within a camera's field of 80 x 52 degrees, seen from the origin.
+std::vector<Sighting> sightingsAhead(int count, double landmark_deviation_m, RandomSource& random) {
+  std::vector<Sighting> sightings;
+  for (int i = 0; i < count; ++i) {
+    const double y = std::tan(random.uniform(-40, 40) * M_PI / 180);
+    const double z = std::tan(random.uniform(-26, 26) * M_PI / 180);
+    Sighting s;
+    s.direction_map = Eigen::Vector3d(1, y, z).normalized();
+    s.landmark_map = random.uniform(2, 10) * s.direction_map;
+    s.landmark_map += landmark_deviation_m * random.normal3();
+    s.landmark_deviation_m = landmark_deviation_m;
+    sightings.push_back(s);
+  }
+  return sightings;
+}
+
+TEST(ThesisFilter, WorkedExampleOfThePrintedMean) {
+  ThesisFilter filter(printedOnly());
+  // Two landmarks, seen along x and along y; the prediction is 0.1 m off in each.
+  std::vector<Sighting> sightings(2);
+  sightings[0] = {{5, 0.2, 0}, {1, 0, 0}, 0.05, 0};
+  sightings[1] = {{0.4, 3, 0}, {0, 1, 0}, 0.02, 0};
+  const Eigen::Vector3d predicted(0.1, 0.1, 0);
+  const auto fix = filter.locate(sightings, predicted, 0.01);
+  ASSERT_TRUE(fix);
+  // (6.1, 6.2): d = 4.9 and 2.9; p = l - d s = (0.1, 0.2, 0) and (0.4, 0.1, 0).
+  // (6.3): sigma = 0.05 + 0.049 and 0.02 + 0.029; (6.4): weights 1 / sigma.
+  const double w0 = 1 / 0.099;
+  const double w1 = 1 / 0.049;
+  EXPECT_NEAR(fix->position_map.x(), (w0 * 0.1 + w1 * 0.4) / (w0 + w1), 1e-12);
+  EXPECT_NEAR(fix->position_map.y(), (w0 * 0.2 + w1 * 0.1) / (w0 + w1), 1e-12);
+  EXPECT_NEAR(fix->distance_m, (w0 * 4.9 + w1 * 2.9) / (w0 + w1), 1e-12);
+  const double deviation = std::sqrt(2.0) / (w0 + w1);
+  EXPECT_TRUE(fix->covariance.isApprox(deviation * deviation * Eigen::Matrix3d::Identity(), 1e-12));
+}
+
+TEST(ThesisFilter, WorkedExampleOfThePrintedFusion) {
+  ThesisFilterConfig config = printedOnly();
+  config.initial_deviation_m = 0.3;
+  ThesisFilter filter(config);
+  filter.start({1, 2, 3}, observerAt(0, {1, 2, 3}));
+  ASSERT_TRUE(filter.fuse(fixAt({2, 2, 3}, 0.1)));
+  const double gain = 0.09 / (0.09 + 0.01);  // (6.9, 6.10)
+  EXPECT_TRUE(filter.position_map().isApprox(Eigen::Vector3d(1 + gain, 2, 3), 1e-12));  // (6.11)
+  EXPECT_NEAR(filter.deviation_m(), std::sqrt((1 - gain) * 0.09), 1e-12);               // (6.12)
+}
+
+TEST(ThesisFilter, PredictionFollowsTheObserversIncrement) {
+  ThesisFilterConfig config = printedOnly();
+  config.initial_deviation_m = 0.1;
+  config.observer_noise_m_per_sqrt_m = 0.02;
+  config.observer_noise_m_per_sqrt_s = 0.03;
+  ThesisFilter filter(config);
+  filter.start({10, 0, 0}, observerAt(1, {0, 0, 0}));
+  filter.predict(observerAt(3, {0, 4, 0}));
+  EXPECT_TRUE(filter.position_map().isApprox(Eigen::Vector3d(10, 4, 0), 1e-12));
+  const double variance = 0.01 + 0.02 * 0.02 * 4 + 0.03 * 0.03 * 2;
+  EXPECT_NEAR(filter.deviation_m(), std::sqrt(variance), 1e-12);
+}
+
+TEST(ThesisFilter, PredictionTakesTheObserversOwnGrowthIfThereIsAny) {
+  ThesisFilterConfig config = printedOnly();
+  config.initial_deviation_m = 0.1;
+  config.observer_noise_m_per_sqrt_s = 0.5;
+  ThesisFilter filter(config);
+  ObserverState first = observerAt(0, {0, 0, 0});
+  first.covariance.topLeftCorner<3, 3>() = 0.2 * Eigen::Matrix3d::Identity();
+  filter.start({0, 0, 0}, first);
+  ObserverState second = observerAt(1, {0, 0, 0});
+  second.covariance.topLeftCorner<3, 3>() = 0.23 * Eigen::Matrix3d::Identity();
+  filter.predict(second);
+  EXPECT_NEAR(filter.covariance()(0, 0), 0.01 + 0.03, 1e-12);
+
+  // A constant covariance tells nothing, not even when its last bit changes.
+  ObserverState third = second;
+  third.stamp_ns = 2'000'000'000;
+  third.covariance *= 1 + 1e-15;
+  filter.predict(third);
+  EXPECT_NEAR(filter.covariance()(0, 0), 0.04 + 0.25, 1e-12);
+}
+
+// algorithm.md 9: observer 0.5 m off along the optical axis, 50 landmarks, 80 x 52 degrees.
+TEST(ThesisFilter, PrintedMeanIsDampedAlongTheRaysTheExactOneIsNot) {
+  const Eigen::Vector3d predicted(0.5, 0, 0);
+  ThesisFilterConfig config = printedOnly();
+  double printed_error = 0;
+  double exact_error = 0;
+  double exact_claim = 0;
+  constexpr int kRuns = 200;
+  for (int run = 0; run < kRuns; ++run) {
+    RandomSource random(static_cast<std::uint64_t>(run));
+    const auto sightings = sightingsAhead(50, 0.02, random);
+    config.mean = MeanKind::kPrinted;
+    printed_error +=
+        ThesisFilter(config).locate(sightings, predicted, kPixel_rad)->position_map.x();
+    config.mean = MeanKind::kExact;
+    const auto exact = ThesisFilter(config).locate(sightings, predicted, kPixel_rad);
+    exact_error += std::abs(exact->position_map.x());
+    exact_claim += std::sqrt(exact->covariance(0, 0));
+  }
+  EXPECT_NEAR(printed_error / kRuns, 0.417, 0.03) << "about four fifths of the error stay";
+  EXPECT_LT(exact_error / kRuns, 0.02);
+  EXPECT_GT(exact_claim / kRuns, exact_error / kRuns) << "0.8 deviations are the mean distance";
+}
+
+TEST(ThesisFilter, CovarianceOfTheExactMeanIsItsScatter) {
+  ThesisFilterConfig config = printedOnly();
+  config.mean = MeanKind::kExact;
+  const ThesisFilter filter(config);
+  RandomSource geometry(3);
+  const auto truth = sightingsAhead(30, 0, geometry);
+  RandomSource random(4);
+  constexpr int kRuns = 4000;
+  constexpr double kDeviation_m = 0.03;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d claimed = Eigen::Matrix3d::Zero();
+  for (int run = 0; run < kRuns; ++run) {
+    auto sightings = truth;
+    for (Sighting& s : sightings) {
+      s.landmark_map += kDeviation_m * random.normal3();
+      s.landmark_deviation_m = kDeviation_m;
+    }
+    const auto fix = filter.locate(sightings, Eigen::Vector3d::Zero(), 1e-9);
+    ASSERT_TRUE(fix);
+    scatter += fix->position_map * fix->position_map.transpose() / kRuns;
+    claimed += fix->covariance / kRuns;
+  }
+  // In the claim's own units the scatter is the identity.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> root(claimed);
+  const Eigen::Matrix3d whitened =
+      root.operatorInverseSqrt() * scatter * root.operatorInverseSqrt();
+  EXPECT_LT((whitened - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.1) << whitened;
+}
+
+TEST(ThesisFilter, DeviationOfThePrintedMeanShrinksWithTheRootOfTheNumber) {
+  ThesisFilter filter(printedOnly());
+  const Sighting s{{5, 0, 0}, {1, 0, 0}, 0.1, 0};
+  const auto one = filter.locate({s}, Eigen::Vector3d::Zero(), 0);
+  const auto four = filter.locate({s, s, s, s}, Eigen::Vector3d::Zero(), 0);
+  EXPECT_NEAR(std::sqrt(one->covariance(0, 0)), 0.1, 1e-12);
+  EXPECT_NEAR(std::sqrt(four->covariance(0, 0)), 0.05, 1e-12);
+}
+
+TEST(ThesisFilter, FloorsHoldErrorsThatAllLandmarksShare) {
+  ThesisFilterConfig config = printedOnly();
+  config.fix_deviation_floor_m = 0.03;
+  config.fix_angle_floor_deg = 1;
+  const ThesisFilter filter(config);
+  const std::vector<Sighting> many(10000, Sighting{{4, 0, 0}, {1, 0, 0}, 0.1, 0});
+  const auto fix = filter.locate(many, Eigen::Vector3d::Zero(), 0);
+  EXPECT_NEAR(std::sqrt(fix->covariance(2, 2)), std::hypot(0.03, 4 * M_PI / 180, 0.001), 1e-9);
+}
+
+TEST(ThesisFilter, TooFewLandmarksFixNothing) {
+  ThesisFilterConfig config = printedOnly();
+  config.min_landmarks = 3;
+  const ThesisFilter filter(config);
+  RandomSource random(1);
+  const auto three = sightingsAhead(3, 0.1, random);
+  const std::vector<Sighting> two(three.begin(), three.begin() + 2);
+  EXPECT_FALSE(filter.locate({}, Eigen::Vector3d::Zero(), kPixel_rad));
+  EXPECT_FALSE(filter.locate(two, Eigen::Vector3d::Zero(), kPixel_rad));
+  EXPECT_TRUE(filter.locate(three, Eigen::Vector3d::Zero(), kPixel_rad));
+}
+
+TEST(ThesisFilter, ExactMeanRefusesLandmarksInOneDirection) {
+  ThesisFilterConfig config = printedOnly();
+  config.mean = MeanKind::kExact;
+  const ThesisFilter filter(config);
+  const std::vector<Sighting> same(5, Sighting{{5, 0, 0}, {1, 0, 0}, 0.1, 0});
+  EXPECT_FALSE(filter.locate(same, Eigen::Vector3d::Zero(), kPixel_rad));
+}
+
+TEST(ThesisFilter, DegenerateSightingsGiveNoNumberThatIsNotFinite) {
+  const ThesisFilter filter(printedOnly());
+  const std::vector<Sighting> at_camera(3, Sighting{{0, 0, 0}, {1, 0, 0}, 0, 0});
+  EXPECT_FALSE(filter.locate(at_camera, Eigen::Vector3d::Zero(), 0));
+}
+
+TEST(ThesisFilter, GateRejectsAndLeavesThePrediction) {
+  ThesisFilterConfig config = printedOnly();
+  config.initial_deviation_m = 0.03;
+  config.gate_deviations = 3;
+  ThesisFilter filter(config);
+  filter.start(Eigen::Vector3d::Zero(), observerAt(0, {0, 0, 0}));
+  // Deviation of the innovation: hypot(0.03, 0.04) = 0.05.
+  EXPECT_FALSE(filter.fuse(fixAt({0.151, 0, 0}, 0.04)));
+  EXPECT_EQ(filter.position_map(), Eigen::Vector3d(Eigen::Vector3d::Zero()));
+  EXPECT_NEAR(filter.deviation_m(), 0.03, 1e-15);
+  EXPECT_TRUE(filter.fuse(fixAt({0.149, 0, 0}, 0.04)));
+}
+
+// estimator.md, lesson 4.
+TEST(CommonDrift, FreshLandmarksCorrectNothing) {
+  ThesisFilterConfig config = printedOnly();
+  config.common_drift = true;
+  config.initial_deviation_m = 0.2;
+  ThesisFilter filter(config);
+  filter.start(Eigen::Vector3d::Zero(), observerAt(0, {0, 0, 0}));
+  ASSERT_TRUE(filter.fuse(fixAt({0.1, 0, 0}, 0.05, 0.2 * 0.2)));
+  EXPECT_LT(filter.position_map().norm(), 1e-12);
+  EXPECT_NEAR(filter.deviation_m(), 0.2, 1e-12);
+}
+
+TEST(CommonDrift, OldLandmarksCorrectTheDriftSinceAndNoMore) {
+  ThesisFilterConfig config = printedOnly();
+  config.common_drift = true;
+  config.initial_deviation_m = 0.1;
+  config.observer_noise_m_per_sqrt_s = 1;
+  ThesisFilter filter(config);
+  filter.start(Eigen::Vector3d::Zero(), observerAt(0, {0, 0, 0}));
+  const double then_m2 = filter.covariance()(0, 0);
+  filter.predict(observerAt(4, {0, 0, 0}));  // drift: 4 m^2
+  ASSERT_TRUE(filter.fuse(fixAt({1, 0, 0}, 0.001, then_m2)));
+  EXPECT_NEAR(filter.position_map().x(), 1, 1e-6) << "the drift is all of the error";
+  EXPECT_NEAR(filter.covariance()(0, 0), then_m2, 2e-6) << "P_a stays";
+  EXPECT_GE(filter.covariance()(0, 0), then_m2);
+}
+
+TEST(CommonDrift, GainIsThatOfTheDriftAlone) {
+  ThesisFilterConfig config = printedOnly();
+  config.common_drift = true;
+  config.initial_deviation_m = 0.5;
+  ThesisFilter filter(config);
+  filter.start(Eigen::Vector3d::Zero(), observerAt(0, {0, 0, 0}));
+  ASSERT_TRUE(filter.fuse(fixAt({1, 0, 0}, 0.3, 0.16)));  // P_t = 0.25, P_a = 0.16, R = 0.09
+  EXPECT_NEAR(filter.position_map().x(), 0.09 / (0.09 + 0.09), 1e-12);
+  EXPECT_NEAR(filter.covariance()(0, 0), 0.16 + 0.5 * 0.09, 1e-12);
+}
+
+TEST(ThesisFilter, RefusesInvalidParameters) {
+  ThesisFilterConfig config;
+  config.min_landmarks = 0;
+  config.gate_deviations = std::nan("");
+  try {
+    ThesisFilter filter(config);
+    FAIL() << "must throw";
+  } catch (const ConfigError& e) {
+    EXPECT_EQ(e.faults().size(), 2U);
+  }
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
