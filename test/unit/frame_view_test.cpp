@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/frame_view.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "support/view_builder.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using test::ViewBuilder;
+
+std::vector<int> visited(const FrameView& view, const Eigen::Vector2f& centre_px, float radius_px) {
+  std::vector<int> found;
+  view.visit(centre_px, radius_px, [&](int index) { found.push_back(index); });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(PixelGrid, VisitsASupersetOfTheWindow) {
+  RandomSource random(1);
+  std::vector<Eigen::Vector2f> pixels;
+  for (int i = 0; i < 500; ++i) {  // some lie outside the image
+    pixels.emplace_back(static_cast<float>(random.uniform(-50, 250)),
+                        static_cast<float>(random.uniform(-50, 150)));
+  }
+  PixelGrid grid;
+  grid.build(pixels, 200, 100);
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector2f centre(static_cast<float>(random.uniform(-60, 260)),
+                                 static_cast<float>(random.uniform(-60, 160)));
+    const auto radius = static_cast<float>(random.uniform(0, 80));
+    std::vector<int> count(pixels.size(), 0);
+    grid.visit(centre, radius, [&](int index) { ++count[static_cast<std::size_t>(index)]; });
+    for (std::size_t p = 0; p < pixels.size(); ++p) {
+      EXPECT_LE(count[p], 1);
+      const bool inside = (pixels[p] - centre).norm() <= radius;
+      EXPECT_TRUE(!inside || count[p] == 1);
+    }
+  }
+}
+
+TEST(PixelGrid, WindowsWithoutEndVisitEverything) {
+  PixelGrid grid;
+  grid.build({{1, 1}, {99, 99}}, 100, 100);
+  int count = 0;
+  grid.visit({50, 50}, std::numeric_limits<float>::max(), [&](int) { ++count; });
+  EXPECT_EQ(count, 2);
+  grid.build({}, 0, 0);
+  grid.visit({50, 50}, 10, [&](int) { ++count; });
+  EXPECT_EQ(count, 2);
+}
+
+TEST(FrameView, WindowsAreExactCircles) {
+  ViewBuilder builder;
+  builder.lookFrom({0, 0, 0});
+  const int in = builder.addPixel(100, 50, 1);
+  const int edge = builder.addPixel(109.9, 50, 2);
+  builder.addPixel(110.1, 50, 3);
+  builder.addPixel(108, 58, 4);  // in the square, not in the circle
+  EXPECT_EQ(visited(builder.view(), {100, 50}, 10), (std::vector<int>{in, edge}));
+}
+
+TEST(FrameView, IdealPixelIsWhereTheFeatureOfAPointIs) {
+  ViewBuilder builder;
+  builder.lookFrom({1, 2, 3});
+  builder.addFrame();
+  const Eigen::Vector3d point(6, 2.5, 3.4);
+  const int feature = builder.addPoint(point, 1);
+  Eigen::Vector2f pixel;
+  ASSERT_TRUE(builder.view().idealPixel(point - builder.view().origin_map(), 0, pixel));
+  EXPECT_EQ(visited(builder.view(), pixel, 0.01F), std::vector<int>{feature});
+  EXPECT_FALSE(builder.view().idealPixel({-5, 0, 0}, 0, pixel)) << "behind";
+  EXPECT_FALSE(builder.view().idealPixel({5, 5, 0}, 0, pixel)) << "outside the image";
+}
+
+TEST(FrameView, ExtentIsThatOfAllFramesSoFar) {
+  ViewBuilder builder;
+  builder.lookFrom({0, 0, 0});
+  builder.addFrame();
+  Eigen::Vector2f pixel;
+  EXPECT_TRUE(builder.view().idealPixel({5, 2, 0}, 0, pixel));
+  builder.lookFrom({0, 0, 0});
+  builder.addPixel(0, 0, 1);
+  EXPECT_TRUE(builder.view().idealPixel({5, 2, 0}, 0, pixel)) << "the camera has shown it before";
+}
+
+TEST(FrameView, BearingsFarOffTheAxisDoNoHarm) {
+  ViewBuilder builder;
+  builder.lookFrom({0, 0, 0});
+  const int good = builder.addPixel(10, 0, 1);
+  const std::vector<Eigen::Vector3f> wide{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {1, 0, 1e-30F}};
+  for (const Eigen::Vector3f& bearing : wide) {
+    builder.addPixel(0, 0, 2);
+    builder.features().bearing_cam.back() = bearing;
+  }
+  EXPECT_EQ(visited(builder.view(), {10, 0}, 5), std::vector<int>{good});
+  for (std::size_t i = 0; i < builder.view().size(); ++i)
+    EXPECT_TRUE(builder.view().ray(i).direction_map.allFinite());
+}
+
+TEST(FrameView, PlanarRaysAreHorizontalUnitVectors) {
+  ViewBuilder builder;
+  builder.lookFrom({1, 2, 0}, true);
+  const Eigen::Vector3d point(5, 3, 1.5);
+  builder.addPoint(point, 1);
+  const FrameView& view = builder.view();
+  const Eigen::Vector3d ray = view.ray(0).direction_map;
+  EXPECT_EQ(ray.z(), 0);
+  EXPECT_NEAR(ray.norm(), 1, 1e-12);
+  const Eigen::Vector2d offset = point.head<2>() - Eigen::Vector2d(1, 2);
+  EXPECT_LT((ray.head<2>() - offset.normalized()).norm(), 1e-6);
+  EXPECT_NEAR(view.elevation(0), 1.5 / offset.norm(), 1e-6);
+  Eigen::Vector2f pixel;
+  builder.addFrame();
+  ASSERT_TRUE(builder.view().idealPixel(ray, builder.view().elevation(0), pixel));
+  EXPECT_EQ(visited(builder.view(), pixel, 0.01F), std::vector<int>{0});
+}
+
+TEST(FrameView, DeviationSinceIsTheDriftAlone) {
+  FrameView view;
+  view.setPositionVariance(0.25, true);
+  EXPECT_NEAR(view.deviationSince_m(0.09), 0.4, 1e-12);
+  EXPECT_EQ(view.deviationSince_m(0.3), 0) << "never the root of something negative";
+  view.setPositionVariance(0.25, false);
+  EXPECT_NEAR(view.deviationSince_m(0.09), 0.5, 1e-12);
+}
+
+TEST(FrameView, NewOriginMovesTheRays) {
+  ViewBuilder builder;
+  builder.lookFrom({0, 0, 0});
+  builder.addPixel(0, 0, 1);
+  builder.view().setOrigin({1, 2, 3});
+  EXPECT_EQ(builder.view().ray(0).origin_map, Eigen::Vector3d(1, 2, 3));
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

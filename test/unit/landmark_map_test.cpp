@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/landmark_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace ardrone_vslam {
+namespace {
+
+Landmark seenAt(std::int64_t last_seen_ns) {
+  Landmark landmark;
+  landmark.last_seen_ns = last_seen_ns;
+  return landmark;
+}
+
+TEST(LandmarkMap, IdsStayWhileIndicesMove) {
+  LandmarkMap map({});
+  const std::uint32_t a = map.add(seenAt(1));
+  const std::uint32_t b = map.add(seenAt(2));
+  const std::uint32_t c = map.add(seenAt(3));
+  map.remove(a);
+  EXPECT_EQ(map.find(a), nullptr);
+  ASSERT_NE(map.find(b), nullptr);
+  ASSERT_NE(map.find(c), nullptr);
+  EXPECT_EQ(map.find(b)->last_seen_ns, 2);
+  EXPECT_EQ(map.find(c)->last_seen_ns, 3);
+  EXPECT_EQ(map.all()[0].id, c) << "the last one takes the place";
+  map.remove(a);
+  map.remove(12345);
+  EXPECT_EQ(map.size(), 2U);
+  EXPECT_GT(map.add(seenAt(4)), c) << "ids are never used again";
+}
+
+TEST(LandmarkMap, LastOneCanBeRemoved) {
+  LandmarkMap map({});
+  const std::uint32_t a = map.add(seenAt(1));
+  map.remove(a);
+  EXPECT_EQ(map.size(), 0U);
+  EXPECT_EQ(map.find(a), nullptr);
+}
+
+TEST(LandmarkMap, CapDropsThoseNotSeenForLongest) {
+  LandmarkMapConfig config;
+  config.max_landmarks = 100;
+  LandmarkMap map(config);
+  for (int i = 0; i < 100; ++i) map.add(seenAt((i * 37) % 100));
+  EXPECT_EQ(map.enforceCap(), 0);
+  map.add(seenAt(1000));
+  EXPECT_EQ(map.enforceCap(), 11) << "one too many, and a tenth of the cap";
+  ASSERT_EQ(map.size(), 90U);
+  std::set<std::int64_t> kept;
+  for (const Landmark& landmark : map.all()) kept.insert(landmark.last_seen_ns);
+  EXPECT_EQ(*kept.begin(), 11);
+  EXPECT_EQ(*kept.rbegin(), 1000);
+  for (const Landmark& landmark : map.all()) EXPECT_EQ(map.find(landmark.id), &landmark);
+}
+
+TEST(LandmarkMap, OfEquallyOldOnesTheLowestIdsGo) {
+  LandmarkMapConfig config;
+  config.max_landmarks = 10;
+  LandmarkMap map(config);
+  for (int i = 0; i < 11; ++i) map.add(seenAt(5));
+  EXPECT_EQ(map.enforceCap(), 2);
+  EXPECT_EQ(map.find(1), nullptr);
+  EXPECT_EQ(map.find(2), nullptr);
+  EXPECT_NE(map.find(3), nullptr);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
