@@ -129,7 +129,7 @@ void writeWorldFolder(WorldSequence& world, const Options& o, ProgressLine& prog
   if (o.world.observer) {
     write.observer_comment = "profile " + o.world.observer->name + ", seed " +
                              std::to_string(o.world.seed) + ", drawn scale error " +
-                             std::to_string(world.observerScaleError());
+                             std::to_string(world.observerNote().scale_error);
   }
   write.progress = [&progress](std::size_t done, std::size_t) { progress.update(done); };
   if (o.force) removeOldFolder(o.out);
@@ -154,7 +154,7 @@ int run(Options& o) {
   std::cout << o.out << ": " << world.size() << " images, world seed " << o.world.world_seed;
   if (o.world.observer) {
     std::cout << "; observer profile " << o.world.observer->name << ", seed " << o.world.seed
-              << ", scale error " << world.observerScaleError();
+              << ", scale error " << world.observerNote().scale_error;
   }
   std::cout << '\n';
   return 0;

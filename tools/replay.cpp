@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // replay: images and odometry of a bag or folder through tracker and mapper, without a ROS master.
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -8,9 +10,9 @@
 #include <future>
 #include <iostream>
 
-#include "config_path.hpp"
 #include "offline_run.hpp"
 #include "progress_line.hpp"
+#include "run_observers.hpp"
 #include "run_report.hpp"
 #ifdef ARDRONE_VSLAM_WITH_ROS
 #include "bag_sequence.hpp"
@@ -47,6 +49,7 @@ void addOptions(CLI::App& app, Options& o) {
       ->required();
   app.add_option("--config", o.config, "yaml with sections tracker and mapper (config/*.yaml)");
   app.add_option("--set", o.overrides, "key=value over the configuration; may be repeated")
+      ->allow_extra_args(false)
       ->take_all();
   app.add_option("--estimator", o.estimator, "thesis or observer; over the configuration");
   app.add_option("--observer-profile", o.observer_profile,
@@ -103,37 +106,23 @@ std::vector<std::uint64_t> seedsOf(const Options& o) {
   return seeds;
 }
 
-/// The observers to run with, one a seed, and what they are called.
-struct Observers {
-  std::string profile;
-  std::vector<std::uint64_t> seeds;
-  std::vector<ObserverRun> runs;
-};
-
-Observers observersOf(const Sequence& sequence, const Options& o) {
-  Observers observers;
-  observers.seeds = seedsOf(o);
-  if (o.observer_profile.empty() && !sequence.observer().empty()) {
+std::vector<RunObserver> observersOf(const Sequence& sequence, const Options& o) {
+  // A bag is what was recorded; image folders have no odometry of their own and get a simulated
+  // one.
+  const bool is_bag = !std::filesystem::is_directory(o.input);
+  std::vector<RunObserver> observers;
+  if (o.observer_profile.empty() && (is_bag || !sequence.observer().empty())) {
     if (!o.seeds.empty()) {
       throw std::runtime_error(
           sequence.name() +
-          ": --seeds needs --observer-profile: the recorded odometry has no seed");
+          ": --seeds needs --observer-profile: the recorded odometry has no seeds");
     }
-    observers.profile = "recorded";
-    observers.runs.push_back({sequence.observer(), sequence.observerScaleError()});
+    observers.push_back(recordedObserver(sequence));
     return observers;
   }
-  observers.profile = o.observer_profile.empty() ? "wheel" : o.observer_profile;
-  if (sequence.truth().empty()) {
-    throw std::runtime_error(
-        sequence.name() +
-        ": has neither odometry nor true poses, so there is no observer to run with; " +
-        "add the odometry to the bag, or poses.txt / poses_tum.txt to the folder");
-  }
-  const ObserverProfile profile =
-      loadObserverProfile(observers.profile, findConfigFile("observer_profiles.yaml"));
-  for (const std::uint64_t seed : observers.seeds)
-    observers.runs.push_back(simulateObserver(sequence.truth(), profile, seed));
+  const std::string profile = o.observer_profile.empty() ? "wheel" : o.observer_profile;
+  for (const std::uint64_t seed : seedsOf(o))
+    observers.push_back(simulatedObserver(sequence, profile, seed));
   return observers;
 }
 
@@ -153,11 +142,11 @@ void forEach(std::size_t count, int threads, const Work& work) {
 }
 
 std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
-                              const Observers& observers, int threads) {
+                              const std::vector<RunObserver>& observers, int threads) {
   std::vector<std::unique_ptr<BackEnd>> back_ends;
-  for (const ObserverRun& run : observers.runs) {
+  for (const RunObserver& observer : observers) {
     back_ends.push_back(
-        std::make_unique<BackEnd>(config.mapper, sequence.T_base_cam(), run.states));
+        std::make_unique<BackEnd>(config.mapper, sequence.T_base_cam(), observer.run.states));
   }
   ProgressLine progress("replay", sequence.size());
   std::size_t done = 0;
@@ -169,7 +158,7 @@ std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
   std::vector<RunResult> results;
   for (std::size_t i = 0; i < back_ends.size(); ++i) {
     results.push_back(back_ends[i]->finish());
-    results.back().scale_error = observers.runs[i].scale_error;
+    results.back().scale_error = observers[i].run.scale_error;
   }
   return results;
 }
@@ -202,29 +191,74 @@ void printSeeds(const Json& summary) {
     std::cout << kind << ": " << summary[kind].dump() << '\n';
 }
 
+FrameSelection selectionOf(const Options& o) {
+  try {
+    return FrameSelection::parse(o.frames, o.ping_pong);
+  } catch (const std::invalid_argument& e) {
+    throw CLI::ValidationError("--frames", e.what());
+  }
+}
+
+/// Made before the work, so that a folder that cannot be written does not cost a run.
+void makeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || access(folder.c_str(), W_OK) != 0) {
+    throw std::runtime_error(folder + ": cannot be written; choose another --out");
+  }
+}
+
+/// What a user should know before believing the numbers.
+void warnOf(const std::string& name, const RunResult& run, const RunEvaluation& evaluation,
+            bool truth_moved) {
+  if (run.frames.empty()) {
+    throw std::runtime_error(name +
+                             ": no image has odometry at its stamp; the stamps of images and "
+                             "odometry do not overlap, or the "
+                             "odometry's gaps are longer than observer_max_gap_s");
+  }
+  const auto isEmpty = [](const RunFrame& frame) { return frame.result.features == 0; };
+  if (std::all_of(run.frames.begin(), run.frames.end(), isEmpty)) {
+    throw std::runtime_error(
+        name +
+        ": no image shows a corner: black, blank or blurred images, or threshold_min too high");
+  }
+  if (run.frames_without_observer > 0) {
+    std::cerr << "replay: " << run.frames_without_observer
+              << " images have no odometry at their stamp and are left out\n";
+  }
+  if (truth_moved) {
+    std::cerr << "replay: truth and observer start at different poses; the truth was moved as a "
+                 "whole to the observer's start\n";
+  }
+  if (evaluation.frames_without_truth > 0) {
+    std::cerr << "replay: " << evaluation.frames_without_truth
+              << " images have no truth at their stamp and are not evaluated\n";
+  }
+}
+
 int run(const Options& o) {
   std::vector<std::string> overrides = o.overrides;
   if (!o.estimator.empty()) overrides.push_back("mapper/estimator=" + o.estimator);
   const PipelineConfig config = loadConfig(o.config, overrides);
-  const auto sequence = select(openInput(o), FrameSelection::parse(o.frames, o.ping_pong));
-  const Observers observers = observersOf(*sequence, o);
+  const FrameSelection selection = selectionOf(o);
+  const auto sequence = select(openInput(o), selection);
+  const std::vector<RunObserver> observers = observersOf(*sequence, o);
+  makeFolder(o.out);
   const std::vector<RunResult> results = runAll(*sequence, config, observers, o.threads);
 
   std::vector<Json> summaries;
   for (std::size_t i = 0; i < results.size(); ++i) {
-    const RunEvaluation evaluation = evaluate(results[i], sequence->truth());
-    const RunLabel label{sequence->name(), observers.profile, observers.seeds[i],
+    bool truth_moved = false;
+    const Trajectory truth = truthFromObserversStart(sequence->truth(), observers[i], truth_moved);
+    const RunEvaluation evaluation = evaluate(results[i], truth);
+    warnOf(sequence->name(), results[i], evaluation, truth_moved);
+    const RunLabel label{sequence->name(), observers[i].profile, observers[i].seed,
                          nameOf(config.mapper.estimator)};
     summaries.push_back(summaryOf(results[i], evaluation, label));
     const std::string folder =
-        o.seeds.empty() ? o.out : o.out + "/seed_" + std::to_string(label.seed);
+        o.seeds.empty() ? o.out : o.out + "/seed_" + std::to_string(*label.seed);
     writeRun(folder, results[i], evaluation, summaries.back());
-    if (results[i].frames.empty()) {
-      throw std::runtime_error(
-          sequence->name() +
-          ": no image has odometry at its stamp; the stamps of images and odometry do not "
-          "overlap, or the odometry's gaps are longer than observer_max_gap_s");
-    }
   }
   if (o.seeds.empty()) {
     printSummary(summaries.front());

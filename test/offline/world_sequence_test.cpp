@@ -152,8 +152,8 @@ TEST(WorldSequence, SeedsDecide) {
   options.world_seed = 1;
   WorldSequence other_room(options);
   for (std::size_t i : {3, 0}) EXPECT_TRUE(sameBytes(world.image(i), again.image(i)));
-  EXPECT_EQ(world.observerScaleError(), again.observerScaleError());
-  EXPECT_NE(world.observerScaleError(), other_noise.observerScaleError());
+  EXPECT_EQ(world.observerNote().scale_error, again.observerNote().scale_error);
+  EXPECT_NE(world.observerNote().scale_error, other_noise.observerNote().scale_error);
   EXPECT_EQ(world.observer().back().T_odom_base.matrix(),
             again.observer().back().T_odom_base.matrix());
   EXPECT_FALSE(sameBytes(world.image(0), other_noise.image(0)));

@@ -85,7 +85,7 @@ class SelectedSequence : public Sequence {
   Eigen::Isometry3d T_base_cam() const override { return sequence_->T_base_cam(); }
   const Trajectory& truth() const override { return truth_; }
   const std::vector<ObserverState>& observer() const override { return observer_; }
-  double observerScaleError() const override { return sequence_->observerScaleError(); }
+  ObserverNote observerNote() const override { return sequence_->observerNote(); }
 
  private:
   void restamp(const std::vector<std::size_t>& frames) {

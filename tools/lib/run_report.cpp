@@ -3,10 +3,12 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -44,9 +46,16 @@ double peakMemory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+std::vector<double> finite(const std::vector<double>& values) {
+  std::vector<double> kept;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(kept),
+               [](double value) { return std::isfinite(value); });
+  return kept;
+}
+
 void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& label, Json& summary) {
-  const ErrorSummary fused = summarise(e.fused_error_m);
-  const ErrorSummary observer = summarise(e.observer_error_m);
+  const ErrorSummary fused = summarise(finite(e.fused_error_m));
+  const ErrorSummary observer = summarise(finite(e.observer_error_m));
   const bool known = !e.truth.empty();
   const auto ifKnown = [known](double value) { return known ? orNull(value) : Json(nullptr); };
   const bool drifts = label.profile != "truth" && observer.rmse_m > 0;
@@ -57,8 +66,10 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   summary["ratio"] = drifts ? ifKnown(fused.rmse_m / observer.rmse_m) : Json(nullptr);
 
   const Trajectory truth = scaled(e.truth, run.scale_error);
-  const double fused_scaled = known ? summarise(positionErrors_m(e.fused, truth)).rmse_m : 0;
-  const double observer_scaled = known ? summarise(positionErrors_m(e.observer, truth)).rmse_m : 0;
+  const double fused_scaled =
+      known ? summarise(positionErrors_m(e.fused_at_truth, truth)).rmse_m : 0;
+  const double observer_scaled =
+      known ? summarise(positionErrors_m(e.observer_at_truth, truth)).rmse_m : 0;
   summary["observer_ate_rmse_scale_removed_m"] = ifKnown(observer_scaled);
   summary["fused_ate_rmse_scale_removed_m"] = ifKnown(fused_scaled);
   summary["ratio_scale_removed"] = drifts ? ifKnown(fused_scaled / observer_scaled) : Json(nullptr);
@@ -68,25 +79,22 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
       known && !e.fused_error_m.empty() ? orNull(e.fused_error_m.back()) : Json(nullptr);
   summary["observer_error_last_m"] =
       known && !e.observer_error_m.empty() ? orNull(e.observer_error_m.back()) : Json(nullptr);
-  const auto t_rel = known ? translationError_percent(e.fused, e.truth) : std::nullopt;
-  const auto observer_t_rel = known ? translationError_percent(e.observer, e.truth) : std::nullopt;
+  const auto t_rel = known ? translationError_percent(e.fused_at_truth, e.truth) : std::nullopt;
+  const auto observer_t_rel =
+      known ? translationError_percent(e.observer_at_truth, e.truth) : std::nullopt;
   summary["t_rel_percent"] = t_rel ? Json(*t_rel) : Json(nullptr);
   summary["observer_t_rel_percent"] = observer_t_rel ? Json(*observer_t_rel) : Json(nullptr);
 
-  std::vector<double> camera;
-  for (const double error : e.camera_error_m) {
-    if (std::isfinite(error)) camera.push_back(error);
-  }
+  const std::vector<double> camera = finite(e.camera_error_m);
   const ErrorSummary camera_summary = summarise(camera);
   const bool fixed = known && !camera.empty();
   summary["camera_frames"] = camera.size();
   summary["camera_error_mean_m"] = fixed ? orNull(camera_summary.mean_m) : Json(nullptr);
   summary["camera_error_max_m"] = fixed ? orNull(camera_summary.max_m) : Json(nullptr);
-  double nees_sum = 0;
-  for (const double value : e.nees) nees_sum += value;
-  summary["nees_mean"] = known && !e.nees.empty()
-                             ? orNull(nees_sum / static_cast<double>(e.nees.size()))
-                             : Json(nullptr);
+  const std::vector<double> nees_values = finite(e.nees);
+  summary["nees_mean"] =
+      nees_values.empty() ? Json(nullptr) : orNull(summarise(nees_values).mean_m);
+  summary["frames_without_truth"] = e.frames_without_truth;
 }
 
 void addCost(const RunResult& run, Json& summary) {
@@ -159,22 +167,36 @@ void writeLandmarks(std::ostream& out, const RunResult& run) {
 }  // namespace
 
 RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
+  constexpr std::int64_t kLongestTruthGap_ns = 1'000'000'000;
   RunEvaluation e;
   for (const RunFrame& frame : run.frames) {
     const FrameResult& r = frame.result;
-    e.fused.append({r.stamp_ns, r.T_map_base});
-    e.observer.append({r.stamp_ns, r.T_odom_base});
-    if (truth.empty()) continue;
-    const Eigen::Isometry3d T_map_base = truth.at(r.stamp_ns);
-    e.truth.append({r.stamp_ns, T_map_base});
-    const Eigen::Vector3d error = r.T_map_base.translation() - T_map_base.translation();
-    e.nees.push_back(nees(error, r.covariance.topLeftCorner<3, 3>()));
-    e.camera_error_m.push_back(
-        r.camera_position_map ? (*r.camera_position_map - T_map_base.translation()).norm() : kNone);
-  }
-  if (!truth.empty()) {
-    e.fused_error_m = positionErrors_m(e.fused, e.truth);
-    e.observer_error_m = positionErrors_m(e.observer, e.truth);
+    const StampedPose fused{r.stamp_ns, r.T_map_base};
+    const StampedPose observer{r.stamp_ns, r.T_odom_base};
+    e.fused.append(fused);
+    e.observer.append(observer);
+    double camera_error = kNone;
+    double fused_nees = kNone;
+    double fused_error = kNone;
+    double observer_error = kNone;
+    if (truth.covers(r.stamp_ns, kLongestTruthGap_ns)) {
+      const Eigen::Isometry3d T_map_base = truth.at(r.stamp_ns);
+      e.truth.append({r.stamp_ns, T_map_base});
+      e.fused_at_truth.append(fused);
+      e.observer_at_truth.append(observer);
+      const Eigen::Vector3d position = T_map_base.translation();
+      const Eigen::Vector3d error = r.T_map_base.translation() - position;
+      fused_error = error.norm();
+      observer_error = (r.T_odom_base.translation() - position).norm();
+      fused_nees = nees(error, r.covariance.topLeftCorner<3, 3>());
+      if (r.camera_position_map) camera_error = (*r.camera_position_map - position).norm();
+    } else {
+      ++e.frames_without_truth;
+    }
+    e.fused_error_m.push_back(fused_error);
+    e.observer_error_m.push_back(observer_error);
+    e.camera_error_m.push_back(camera_error);
+    e.nees.push_back(fused_nees);
   }
   return e;
 }
@@ -186,7 +208,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["frames_without_observer"] = run.frames_without_observer;
   summary["observer_states_refused"] = run.observer_states_refused;
   summary["profile"] = label.profile;
-  summary["seed"] = label.seed;
+  summary["seed"] = label.seed ? Json(*label.seed) : Json(nullptr);
   summary["estimator"] = label.estimator;
   addErrors(run, evaluation, label, summary);
   const auto matches = collect(run, [](const RunFrame& f) { return f.result.landmark_matches; });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,17 +14,20 @@ namespace ardrone_vslam {
 /// What a run was made of; goes into every summary.
 struct RunLabel {
   std::string sequence;
-  std::string profile;  ///< "recorded": the bag's or folder's own odometry
-  std::uint64_t seed = 0;
+  std::string profile;                ///< "recorded": the bag's or folder's own odometry
+  std::optional<std::uint64_t> seed;  ///< nothing for a real observer
   std::string estimator;
 };
 
-/// A run's trajectories at the images' stamps and its errors. Without truth only fused and observer
-/// are filled.
+/// A run's trajectories at the images' stamps and its errors; these have an entry for each frame,
+/// NaN where there is no truth.
 struct RunEvaluation {
   Trajectory fused;
-  Trajectory observer;  ///< T_odom_base; map equals odom at the start
-  Trajectory truth;
+  Trajectory observer;        ///< T_odom_base; map equals odom at the start
+  Trajectory truth;           ///< at the frames that it covers
+  Trajectory fused_at_truth;  ///< at the same frames
+  Trajectory observer_at_truth;
+  int frames_without_truth = 0;  ///< before, after, or in gaps of the truth of more than a second
   std::vector<double> fused_error_m;
   std::vector<double> observer_error_m;
   std::vector<double> camera_error_m;  ///< of camera_position_map; NaN where there was none

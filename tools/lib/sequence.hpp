@@ -15,6 +15,13 @@
 
 namespace ardrone_vslam {
 
+/// How a simulated observer was made.
+struct ObserverNote {
+  std::string profile;
+  std::optional<std::uint64_t> seed;
+  double scale_error = 0;  ///< the one that was drawn
+};
+
 /// A recorded or rendered sequence of images: what replay runs on and what make_bag and make_world
 /// write. Images are asked for in ascending order, each once; `image` may be slow (decoding,
 /// rendering).
@@ -34,8 +41,8 @@ class Sequence {
   virtual const Trajectory& truth() const = 0;
   /// The recorded observer; empty when there is none.
   virtual const std::vector<ObserverState>& observer() const = 0;
-  /// The scale error that was drawn when the recorded observer was simulated; 0 when unknown.
-  virtual double observerScaleError() const { return 0; }
+  /// How the recorded observer came about; empty when it is a real one or unknown.
+  virtual ObserverNote observerNote() const { return {}; }
 };
 
 /// T_base_cam of a forward camera with optical axes (x right, y down, z forward) at the base:

@@ -117,6 +117,15 @@ Trajectory::Trajectory(std::vector<StampedPose> poses) {
   for (const auto& pose : poses) append(pose);
 }
 
+bool Trajectory::covers(std::int64_t stamp_ns, std::int64_t max_gap_ns) const {
+  const auto after =
+      std::lower_bound(poses_.begin(), poses_.end(), stamp_ns,
+                       [](const StampedPose& pose, std::int64_t t) { return pose.stamp_ns < t; });
+  if (after == poses_.end()) return false;
+  if (after->stamp_ns == stamp_ns) return true;
+  return after != poses_.begin() && after->stamp_ns - std::prev(after)->stamp_ns <= max_gap_ns;
+}
+
 void Trajectory::append(const StampedPose& pose) {
   const std::string fault = faultOfNext(poses_, pose);
   if (!fault.empty()) throw std::invalid_argument("trajectory: " + fault);

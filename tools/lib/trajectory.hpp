@@ -26,6 +26,9 @@ class Trajectory {
   /// Pose at a stamp; the first or last pose outside the covered time. @pre not empty
   Eigen::Isometry3d at(std::int64_t stamp_ns) const;
   /// @throws std::invalid_argument as the constructor
+  /// Whether `at` interpolates between poses at most `max_gap_ns` apart, rather than repeats the
+  /// first or last one.
+  bool covers(std::int64_t stamp_ns, std::int64_t max_gap_ns) const;
   void append(const StampedPose& pose);
 
  private:

@@ -55,7 +55,10 @@ class WorldSequence : public Sequence {
   const std::vector<ObserverState>& observer() const override { return observer_.states; }
 
   /// That the observer drew; 0 without one.
-  double observerScaleError() const override { return observer_.scale_error; }
+  ObserverNote observerNote() const override {
+    if (!options_.observer) return {};
+    return {options_.observer->name, options_.seed, observer_.scale_error};
+  }
   const WorldOptions& options() const { return options_; }
 
  private:

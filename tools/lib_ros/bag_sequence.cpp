@@ -67,16 +67,20 @@ CameraIntrinsics readCameraInfo(const rosbag::Bag& bag, const std::string& topic
   return *camera;
 }
 
-/// Of the simulated observer, from the note that make_bag and make_world leave; 0 without one.
-double readScaleError(const rosbag::Bag& bag) {
+/// From the note that make_bag and make_world leave; empty without one.
+ObserverNote readObserverNote(const rosbag::Bag& bag) {
+  ObserverNote note;
   rosbag::View view(bag, rosbag::TopicQuery(BagTopicNames().info));
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = instance.instantiate<std_msgs::String>();
     if (!message) continue;
-    const YAML::Node scale_error = YAML::Load(message->data)["scale_error"];
-    if (scale_error) return scale_error.as<double>();
+    const YAML::Node yaml = YAML::Load(message->data);
+    if (!yaml.IsMap()) continue;
+    if (yaml["observer_profile"]) note.profile = yaml["observer_profile"].as<std::string>();
+    if (yaml["seed"]) note.seed = yaml["seed"].as<std::uint64_t>();
+    if (yaml["scale_error"]) note.scale_error = yaml["scale_error"].as<double>();
   }
-  return 0;
+  return note;
 }
 
 class BagFile : public BagSequence {
@@ -95,7 +99,7 @@ class BagFile : public BagSequence {
     T_base_cam_ =
         options.T_base_cam ? *options.T_base_cam : readExtrinsics(bag_, base, withoutSlash(camera));
     observer_ = std::move(odometry.states);
-    scale_error_ = readScaleError(bag_);
+    note_ = readObserverNote(bag_);
   }
 
   std::string name() const override { return name_; }
@@ -112,7 +116,7 @@ class BagFile : public BagSequence {
   Eigen::Isometry3d T_base_cam() const override { return T_base_cam_; }
   const Trajectory& truth() const override { return truth_; }
   const std::vector<ObserverState>& observer() const override { return observer_; }
-  double observerScaleError() const override { return scale_error_; }
+  ObserverNote observerNote() const override { return note_; }
   const std::vector<std::string>& warnings() const override { return warnings_; }
 
  private:
@@ -123,7 +127,7 @@ class BagFile : public BagSequence {
   Eigen::Isometry3d T_base_cam_;
   Trajectory truth_;
   std::vector<ObserverState> observer_;
-  double scale_error_ = 0;
+  ObserverNote note_;
   std::vector<std::string> warnings_;
 };
 
