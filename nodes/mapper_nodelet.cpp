@@ -197,6 +197,7 @@ void MapperNodelet::beginMapAnew(const std::string& why) {
   NODELET_WARN_STREAM(why << ": the map begins anew");
   ++totals_.restarts;
   slam_.reset();
+  answered_ns_ = 0;
   outputs_->clear();
 }
 
