@@ -41,6 +41,9 @@ check_runs() {
     for program in tracker_node mapper_node replay make_bag make_world; do
       rosrun ardrone_vslam "$program" --version | grep -q ardrone_vslam || fail "rosrun $program --version"
     done
+    for script in plot_run record_run; do
+      rosrun ardrone_vslam "$script" --help > /dev/null || fail "rosrun $script --help"
+    done
     rosrun ardrone_vslam make_world laps --out "$work/laps.bag" --seconds 4 --force > /dev/null 2>&1 || fail "make_world"
     roslaunch -p "$port" ardrone_vslam replay.launch bag:="$work/laps.bag" quit:=true > "$work/launch.log" 2>&1 &
     launched=$!

@@ -38,12 +38,16 @@ CameraIntrinsics readCalibration(const std::string& path, const std::string& fir
     camera.cx_px = static_cast<double>(p[2]);
     camera.fy_px = static_cast<double>(p[5]);
     camera.cy_px = static_cast<double>(p[6]);
-    const bool is_possible = camera.fx_px > 0 && camera.fy_px > 0 && camera.cx_px > 0 &&
-                             camera.cy_px > 0 && camera.cx_px < image.cols &&
-                             camera.cy_px < image.rows;
+    // KITTI's principal points lie within 5 % of the middle; further off it is another image's
+    // calibration.
+    constexpr double kFarthestOff = 0.15;
+    const bool is_possible = camera.fx_px > 0 && camera.fy_px > 0 &&
+                             std::abs(camera.cx_px / image.cols - 0.5) < kFarthestOff &&
+                             std::abs(camera.cy_px / image.rows - 0.5) < kFarthestOff;
     if (!is_possible) {
       throw std::runtime_error(
-          path + ": P0 has no positive focal length with a principal point inside the image of " +
+          path +
+          ": P0 has no positive focal length with a principal point near the middle of images of " +
           std::to_string(image.cols) + "x" + std::to_string(image.rows) +
           "; use the calibration that belongs to the images");
     }
