@@ -42,7 +42,7 @@ ros::Time toRosTime(std::int64_t stamp_ns);
 Checked<CameraIntrinsics> toIntrinsics(const sensor_msgs::CameraInfo& info, bool rectified);
 
 /// Pose of base in odom with a normalised quaternion. The covariance is row-major, axes of odom, as
-/// in the message.
+/// in the message. The twist is only checked to be finite.
 Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry);
 
 /// @return what is wrong with the message (sizes, values not finite, bearings not of unit length),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <sstream>
@@ -98,6 +99,19 @@ std::string sizesFault(const Features& m) {
   return {};
 }
 
+/// @return the fault
+std::string faultOf(const geometry_msgs::TwistWithCovariance& twist) {
+  const auto& v = twist.twist.linear;
+  const auto& w = twist.twist.angular;
+  if (!allFinite(std::array<double, 6>{v.x, v.y, v.z, w.x, w.y, w.z})) {
+    return "its twist is not finite; zeros stand for 'unknown'";
+  }
+  if (!allFinite(twist.covariance)) {
+    return "its twist covariance is not finite; all zeros stand for 'unknown'";
+  }
+  return {};
+}
+
 }  // namespace
 
 std::int64_t toNanoseconds(const ros::Time& time) {
@@ -144,6 +158,9 @@ Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
   if (!allFinite(covariance)) {
     return {std::nullopt, "its pose covariance is not finite; all zeros stand for 'unknown'"};
   }
+  // The map has no use for the twist, but the fused odometry passes it on to controllers.
+  const std::string twist_fault = faultOf(odometry.twist);
+  if (!twist_fault.empty()) return {std::nullopt, twist_fault};
   ObserverState state;
   for (int i = 0; i < 6; ++i) {
     if (covariance[static_cast<std::size_t>(7 * i)] < 0) {

@@ -73,15 +73,13 @@ void MapperNodelet::onFeatures(const FeaturesConstPtr& features) {
   gaps_.see(features->header.seq);
   totals_.dropped_queue = gaps_.lost();
   if (!acceptFeatures(*features)) return;
-  const bool is_other_camera =
-      features->header.frame_id != camera_frame_ || features->width != camera_width_px_;
-  if (is_other_camera) {
+  const CameraIdentity camera = cameraOf(*features);
+  if (camera != camera_) {
     matcher_->dropWaiting();
     if (slam_) {
-      beginMapAnew("the camera changed from " + camera_frame_ + " to " + features->header.frame_id);
+      beginMapAnew("the camera changed from " + camera_.text() + " to " + camera.text());
     }
-    camera_frame_ = features->header.frame_id;
-    camera_width_px_ = features->width;
+    camera_ = camera;
   }
   matcher_->addFeatures(features, now_s());
   processReady();
@@ -153,14 +151,14 @@ void MapperNodelet::processReady() {
 
 bool MapperNodelet::prepareSlam() {
   if (slam_) return true;
-  if (camera_frame_.empty() || matcher_->newestObserver_ns() == 0) return false;
+  if (camera_.frame.empty() || matcher_->newestObserver_ns() == 0) return false;
   if (frames_.odom.empty() || frames_.base.empty()) {
     extrinsics_fault_ = odometry_sub_.getTopic() + " names no " +
                         (frames_.odom.empty() ? "frame_id; set the parameter odom_frame"
                                               : "child_frame_id; set the parameter base_frame");
     return false;
   }
-  const std::string camera = withTfPrefix(tf_prefix_, camera_frame_);
+  const std::string camera = withTfPrefix(tf_prefix_, camera_.frame);
   const auto T_base_cam = mounting_->find(frames_.base, camera, extrinsics_fault_);
   if (!T_base_cam) return false;
   extrinsics_fault_.clear();

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "ardrone_vslam/slam.hpp"
+#include "camera_identity.hpp"
 #include "conversions.hpp"
 #include "frame_matcher.hpp"
 #include "mapper_outputs.hpp"
@@ -66,11 +67,10 @@ class MapperNodelet : public nodelet::Nodelet {
   StampGuard stamps_;
   GapCounter gaps_;
   StageClock stage_clock_;
-  std::int64_t answered_ns_ = 0;  // stamp of the newest image in the map
-  ImageFeatures features_;        // of the image at work; kept for its memory
-  Frames frames_;                 // odom and base are empty until the first odometry
-  std::string camera_frame_;      // of the newest features
-  std::uint32_t camera_width_px_ = 0;
+  std::int64_t answered_ns_ = 0;              // stamp of the newest image in the map
+  ImageFeatures features_;                    // of the image at work; kept for its memory
+  Frames frames_;                             // odom and base are empty until the first odometry
+  CameraIdentity camera_;                     // of the newest features
   std::string extrinsics_fault_;              // what tf says while the mounting is unknown
   geometry_msgs::TwistWithCovariance twist_;  // of the newest odometry
 

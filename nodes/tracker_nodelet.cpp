@@ -13,10 +13,12 @@
 #include "conversions.hpp"
 #include "debug_image.hpp"
 #include "params.hpp"
+#include "track_ids.hpp"
 
 namespace ardrone_vslam {
 void TrackerNodelet::onInit() {
   readParameters();
+  next_track_id_ = firstTrackId(ros::WallTime::now().toNSec());
   features_pub_ = getNodeHandle().advertise<Features>(
       "features", static_cast<std::uint32_t>(node_config_.queue_size));
   transport_ = std::make_unique<image_transport::ImageTransport>(getNodeHandle());
@@ -96,6 +98,7 @@ void TrackerNodelet::onImage(const boost::shared_ptr<const Message>& message,
   if (!prepareTracker(*info, message->header.frame_id, image)) return;
   tracker_->process(image.view(), toNanoseconds(message->header.stamp), features_,
                     stage_clock_.hook());
+  next_track_id_ = tracker_->nextTrackId();
   publish(image, message->header);
 }
 
@@ -145,7 +148,7 @@ bool TrackerNodelet::prepareTracker(const sensor_msgs::CameraInfo& info, const s
                                                    << ": tracks begin anew");
   }
   try {
-    tracker_ = std::make_unique<Tracker>(config_, camera);
+    tracker_ = std::make_unique<Tracker>(config_, camera, next_track_id_);
   } catch (const std::invalid_argument& e) {
     tracker_.reset();
     drop(info_topic_, e.what());

@@ -59,6 +59,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
 
   std::unique_ptr<Tracker> tracker_;
+  std::uint32_t next_track_id_ = 1;  // goes on when a new tracker is made
   CameraIntrinsics camera_;
   std::string camera_frame_;
   ImageFeatures features_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ardrone_vslam/frame_tracker.hpp"
 
+#include <cassert>
 #include <limits>
 #include <vector>
 
@@ -18,17 +19,31 @@ struct FrameTracker::State {
   std::vector<BestTwo> of_previous;  // and the other way round
   std::uint32_t next_id = 1;
 
+  std::uint32_t takeId();
   void search(const ImageFeatures& features);
 };
 
-FrameTracker::FrameTracker(const FrameTrackerConfig& config) : state_(std::make_unique<State>()) {
+FrameTracker::FrameTracker(const FrameTrackerConfig& config, std::uint32_t first_track_id)
+    : state_(std::make_unique<State>()) {
+  assert(first_track_id != kNoTrack && "the first track id is the one that stands for no track");
   validate(config);
+  state_->next_id = first_track_id;
   state_->config = config;
   state_->matcher.max_hamming_bits = config.max_hamming_bits;
   state_->matcher.ratio = config.ratio;
 }
 
 FrameTracker::~FrameTracker() = default;
+
+std::uint32_t FrameTracker::nextTrackId() const {
+  return state_->next_id;
+}
+
+std::uint32_t FrameTracker::State::takeId() {
+  const std::uint32_t id = next_id++;
+  if (next_id == kNoTrack) ++next_id;
+  return id;
+}
 
 void FrameTracker::State::search(const ImageFeatures& features) {
   grid.build(previous.pixel_px, previous.width_px, previous.height_px);
@@ -65,7 +80,7 @@ void FrameTracker::assign(ImageFeatures& features) {
                                    ? kOldest
                                    : static_cast<std::uint16_t>(s.previous.age_frames[j] + 1);
     } else {
-      features.track_id[i] = s.next_id++;
+      features.track_id[i] = s.takeId();
       features.age_frames[i] = 0;
     }
   }

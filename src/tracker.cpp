@@ -6,11 +6,12 @@
 namespace ardrone_vslam {
 
 struct Tracker::State {
-  State(const TrackerConfig& config, const CameraIntrinsics& intrinsics)
+  State(const TrackerConfig& config, const CameraIntrinsics& intrinsics,
+        std::uint32_t first_track_id)
       : camera(intrinsics, config.undistort),
         detector(config.corners),
         describer(config.freak),
-        frame_tracker(config.tracks) {}
+        frame_tracker(config.tracks, first_track_id) {}
 
   CameraModel camera;
   CornerDetector detector;
@@ -27,15 +28,20 @@ struct Tracker::State {
   void collect(const ImageView& image, std::int64_t stamp_ns, ImageFeatures& features) const;
 };
 
-Tracker::Tracker(const TrackerConfig& config, const CameraIntrinsics& camera) {
+Tracker::Tracker(const TrackerConfig& config, const CameraIntrinsics& camera,
+                 std::uint32_t first_track_id) {
   validate(config);
-  state_ = std::make_unique<State>(config, camera);
+  state_ = std::make_unique<State>(config, camera, first_track_id);
 }
 
 Tracker::~Tracker() = default;
 
 const CameraModel& Tracker::camera() const {
   return state_->camera;
+}
+
+std::uint32_t Tracker::nextTrackId() const {
+  return state_->frame_tracker.nextTrackId();
 }
 
 void Tracker::process(const ImageView& image, std::int64_t stamp_ns, ImageFeatures& features,

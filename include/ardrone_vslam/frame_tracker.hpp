@@ -31,13 +31,18 @@ void visitParameters(FrameTrackerConfig& c, Visitor&& visit) {
 /// Gives features of the present frame the track ids of the frame before (thesis 4.1.4).
 class FrameTracker {
  public:
-  explicit FrameTracker(const FrameTrackerConfig& config);
+  /// @param first_track_id  of the first new track, the following ones count up; not kNoTrack
+  /// (asserted). Who keeps tracks beyond a tracker's life gives the next one its nextTrackId().
+  explicit FrameTracker(const FrameTrackerConfig& config, std::uint32_t first_track_id = 1);
   ~FrameTracker();
 
   /// Fills `track_id` and `age_frames`; pixels and descriptors must be there. Mutual best matches
   /// within the search radius carry on their track, all others begin a new one. Keeps a copy for
   /// the next frame.
   void assign(ImageFeatures& features);
+
+  /// The id that the next new track gets: given to no track yet (until 2^32 of them have been).
+  std::uint32_t nextTrackId() const;
 
  private:
   struct State;

@@ -40,7 +40,9 @@ class Tracker {
  public:
   /// @throws ConfigError listing every invalid parameter; std::invalid_argument for an impossible
   /// camera.
-  Tracker(const TrackerConfig& config, const CameraIntrinsics& camera);
+  /// @param first_track_id, nextTrackId()  see FrameTracker
+  Tracker(const TrackerConfig& config, const CameraIntrinsics& camera,
+          std::uint32_t first_track_id = 1);
   ~Tracker();
 
   /// @param image  as large as the camera's calibration says (asserted)
@@ -51,6 +53,7 @@ class Tracker {
                const StageHook& hook = {});
 
   const CameraModel& camera() const;
+  std::uint32_t nextTrackId() const;
 
  private:
   struct State;

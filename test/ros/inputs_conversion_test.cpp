@@ -177,7 +177,12 @@ INSTANTIATE_TEST_SUITE_P(
                         [](auto& o) { o.pose.pose.orientation.x = kNaN; }},
         SpoiledOdometry{"norm 0", [](auto& o) { o.pose.pose.orientation = {}; }},
         SpoiledOdometry{"norm 1.2", [](auto& o) { o.pose.pose.orientation.z = 0.9; }},
-        SpoiledOdometry{"covariance is not finite", [](auto& o) { o.pose.covariance[8] = kNaN; }},
+        SpoiledOdometry{"pose covariance is not finite",
+                        [](auto& o) { o.pose.covariance[8] = kNaN; }},
+        SpoiledOdometry{"twist is not finite", [](auto& o) { o.twist.twist.linear.y = kNaN; }},
+        SpoiledOdometry{"twist is not finite", [](auto& o) { o.twist.twist.angular.z = kNaN; }},
+        SpoiledOdometry{"twist covariance is not finite",
+                        [](auto& o) { o.twist.covariance[35] = kNaN; }},
         SpoiledOdometry{"negative variance -1 at row 5",
                         [](auto& o) { o.pose.covariance[35] = -1; }},
         SpoiledOdometry{"stamp is zero", [](auto& o) { o.header.stamp = ros::Time(); }}));

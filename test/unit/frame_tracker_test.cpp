@@ -65,6 +65,30 @@ TEST_F(FrameTrackerTest, AFeatureThatWasAwayIsANewTrack) {
   }
 }
 
+TEST_F(FrameTrackerTest, ATrackerThatCarriesOnUsesNoIdAgain) {
+  FrameTracker before({}, 1000);
+  ImageFeatures first = frame();
+  add(first, 100, 100, maker_.randomDescriptor());
+  add(first, 300, 100, maker_.randomDescriptor());
+  before.assign(first);
+  EXPECT_EQ(first.track_id, (std::vector<std::uint32_t>{1000, 1001}));
+
+  FrameTracker after({}, before.nextTrackId());
+  ImageFeatures second = first;  // the same features: to a new tracker they are new tracks
+  after.assign(second);
+  EXPECT_EQ(second.track_id, (std::vector<std::uint32_t>{1002, 1003}));
+}
+
+TEST_F(FrameTrackerTest, IdsThatRunOverLeaveOutNoTrack) {
+  FrameTracker tracker({}, std::numeric_limits<std::uint32_t>::max());
+  ImageFeatures features = frame();
+  add(features, 100, 100, maker_.randomDescriptor());
+  add(features, 300, 100, maker_.randomDescriptor());
+  tracker.assign(features);
+  EXPECT_EQ(features.track_id,
+            (std::vector<std::uint32_t>{std::numeric_limits<std::uint32_t>::max(), 1}));
+}
+
 TEST_F(FrameTrackerTest, SearchesWithinTheRadiusOnly) {
   const Descriptor a = maker_.randomDescriptor();
   FrameTrackerConfig config;
