@@ -7,39 +7,26 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
-#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <visualization_msgs/Marker.h>
 
-#include <optional>
 #include <string>
 
-#include "ardrone_vslam/camera_model.hpp"
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/landmark_map.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
 #include "ardrone_vslam/slam.hpp"
+#include "camera_info_conversion.hpp"
+#include "checked.hpp"
 
 /// The only place that sees both messages and the core's types. Everything that comes in is checked
 /// here, so that the core is only ever given what its headers ask for.
 namespace ardrone_vslam {
 
-/// A converted message, or what is wrong with it and what helps.
-template <class T>
-struct Checked {
-  std::optional<T> value;
-  std::string fault;  ///< empty exactly when there is a value
-};
-
 std::int64_t toNanoseconds(const ros::Time& time);
 ros::Time toRosTime(std::int64_t stamp_ns);
 
 // --- in -----------------------------------------------------------------------------------------
-
-/// Distortion models: plumb_bob, none (empty model and coefficients), and rational_polynomial whose
-/// denominator is zero; every other is refused by name.
-/// @param rectified  the images are rectified: takes P without distortion instead of K and D
-Checked<CameraIntrinsics> toIntrinsics(const sensor_msgs::CameraInfo& info, bool rectified);
 
 /// Pose of base in odom with a normalised quaternion. The covariance is row-major, axes of odom, as
 /// in the message. The twist is only checked to be finite.

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <sstream>
 
 #include "conversions.hpp"
 
@@ -12,74 +11,6 @@ namespace {
 constexpr std::size_t kDescriptorBytes = sizeof(Descriptor);
 constexpr double kQuaternionTolerance = 0.1;  // of the norm; drivers round to a few digits
 constexpr double kBearingTolerance = 1e-3;    // of the norm
-
-template <class... Parts>
-std::string text(const Parts&... parts) {
-  std::ostringstream stream;
-  (stream << ... << parts);
-  return stream.str();
-}
-
-template <class Numbers>
-bool allFinite(const Numbers& numbers) {
-  for (const auto number : numbers) {
-    if (!std::isfinite(number)) return false;
-  }
-  return true;
-}
-
-/// Fills k1, k2, p1, p2, k3. @return the fault
-std::string readDistortion(const sensor_msgs::CameraInfo& info, CameraIntrinsics& camera) {
-  const auto& d = info.D;
-  const std::string& model = info.distortion_model;
-  const std::string remedy =
-      "; calibrate with plumb_bob (camera_calibration's default), or rectify the images and set "
-      "the parameter rectified";
-  if (!allFinite(d)) return "camera_info's D is not finite; calibrate the camera anew";
-  if (model.empty() && d.empty()) return {};
-  if (model.empty()) return "camera_info has a D but no distortion_model" + remedy;
-  if (model != "plumb_bob" && model != "rational_polynomial") {
-    return "the lens model '" + model + "' is not supported" + remedy;
-  }
-  for (std::size_t i = 5; i < d.size(); ++i) {
-    if (d[i] != 0) {
-      return text("the lens model '", model, "' with ", d.size(), " coefficients (D[", i, "] is ",
-                  d[i], ") is not supported", remedy);
-    }
-  }
-  if (!d.empty() && d.size() < 4) {
-    return text("camera_info's D has ", d.size(), " values where ", model, " has 5", remedy);
-  }
-  const auto coefficient = [&d](std::size_t i) { return i < d.size() ? d[i] : 0.0; };
-  camera.k1 = coefficient(0);
-  camera.k2 = coefficient(1);
-  camera.p1 = coefficient(2);
-  camera.p2 = coefficient(3);
-  camera.k3 = coefficient(4);
-  return {};
-}
-
-/// What the intrinsics themselves tell: uncalibrated, or for another image size. @return the fault
-std::string faultOf(const CameraIntrinsics& c, const char* matrix) {
-  if (!(std::isfinite(c.fx_px) && std::isfinite(c.fy_px) && std::isfinite(c.cx_px) &&
-        std::isfinite(c.cy_px))) {
-    return text("camera_info's ", matrix, " is not finite; calibrate the camera anew");
-  }
-  if (c.fx_px == 0 || c.fy_px == 0) {
-    return text("the camera is uncalibrated (camera_info's ", matrix,
-                " is zero); calibrate it with camera_calibration and give the driver the file");
-  }
-  if (c.width_px <= 0 || c.height_px <= 0) {
-    return text("camera_info says an image size of ", c.width_px, "x", c.height_px,
-                "; set its width and height");
-  }
-  if (c.cx_px < 0 || c.cx_px >= c.width_px || c.cy_px < 0 || c.cy_px >= c.height_px) {
-    return text("camera_info's principal point (", c.cx_px, ", ", c.cy_px,
-                ") lies outside its image of ", c.width_px, "x", c.height_px,
-                ": the calibration is for another image size; calibrate at this one");
-  }
-  return {};
-}
 
 std::string sizeFault(const char* name, std::size_t size, std::size_t expected) {
   if (size == expected) return {};
@@ -121,26 +52,6 @@ std::int64_t toNanoseconds(const ros::Time& time) {
 ros::Time toRosTime(std::int64_t stamp_ns) {
   ros::Time time;
   return time.fromNSec(static_cast<std::uint64_t>(stamp_ns));
-}
-
-Checked<CameraIntrinsics> toIntrinsics(const sensor_msgs::CameraInfo& info, bool rectified) {
-  CameraIntrinsics camera;
-  camera.width_px = static_cast<int>(info.width);
-  camera.height_px = static_cast<int>(info.height);
-  const auto at = [&](std::size_t in_k, std::size_t in_p) {
-    return rectified ? info.P[in_p] : info.K[in_k];
-  };
-  camera.fx_px = at(0, 0);
-  camera.cx_px = at(2, 2);
-  camera.fy_px = at(4, 5);
-  camera.cy_px = at(5, 6);
-  std::string fault = faultOf(camera, rectified ? "P" : "K");
-  if (fault.empty() && (info.binning_x > 1 || info.binning_y > 1)) {
-    fault = "camera_info says binning, which is not supported; publish images at full resolution";
-  }
-  if (fault.empty() && !rectified) fault = readDistortion(info, camera);
-  if (!fault.empty()) return {std::nullopt, fault};
-  return {camera, {}};
 }
 
 Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {

@@ -12,6 +12,7 @@
 
 #include "conversions.hpp"
 #include "debug_image.hpp"
+#include "image_topics.hpp"
 #include "params.hpp"
 #include "track_ids.hpp"
 
@@ -191,8 +192,11 @@ void TrackerNodelet::onSecond() {
   rate_hz_ = static_cast<double>(processed_ - processed_before_);
   waiting_for_.clear();
   if (!has_images) {
-    waiting_for_ = "no images on " + image_topic_ +
-                   ": start the camera, or remap `image` to its topic (see `rostopic list`)";
+    // check() first: getTopics() would wait for a master that is gone.
+    if (isReminderDue(seconds_waiting_ + 1) && ros::master::check()) {
+      ros::master::getTopics(published_);
+    }
+    waiting_for_ = adviceWithoutImages(image_topic_, published_);
   } else if (!has_infos) {
     waiting_for_ = "images on " + image_topic_ + " but no camera_info on " + info_topic_ +
                    ": calibrate the camera, or remap `camera_info`";

@@ -7,6 +7,7 @@
 #include <message_filters/subscriber.h>
 #include <message_filters/time_synchronizer.h>
 #include <nodelet/nodelet.h>
+#include <ros/master.h>
 #include <sensor_msgs/CameraInfo.h>
 
 #include <memory>
@@ -81,7 +82,8 @@ class TrackerNodelet : public nodelet::Nodelet {
   double rate_hz_ = 0;
   int seconds_waiting_ = 0;
   WarningLimiter limiter_;
-  std::string waiting_for_;  // what is missing this second, in words
+  ros::master::V_TopicInfo published_;  // when last looked up, while images are missing
+  std::string waiting_for_;             // what is missing this second, in words
 };
 
 }  // namespace ardrone_vslam

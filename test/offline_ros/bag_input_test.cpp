@@ -65,23 +65,42 @@ TEST(BagInput, LensModels) {
   for (const std::string model : {"rational_polynomial", "equidistant"}) {
     BagRecipe recipe;
     recipe.camera_info.distortion_model = model;
-    recipe.camera_info.D.assign(8, 0.0);
+    recipe.camera_info.D.assign(8, 0.1);
     TestBag(recipe).expectRefused(
-        {"/cam/camera_info", "'" + model + "' is not supported", "plumb_bob"});
+        {"/cam/camera_info", "'" + model + "'", "is not supported", "plumb_bob"});
   }
   BagRecipe uncalibrated;
   uncalibrated.camera_info.K.fill(0);
-  TestBag(uncalibrated).expectRefused({"/cam/camera_info", "not calibrated", "camera_calibration"});
+  TestBag(uncalibrated).expectRefused({"/cam/camera_info", "uncalibrated", "camera_calibration"});
   BagRecipe too_few;
   too_few.camera_info.D.assign(2, 0.0);
-  TestBag(too_few).expectRefused({"/cam/camera_info", "2 distortion coefficients"});
+  TestBag(too_few).expectRefused({"/cam/camera_info", "D has 2 values"});
   BagRecipe binned;
   binned.camera_info.binning_x = 2;
-  TestBag(binned).expectRefused({"/cam/camera_info", "binned"});
+  TestBag(binned).expectRefused({"/cam/camera_info", "binning"});
+  BagRecipe cropped;
+  cropped.camera_info.roi.width = 16;
+  TestBag(cropped).expectRefused({"/cam/camera_info", "region of interest"});
+  BagRecipe as_plumb_bob;
+  as_plumb_bob.camera_info.distortion_model = "rational_polynomial";
+  as_plumb_bob.camera_info.D.resize(8, 0.0);
+  EXPECT_EQ(TestBag(as_plumb_bob).open()->camera().k1, -0.5);
   BagRecipe without_lens;
   without_lens.camera_info.distortion_model.clear();
   without_lens.camera_info.D.clear();
   EXPECT_EQ(TestBag(without_lens).open()->camera().k1, 0);
+}
+
+TEST(BagInput, RectifiedImagesHaveTheProjectionMatrix) {
+  BagRecipe recipe;
+  recipe.camera_info.P[0] = 18;
+  const TestBag bag(recipe);
+  EXPECT_EQ(bag.open()->camera().fx_px, 20);
+  BagReadOptions options;
+  options.rectified = true;
+  const CameraIntrinsics camera = bag.open(options)->camera();
+  EXPECT_EQ(camera.fx_px, 18);
+  EXPECT_EQ(camera.k1, 0);
 }
 
 TEST(BagInput, CalibrationMissingOrGivenOtherwise) {

@@ -118,7 +118,21 @@ INSTANTIATE_TEST_SUITE_P(
                       i.width = 300;
                       i.height = 200;
                     }},
-        SpoiledInfo{{"binning"}, [](auto& i) { i.binning_x = 2; }}));
+        SpoiledInfo{{"uncalibrated"}, [](auto& i) { i.K[4] = -571; }},
+        SpoiledInfo{{"binning"}, [](auto& i) { i.binning_x = 2; }},
+        SpoiledInfo{{"region of interest", "320x360 at (0, 0)"},
+                    [](auto& i) {
+                      i.roi.width = 320;
+                      i.roi.height = 360;
+                    }},
+        SpoiledInfo{{"region of interest", "at (8, 0)"}, [](auto& i) { i.roi.x_offset = 8; }}));
+
+TEST(CameraInfoConversion, RegionOfInterestMayBeTheWholeImage) {
+  auto info = goodInfo();
+  info.roi.width = 640;
+  info.roi.height = 360;
+  EXPECT_TRUE(toIntrinsics(info, false).value);
+}
 
 nav_msgs::Odometry goodOdometry() {
   nav_msgs::Odometry odometry;

@@ -44,7 +44,7 @@ void openForReading(rosbag::Bag& bag, const std::string& path) {
   }
 }
 
-CameraIntrinsics readCameraInfo(const rosbag::Bag& bag, const std::string& topic,
+CameraIntrinsics readCameraInfo(const rosbag::Bag& bag, const std::string& topic, bool rectified,
                                 std::vector<std::string>& warnings) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   std::optional<CameraIntrinsics> camera;
@@ -52,7 +52,7 @@ CameraIntrinsics readCameraInfo(const rosbag::Bag& bag, const std::string& topic
     const auto message = instance.instantiate<sensor_msgs::CameraInfo>();
     if (!message) continue;
     const CameraIntrinsics intrinsics =
-        intrinsicsFromCameraInfo(*message, bag.getFileName() + ", " + topic);
+        intrinsicsFromCameraInfo(*message, bag.getFileName() + ", " + topic, rectified);
     if (!camera) {
       camera = intrinsics;
     } else if (!(*camera == intrinsics)) {
@@ -88,8 +88,9 @@ class BagFile : public BagSequence {
   BagFile(const std::string& path, const BagReadOptions& options) : name_(path) {
     openForReading(bag_, path);
     const ChosenTopics topics = chooseTopics(path, topicTypes(bag_), options);
-    camera_ =
-        options.camera ? *options.camera : readCameraInfo(bag_, topics.camera_info, warnings_);
+    camera_ = options.camera
+                  ? *options.camera
+                  : readCameraInfo(bag_, topics.camera_info, options.rectified, warnings_);
     images_ = std::make_unique<BagImages>(bag_, topics, camera_, warnings_);
     BagOdometry odometry = readOdometry(bag_, topics.odometry, warnings_);
     truth_ = readTruth(bag_, topics.truth, warnings_);

@@ -18,6 +18,7 @@ struct BagReadOptions {
   std::string truth_topic;     ///< PoseStamped, PoseWithCovarianceStamped or Odometry, of base
   std::string camera_frame;    ///< empty: the images' frame_id
   std::string base_frame;  ///< empty: the odometry's child_frame_id, else the camera's tf parent
+  bool rectified = false;  ///< the images are rectified: camera_info's P without distortion
   std::optional<CameraIntrinsics> camera;       ///< instead of camera_info
   std::optional<Eigen::Isometry3d> T_base_cam;  ///< instead of tf
 };

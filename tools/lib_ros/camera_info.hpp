@@ -9,11 +9,12 @@
 
 namespace ardrone_vslam {
 
+/// What the tracker makes of the same message (toIntrinsics).
 /// @param topic  for the messages of errors
-/// @throws std::runtime_error naming the topic, the fault and the remedy: lens model that is not
-/// plumb_bob, uncalibrated camera (K all zero), binned or cropped images
+/// @param rectified  the images are rectified: takes P without distortion instead of K and D
+/// @throws std::runtime_error naming the topic, the fault and the remedy
 CameraIntrinsics intrinsicsFromCameraInfo(const sensor_msgs::CameraInfo& info,
-                                          const std::string& topic);
+                                          const std::string& topic, bool rectified = false);
 
 /// Unrectified camera: R identity, P = [K 0]. The header is left empty.
 sensor_msgs::CameraInfo cameraInfoFromIntrinsics(const CameraIntrinsics& camera);
