@@ -11,6 +11,7 @@
 #include <iostream>
 
 #include "offline_run.hpp"
+#include "parameter_table.hpp"
 #include "progress_line.hpp"
 #include "run_observers.hpp"
 #include "run_report.hpp"
@@ -44,6 +45,13 @@ struct Options {
 
 void addOptions(CLI::App& app, Options& o) {
   app.set_version_flag("--version", std::string("replay (ardrone_vslam) " ARDRONE_VSLAM_VERSION));
+  app.add_flag_callback(
+      "--list-parameters",
+      [] {
+        std::cout << parameterTable();
+        throw CLI::Success();
+      },
+      "print all parameters (docs/parameters.md) and exit");
   app.add_option("input", o.input, "a bag, or a KITTI or TUM-like folder")->required();
   app.add_option("--out", o.out, "folder for trajectories, frames.csv, landmarks.csv, summary.json")
       ->required();
@@ -77,15 +85,17 @@ void addOptions(CLI::App& app, Options& o) {
 #endif
 }
 
-std::unique_ptr<Sequence> openInput(const Options& o) {
+std::unique_ptr<Sequence> openInput(const Options& o, const PipelineConfig& config) {
   if (std::filesystem::is_directory(o.input)) return openFolder(o.input);
 #ifdef ARDRONE_VSLAM_WITH_ROS
   BagReadOptions options = o.bag;
+  options.rectified = config.rectified;
   if (!o.camera_yaml.empty()) options.camera = readCameraYaml(o.camera_yaml);
   auto bag = openBag(o.input, options);
   for (const std::string& warning : bag->warnings()) std::cerr << "replay: " << warning << '\n';
   return bag;
 #else
+  static_cast<void>(config);
   throw std::runtime_error(
       o.input + ": is no folder, and this replay was built without ROS, so it reads no bags");
 #endif
@@ -242,7 +252,7 @@ int run(const Options& o) {
   if (!o.estimator.empty()) overrides.push_back("mapper/estimator=" + o.estimator);
   const PipelineConfig config = loadConfig(o.config, overrides);
   const FrameSelection selection = selectionOf(o);
-  const auto sequence = select(openInput(o), selection);
+  const auto sequence = select(openInput(o, config), selection);
   const std::vector<RunObserver> observers = observersOf(*sequence, o);
   makeFolder(o.out);
   const std::vector<RunResult> results = runAll(*sequence, config, observers, o.threads);

@@ -14,6 +14,8 @@ namespace ardrone_vslam {
 struct PipelineConfig {
   TrackerConfig tracker;
   SlamConfig mapper;
+  bool rectified =
+      false;  ///< tracker/rectified: a bag's images are rectified, its camera_info's P holds
 };
 
 /// Reads the file (an empty path: the defaults), then applies each "key=value" or
