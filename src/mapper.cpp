@@ -45,14 +45,21 @@ void Mapper::refine(const FrameView& view, const std::vector<Association>& match
 }
 
 void Mapper::widenBaseline(const FrameView& view, std::size_t feature, Landmark& landmark) const {
-  // Only while the track that made it goes on: later the drift between the two views would turn the
-  // map.
+  // A track that goes on is hardly ever a mismatch, a landmark found by its descriptor may be one.
   if (landmark.track_id != view.features().track_id[feature]) return;
   const auto point = triangulate(landmark.first_ray, view.ray(feature));
   if (!point || point->parallax_rad < config_.baseline_growth * landmark.parallax_rad) return;
+  // After a long way round the drift between the two views would turn the map: then the wider
+  // baseline gives no better depth.
+  const double sigma_p = std::hypot(config_.position_deviation_m,
+                                    view.deviationSince_m(landmark.position_variance_m2));
+  const double deviation =
+      measurementDeviation_m(sigma_p, point->depth_m, angleDeviation_rad(view.focalLength_px()));
+  const double depth_deviation = depthDeviation_m(deviation, point->parallax_rad);
+  if (depth_deviation > landmark.depth_deviation_m) return;
   landmark.position_map = point->position_map;
   landmark.parallax_rad = point->parallax_rad;
-  landmark.depth_deviation_m = depthDeviation_m(landmark.deviation_m, point->parallax_rad);
+  landmark.depth_deviation_m = depth_deviation;
 }
 
 int Mapper::countMissed(const std::vector<int>& missed, LandmarkMap& map) const {
