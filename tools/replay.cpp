@@ -10,6 +10,7 @@
 
 #include "config_path.hpp"
 #include "offline_run.hpp"
+#include "parameter_table.hpp"
 #include "progress_line.hpp"
 #include "run_report.hpp"
 #ifdef ARDRONE_VSLAM_WITH_ROS
@@ -42,6 +43,13 @@ struct Options {
 
 void addOptions(CLI::App& app, Options& o) {
   app.set_version_flag("--version", std::string("replay (ardrone_vslam) " ARDRONE_VSLAM_VERSION));
+  app.add_flag_callback(
+      "--list-parameters",
+      [] {
+        std::cout << parameterTable();
+        throw CLI::Success();
+      },
+      "print all parameters (docs/parameters.md) and exit");
   app.add_option("input", o.input, "a bag, or a KITTI or TUM-like folder")->required();
   app.add_option("--out", o.out, "folder for trajectories, frames.csv, landmarks.csv, summary.json")
       ->required();

@@ -51,7 +51,7 @@ class ViewBuilder {
     return maker_.flipped(descriptor, bits);
   }
 
-  Features& features() { return features_; }
+  ImageFeatures& features() { return features_; }
   FrameView& view() {
     if (stale_) view_.reset(features_, T_map_cam_, planar_);
     stale_ = false;
@@ -76,7 +76,7 @@ class ViewBuilder {
   bool planar_ = false;
   bool stale_ = true;
   Eigen::Isometry3d T_map_cam_ = Eigen::Isometry3d::Identity();
-  Features features_;
+  ImageFeatures features_;
   FrameView view_;
 };
 

@@ -17,8 +17,8 @@ class FrameTrackerTest : public ::testing::Test {
  protected:
   FrameTrackerTest() : maker_(1) {}
 
-  Features frame() { return maker_.emptyView(0); }
-  void add(Features& features, float x_px, float y_px, const Descriptor& descriptor) {
+  ImageFeatures frame() { return maker_.emptyView(0); }
+  void add(ImageFeatures& features, float x_px, float y_px, const Descriptor& descriptor) {
     features.pixel_px.emplace_back(x_px, y_px);
     features.bearing_cam.emplace_back(0.F, 0.F, 1.F);
     features.score.push_back(1);
@@ -32,7 +32,7 @@ TEST_F(FrameTrackerTest, CarriesTracksOnAndCountsTheirAge) {
   const Descriptor a = maker_.randomDescriptor();
   const Descriptor b = maker_.randomDescriptor();
   FrameTracker tracker({});
-  Features first = frame();
+  ImageFeatures first = frame();
   add(first, 100, 100, a);
   add(first, 110, 100, b);
   tracker.assign(first);
@@ -40,7 +40,7 @@ TEST_F(FrameTrackerTest, CarriesTracksOnAndCountsTheirAge) {
   ASSERT_NE(first.track_id[0], first.track_id[1]);
   EXPECT_NE(first.track_id[0], kNoTrack);
 
-  Features second = frame();  // in the other order, moved, with noise
+  ImageFeatures second = frame();  // in the other order, moved, with noise
   add(second, 130, 100, maker_.flipped(b, 40));
   add(second, 120, 100, maker_.flipped(a, 40));
   tracker.assign(second);
@@ -54,12 +54,12 @@ TEST_F(FrameTrackerTest, AFeatureThatWasAwayIsANewTrack) {
   FrameTracker tracker({});
   std::set<std::uint32_t> ids;
   for (int i = 0; i < 3; ++i) {
-    Features with = frame();
+    ImageFeatures with = frame();
     add(with, 100, 100, a);
     tracker.assign(with);
     EXPECT_TRUE(ids.insert(with.track_id[0]).second) << "an id was used again";
     EXPECT_EQ(with.age_frames[0], 0);
-    Features without = frame();
+    ImageFeatures without = frame();
     tracker.assign(without);
     EXPECT_TRUE(without.track_id.empty());
   }
@@ -71,10 +71,10 @@ TEST_F(FrameTrackerTest, SearchesWithinTheRadiusOnly) {
   config.search_radius_px = 50;
   for (const float x_px : {150.0F, 150.5F}) {
     FrameTracker tracker(config);
-    Features first = frame();
+    ImageFeatures first = frame();
     add(first, 100, 100, a);
     tracker.assign(first);
-    Features second = frame();
+    ImageFeatures second = frame();
     add(second, x_px, 100, a);
     tracker.assign(second);
     EXPECT_EQ(second.track_id[0] == first.track_id[0], x_px == 150.0F) << x_px;
@@ -88,11 +88,11 @@ TEST_F(FrameTrackerTest, DescriptorMustBeNearAndClearlyNearer) {
   config.ratio = 0.8;
   const auto isTracked = [&](const std::vector<Descriptor>& before) {
     FrameTracker tracker(config);
-    Features first = frame();
+    ImageFeatures first = frame();
     for (std::size_t i = 0; i < before.size(); ++i)
       add(first, 100 + 5 * static_cast<float>(i), 100, before[i]);
     tracker.assign(first);
-    Features second = frame();
+    ImageFeatures second = frame();
     add(second, 102, 100, a);
     tracker.assign(second);
     return second.age_frames[0] == 1;
@@ -106,10 +106,10 @@ TEST_F(FrameTrackerTest, DescriptorMustBeNearAndClearlyNearer) {
 TEST_F(FrameTrackerTest, OnlyMutualBestMatchesCarryATrack) {
   const Descriptor a = maker_.randomDescriptor();
   FrameTracker tracker({});
-  Features first = frame();
+  ImageFeatures first = frame();
   add(first, 100, 100, a);
   tracker.assign(first);
-  Features second = frame();  // both look like the same earlier feature, the second one more
+  ImageFeatures second = frame();  // both look like the same earlier feature, the second one more
   add(second, 101, 100, maker_.flipped(a, 30));
   add(second, 102, 100, maker_.flipped(a, 10));
   tracker.assign(second);
@@ -120,7 +120,7 @@ TEST_F(FrameTrackerTest, OnlyMutualBestMatchesCarryATrack) {
 TEST_F(FrameTrackerTest, AgeSaturates) {
   const Descriptor a = maker_.randomDescriptor();
   FrameTracker tracker({});
-  Features features;
+  ImageFeatures features;
   constexpr int kOldest = std::numeric_limits<std::uint16_t>::max();
   for (int i = 0; i <= kOldest + 2; ++i) {
     features = frame();

@@ -8,6 +8,8 @@
 #include <map>
 #include <numeric>
 
+#include "../../nodes/node_config.hpp"  // the structs alone: no ROS
+
 namespace ardrone_vslam {
 namespace {
 
@@ -117,17 +119,8 @@ void applyOverride(const std::string& text, std::map<std::string, Section>& sect
 /// Keys that the nodelets read beside the stages' parameters (topics, frames); the offline tools
 /// pass over them.
 bool isNodeKey(const std::string& section, const std::string& key) {
-  static const std::map<std::string, std::vector<std::string>> kNodeKeys{
-      {"tracker", {"image_transport", "rectified", "queue_size"}},
-      {"mapper",
-       {"map_frame", "odom_frame", "base_frame", "odometry_wait_s", "transform_tolerance_s",
-        "publish_tf", "map_publish_hz", "max_path_poses", "queue_size"}}};
-  const auto found = kNodeKeys.find(section);
-  if (found == kNodeKeys.end()) return false;
-  for (const auto& name : found->second) {
-    if (name == key) return true;
-  }
-  return false;
+  return section == "tracker" ? hasParameter(TrackerNodeConfig{}, key)
+                              : hasParameter(MapperNodeConfig{}, key);
 }
 
 /// Number of letters to insert, remove or replace to make one word of the other (Levenshtein).
