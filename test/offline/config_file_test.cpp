@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "config_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "parameter_table.hpp"
+#include "support/sequence_folders.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+class ConfigFile : public ::testing::Test {
+ protected:
+  PipelineConfig load(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    folder_.write("config.yaml", text);
+    return loadConfig(folder_.file("config.yaml"), overrides);
+  }
+  std::vector<std::string> faultsOf(const std::string& text,
+                                    const std::vector<std::string>& overrides = {}) {
+    try {
+      load(text, overrides);
+    } catch (const ConfigError& e) {
+      return e.faults();
+    }
+    return {};
+  }
+
+  TemporaryFolder folder_;
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(ConfigFile, ReadsBothSectionsAndKeepsDefaults) {
+  const PipelineConfig config = load(
+      "tracker:\n  features_per_frame: 321\n  adapt_threshold: off\n  track_ratio: 0.7\n"
+      "mapper:\n  mean: exact\n  planar: true\n  max_depth_m: 50\n");
+  EXPECT_EQ(config.tracker.corners.features_per_frame, 321);
+  EXPECT_FALSE(config.tracker.corners.adapt_threshold);
+  EXPECT_EQ(config.tracker.tracks.ratio, 0.7);
+  EXPECT_EQ(config.mapper.thesis_filter.mean, MeanKind::kExact);
+  EXPECT_TRUE(config.mapper.planar);
+  EXPECT_EQ(config.mapper.mapper.max_depth_m, 50);
+  EXPECT_EQ(config.mapper.mapper.min_parallax_deg, MapperConfig{}.min_parallax_deg);
+}
+
+TEST_F(ConfigFile, EmptyPathFileAndSectionsAreTheDefaults) {
+  EXPECT_NO_THROW(loadConfig("", {}));
+  EXPECT_NO_THROW(load(""));
+  EXPECT_NO_THROW(load("tracker:\n  # all commented out\nmapper:\n"));
+}
+
+TEST_F(ConfigFile, OverridesStandAboveTheFile) {
+  const std::string text = "mapper:\n  max_depth_m: 50\n";
+  EXPECT_EQ(load(text, {"max_depth_m=60"}).mapper.mapper.max_depth_m, 60);
+  EXPECT_EQ(load(text, {"mapper/max_depth_m=70"}).mapper.mapper.max_depth_m, 70);
+  EXPECT_EQ(load(text, {"max_depth_m=60", "max_depth_m=80"}).mapper.mapper.max_depth_m, 80);
+  EXPECT_EQ(load(text, {"features_per_frame=99"}).tracker.corners.features_per_frame, 99)
+      << "a tracker's parameter is known without its section";
+  EXPECT_EQ(loadConfig("", {"estimator=observer"}).mapper.estimator, Estimator::kObserver);
+}
+
+TEST_F(ConfigFile, EveryFaultIsListedAtOnce) {
+  const auto faults = faultsOf(
+      "tracker:\n  features_per_frame: many\n  threshold: 12.5\n  frobnicate: 1\n"
+      "mapper:\n  mean: median\n  planar: perhaps\n  max_depth_m: -3\n  search_radius_px: .nan\n"
+      "recorder:\n  rate: 3\n",
+      {"no_equals_sign", "=3", "min_landmarks=0"});
+  const std::vector<std::string> expected{
+      "--set 'no_equals_sign' must be key=value",
+      "--set '=3' must be key=value",
+      "tracker/features_per_frame is 'many' but must be a whole number",
+      "tracker/threshold is '12.5' but must be a whole number",
+      "tracker/frobnicate is not a parameter",
+      "mapper/mean is 'median' but must be one of: printed, exact",
+      "mapper/planar is 'perhaps' but must be a switch (true or false)",
+      "max_depth_m is -3 but must be between",
+      "search_radius_px is nan but must be between",
+      "min_landmarks is 0 but must be between",
+      "unknown section 'recorder'"};
+  ASSERT_EQ(faults.size(), expected.size()) << ::testing::PrintToString(faults);
+  for (const std::string& part : expected) {
+    EXPECT_TRUE(std::any_of(faults.begin(), faults.end(), [&](const std::string& fault) {
+      return contains(fault, part);
+    })) << part;
+  }
+}
+
+TEST_F(ConfigFile, UnknownKeysGetAHint) {
+  const auto hintOf = [this](const std::string& key) {
+    const auto faults = faultsOf("mapper:\n  " + key + ": 1\n");
+    return faults.size() == 1 ? faults[0] : std::string("no single fault");
+  };
+  EXPECT_TRUE(contains(hintOf("serach_radius_px"), "did you mean mapper/search_radius_px"));
+  EXPECT_TRUE(contains(hintOf("max_depth"), "mapper/max_depth_m"));
+  EXPECT_TRUE(contains(hintOf("features_per_frame"), "did you mean tracker/features_per_frame"));
+  EXPECT_FALSE(contains(hintOf("xyzzy_plugh"), "did you mean"));
+  const auto faults = faultsOf("", {"feature_per_frame=3"});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_TRUE(contains(faults[0], "tracker/features_per_frame"));
+}
+
+TEST_F(ConfigFile, KeysOfTheNodeletsArePassedOver) {
+  EXPECT_NO_THROW(load("tracker:\n  rectified: true\nmapper:\n  odom_frame: \"\"\n"));
+  EXPECT_EQ(faultsOf("tracker:\n  odom_frame: x\n").size(), 1U) << "in their own section only";
+}
+
+TEST_F(ConfigFile, FilesThatAreNoConfiguration) {
+  EXPECT_EQ(faultsOf("just some words\n").size(), 1U);
+  EXPECT_EQ(faultsOf("- a\n- list\n").size(), 1U);
+  EXPECT_EQ(faultsOf("tracker: 5\n").size(), 1U);
+  const auto broken = faultsOf("mapper:\n  mean: [exact\n");
+  ASSERT_EQ(broken.size(), 1U);
+  EXPECT_TRUE(contains(broken[0], "not valid YAML"));
+  for (const std::string& path : {folder_.file("missing.yaml"), folder_.path()}) {
+    try {
+      loadConfig(path, {});
+      FAIL() << path;
+    } catch (const ConfigError& e) {
+      EXPECT_TRUE(contains(e.what(), path + ": cannot be read")) << e.what();
+    }
+  }
+}
+
+TEST(Documentation, ParametersPageIsTheTableOfTheStructs) {
+  std::ifstream page(std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/docs/parameters.md");
+  std::stringstream text;
+  text << page.rdbuf();
+  EXPECT_EQ(text.str(), parameterTable())
+      << "make it anew: replay --list-parameters > docs/parameters.md";
+}
+
+TEST(Documentation, TableNamesEveryParameterWithItsDefault) {
+  const std::string table = parameterTable();
+  PipelineConfig config;
+  const auto expectRow = [&](const ParameterInfo& info, const auto&) {
+    EXPECT_TRUE(contains(table, "| `" + std::string(info.name) + "` | ")) << info.name;
+  };
+  visitParameters(config.tracker, expectRow);
+  visitParameters(config.mapper, expectRow);
+  EXPECT_TRUE(contains(table, "| `mean` | printed | choice | printed, exact | "));
+  EXPECT_TRUE(contains(table, "| `planar` | false | switch | true, false | "));
+  EXPECT_TRUE(contains(table, "| `max_landmarks` | 200000 | landmarks | 10 to 10000000 | "));
+}
+
+TEST(Documentation, EveryShippedConfigurationLoads) {
+  int loaded = 0;
+  const std::string folder = std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const auto& path = entry.path();
+    if (path.extension() != ".yaml" || path.filename() == "observer_profiles.yaml") continue;
+    try {
+      loadConfig(path.string(), {});
+    } catch (const ConfigError& e) {
+      ADD_FAILURE() << path << ": " << e.what();
+    }
+    ++loaded;
+  }
+  EXPECT_GE(loaded, 2) << "config/ holds one file for each robot";
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

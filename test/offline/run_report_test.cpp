@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "support/sequence_folders.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Four frames a second apart along x; the observer drifts sideways by 0.2 m a frame, the fused
+/// pose by 0.1 m.
+RunResult someRun() {
+  RunResult run;
+  for (int i = 0; i < 4; ++i) {
+    RunFrame frame;
+    frame.result.stamp_ns = 1'000'000'000LL * i;
+    frame.result.T_map_base.translation() << i, 0.1 * i, 0;
+    frame.result.T_odom_base.translation() << i, 0.2 * i, 0;
+    frame.result.covariance.topLeftCorner<3, 3>() = 0.01 * Eigen::Matrix3d::Identity();
+    frame.result.landmark_candidates = 10 * i + 2;
+    frame.result.landmark_matches = 10 * i;
+    frame.result.features = 100;
+    if (i == 3) {
+      frame.result.state = SlamState::kLocalised;
+      frame.result.camera_position_map = Eigen::Vector3d(3, 0.4, 0);
+      frame.result.camera_deviation_m = 0.07;
+    }
+    frame.times_ms = {1, 2, 3, 0, 0, static_cast<double>(i)};
+    run.frames.push_back(frame);
+  }
+  run.landmarks.resize(2);
+  run.landmarks[0].id = 11;
+  run.landmarks[1].position_map << 1, 2, 3;
+  return run;
+}
+
+Trajectory straightTruth() {
+  Trajectory truth;
+  for (int i = 0; i < 4; ++i) {
+    StampedPose pose;
+    pose.stamp_ns = 1'000'000'000LL * i;
+    pose.T_map_base.translation() << i, 0, 0;
+    truth.append(pose);
+  }
+  return truth;
+}
+
+Json summaryFor(const std::string& profile, const Trajectory& truth) {
+  const RunResult run = someRun();
+  return summaryOf(run, evaluate(run, truth), {"sequence", profile, 5, "thesis"});
+}
+
+std::vector<std::string> cellsOf(const std::string& line) {
+  std::vector<std::string> cells;
+  std::stringstream stream(line + ",");
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+TEST(RunReport, SummaryHasAllThatIsAskedFor) {
+  const Json summary = summaryFor("drone", straightTruth());
+  for (const char* key :
+       {"frames", "profile", "seed", "estimator", "observer_ate_rmse_m", "fused_ate_rmse_m",
+        "fused_error_mean_m", "fused_error_max_m", "ratio", "ratio_scale_removed", "t_rel_percent",
+        "observer_t_rel_percent", "nees_mean", "landmark_matches_median", "landmarks",
+        "ms_per_frame_median", "ms_per_frame_p95", "peak_rss_mb"}) {
+    EXPECT_TRUE(summary.contains(key)) << key;
+  }
+  EXPECT_EQ(summary["frames"], 4);
+  EXPECT_EQ(summary["profile"], "drone");
+  EXPECT_EQ(summary["seed"], 5);
+  EXPECT_EQ(summary["estimator"], "thesis");
+  const double mean_square = (0.01 + 0.04 + 0.09) / 4;
+  EXPECT_NEAR(summary["fused_ate_rmse_m"], std::sqrt(mean_square), 1e-12);
+  EXPECT_NEAR(summary["observer_ate_rmse_m"], 2 * std::sqrt(mean_square), 1e-12);
+  EXPECT_NEAR(summary["ratio"], 0.5, 1e-12);
+  EXPECT_NEAR(summary["ratio_scale_removed"], 0.5, 1e-12);
+  EXPECT_NEAR(summary["fused_error_mean_m"], 0.15, 1e-12);
+  EXPECT_NEAR(summary["fused_error_max_m"], 0.3, 1e-12);
+  EXPECT_NEAR(summary["nees_mean"], 100 * mean_square, 1e-9);
+  EXPECT_EQ(summary["landmark_matches_median"], 15);
+  EXPECT_EQ(summary["landmarks"], 2);
+  EXPECT_EQ(summary["ms_per_frame_median"], 7.5);
+  EXPECT_GT(summary["peak_rss_mb"], 0);
+  EXPECT_TRUE(summary["t_rel_percent"].is_null()) << "the path is shorter than 100 m";
+  EXPECT_NEAR(summary["camera_error_mean_m"], 0.4, 1e-12);
+  EXPECT_EQ(summary["camera_frames"], 1);
+}
+
+TEST(RunReport, RatioIsNullWhereTheObserverIsTheTruth) {
+  const Json summary = summaryFor("truth", straightTruth());
+  EXPECT_TRUE(summary["ratio"].is_null());
+  EXPECT_TRUE(summary["ratio_scale_removed"].is_null());
+  EXPECT_FALSE(summary["fused_ate_rmse_m"].is_null());
+}
+
+TEST(RunReport, WithoutTruthNoErrorIsClaimed) {
+  const Json summary = summaryFor("recorded", {});
+  for (const char* key : {"observer_ate_rmse_m", "fused_ate_rmse_m", "ratio", "nees_mean",
+                          "camera_error_mean_m", "t_rel_percent"}) {
+    EXPECT_TRUE(summary[key].is_null()) << key;
+  }
+  EXPECT_EQ(summary["frames"], 4);
+}
+
+TEST(RunReport, ScaleErrorThatWasDrawnIsRemoved) {
+  RunResult run = someRun();
+  run.scale_error = 0.1;
+  for (RunFrame& frame : run.frames) {
+    frame.result.T_map_base.translation() << 1.1 * frame.result.T_map_base.translation().x(), 0, 0;
+    frame.result.T_odom_base = frame.result.T_map_base;
+    frame.result.T_odom_base.translation().y() = 0.2;
+  }
+  const Json summary = summaryOf(run, evaluate(run, straightTruth()), {"s", "wheel", 1, "thesis"});
+  EXPECT_GT(summary["fused_ate_rmse_m"], 0.1);
+  EXPECT_NEAR(summary["fused_ate_rmse_scale_removed_m"], 0, 1e-12);
+  EXPECT_NEAR(summary["observer_ate_rmse_scale_removed_m"], 0.2, 1e-12);
+  EXPECT_NEAR(summary["ratio_scale_removed"], 0, 1e-12);
+}
+
+TEST(RunReport, AnEmptyRunIsReportedToo) {
+  const RunResult run;
+  const Json summary = summaryOf(run, evaluate(run, straightTruth()), {"s", "drone", 1, "thesis"});
+  EXPECT_EQ(summary["frames"], 0);
+  EXPECT_TRUE(summary["ratio"].is_null());
+  EXPECT_TRUE(summary["frames_per_second"].is_null());
+}
+
+TEST(RunReport, WorstOfSeedsIsTheLargestWhereLargerIsWorse) {
+  std::vector<Json> summaries;
+  for (const double ratio : {0.5, 0.9, 0.6}) {
+    Json summary = summaryFor("drone", straightTruth());
+    summary["ratio"] = ratio;
+    summary["seed"] = summaries.size() + 1;
+    summaries.push_back(summary);
+  }
+  const Json all = summaryOfSeeds(summaries);
+  EXPECT_EQ(all["median"]["ratio"], 0.6);
+  EXPECT_EQ(all["worst"]["ratio"], 0.9);
+  EXPECT_EQ(all["seeds"], (Json{1, 2, 3}));
+  EXPECT_EQ(all["runs"].size(), 3U);
+  for (const char* better : {"frames_per_second", "landmark_matches_median", "landmarks"})
+    EXPECT_FALSE(all["worst"].contains(better)) << better;
+  EXPECT_FALSE(all["median"].contains("t_rel_percent")) << "null in some";
+}
+
+TEST(RunReport, FilesOfARun) {
+  const TemporaryFolder folder;
+  const std::string out = folder.file("deep/run");
+  const RunResult run = someRun();
+  const RunEvaluation evaluation = evaluate(run, straightTruth());
+  writeRun(out, run, evaluation, summaryOf(run, evaluation, {"s", "drone", 1, "thesis"}));
+  EXPECT_EQ(readTum(out + "/fused.tum").size(), 4U);
+  EXPECT_EQ(readTum(out + "/observer.tum").size(), 4U);
+  EXPECT_EQ(readTum(out + "/truth.tum").size(), 4U);
+  std::ifstream json(out + "/summary.json");
+  EXPECT_EQ(Json::parse(json)["frames"], 4);
+
+  std::ifstream csv(out + "/frames.csv");
+  std::string line;
+  std::getline(csv, line);
+  const auto names = cellsOf(line);
+  const auto column = [&names](const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    EXPECT_NE(found, names.end()) << name;
+    return static_cast<std::size_t>(found - names.begin());
+  };
+  std::vector<std::vector<std::string>> rows;
+  while (std::getline(csv, line)) {
+    rows.push_back(cellsOf(line));
+    ASSERT_EQ(rows.back().size(), names.size());
+  }
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[2][column("stamp_ns")], "2000000000");
+  EXPECT_EQ(rows[3][column("state")], "localised");
+  EXPECT_EQ(rows[1][column("features")], "100");
+  EXPECT_EQ(rows[1][column("landmark_matches")], "10");
+  EXPECT_EQ(rows[1][column("landmark_mismatches")], "2");
+  EXPECT_EQ(rows[1][column("landmarks")], "0");
+  EXPECT_EQ(rows[0][column("camera_x_m")], "") << "no landmarks, no position by them";
+  EXPECT_EQ(rows[3][column("camera_y_m")], "0.4");
+  EXPECT_EQ(rows[3][column("camera_error_m")], "0.4");
+  EXPECT_EQ(rows[2][column("fused_error_m")], "0.2");
+  EXPECT_EQ(rows[2][column("observer_error_m")], "0.4");
+  EXPECT_EQ(rows[2][column("ms_map")], "2");
+  EXPECT_EQ(rows[2][column("ms_total")], "8");
+  for (const char* name : kStageNames) column(std::string("ms_") + name);
+  column("deviation_m");
+
+  std::ifstream landmarks(out + "/landmarks.csv");
+  std::getline(landmarks, line);
+  EXPECT_EQ(cellsOf(line).front(), "id");
+  std::getline(landmarks, line);
+  EXPECT_EQ(cellsOf(line).front(), "11");
+}
+
+TEST(RunReport, FoldersThatCannotBeMadeAreNamed) {
+  const TemporaryFolder folder;
+  folder.write("file", "");
+  const RunResult run;
+  try {
+    writeRun(folder.file("file/run"), run, {}, Json::object());
+    FAIL() << "must throw";
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find(folder.file("file/run")), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
