@@ -107,22 +107,34 @@ struct FlightRun {
   PositionError observer;
 };
 
-inline FlightRun run(PointWorld& world, const Flight& flight,
+/// What the camera sees on the flight, frame by frame.
+inline std::vector<ImageFeatures> film(PointWorld& world, const Flight& flight) {
+  std::vector<ImageFeatures> frames;
+  for (const FlightPose& pose : flight)
+    frames.push_back(world.look(pose.T_map_base * forwardMounting(), pose.stamp_ns));
+  return frames;
+}
+
+/// Frames and observer states of equal stamps through Slam.
+inline FlightRun run(const std::vector<ImageFeatures>& frames,
                      const std::vector<ObserverState>& observer, const SlamConfig& config = {}) {
-  const Eigen::Isometry3d T_base_cam = forwardMounting();
-  Slam slam(config, T_base_cam);
+  Slam slam(config, forwardMounting());
   FlightRun run;
-  for (std::size_t i = 0; i < flight.size(); ++i) {
-    const ImageFeatures features =
-        world.look(flight[i].T_map_base * T_base_cam, flight[i].stamp_ns);
-    run.results.push_back(slam.process(features, observer[i]));
-  }
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    run.results.push_back(slam.process(frames[i], observer[i]));
   run.landmarks = slam.landmarks().all();
-  run.fused =
-      errorOf(flight, [&](std::size_t i) { return run.results[i].T_map_base.translation(); });
-  run.observer =
-      errorOf(flight, [&](std::size_t i) { return observer[i].T_odom_base.translation(); });
   return run;
+}
+
+/// The same, with errors.
+inline FlightRun fly(PointWorld& world, const Flight& flight,
+                     const std::vector<ObserverState>& observer, const SlamConfig& config = {}) {
+  FlightRun flown = run(film(world, flight), observer, config);
+  flown.fused =
+      errorOf(flight, [&](std::size_t i) { return flown.results[i].T_map_base.translation(); });
+  flown.observer =
+      errorOf(flight, [&](std::size_t i) { return observer[i].T_odom_base.translation(); });
+  return flown;
 }
 
 /// Landmark matches a frame, in the mean over the frames `first` .. `last` - 1.
