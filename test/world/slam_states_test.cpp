@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every state that Slam can report, and what must not wear its map down.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "support/point_flight.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using test::Flight;
+
+class SlamStates : public ::testing::Test {
+ protected:
+  SlamStates() : flight_(test::lapsFlight(200, 1, 10)), world_(1) {
+    world_.addRoom({10, 8, 3}, 1200);
+    observer_ = test::observeExactly(flight_);
+  }
+
+  ImageFeatures look(std::size_t frame) {
+    return world_.look(flight_[frame].T_map_base * test::forwardMounting(),
+                       flight_[frame].stamp_ns);
+  }
+  ImageFeatures dark(std::size_t frame) { return world_.emptyView(flight_[frame].stamp_ns); }
+
+  Flight flight_;
+  test::PointWorld world_;
+  std::vector<ObserverState> observer_;
+};
+
+TEST_F(SlamStates, BuildingThenLocalisedThenTooFew) {
+  Slam slam({}, test::forwardMounting());
+  EXPECT_EQ(slam.process(look(0), observer_[0]).state, SlamState::kBuildingMap);
+  EXPECT_EQ(slam.landmarks().size(), 0U);
+  for (std::size_t i = 1; i < 40; ++i) slam.process(look(i), observer_[i]);
+  const FrameResult good = slam.process(look(40), observer_[40]);
+  EXPECT_EQ(good.state, SlamState::kLocalised);
+  EXPECT_TRUE(good.camera_position_map);
+  EXPECT_GT(good.camera_deviation_m, 0);
+  EXPECT_GE(good.landmark_candidates, good.landmark_matches);
+  EXPECT_GE(good.landmarks_in_view, good.landmark_matches);
+
+  const FrameResult blind = slam.process(dark(41), observer_[41]);
+  EXPECT_EQ(blind.state, SlamState::kTooFewLandmarks);
+  EXPECT_FALSE(blind.camera_position_map);
+  EXPECT_EQ(blind.landmark_matches, 0);
+  const Eigen::Vector3d increment =
+      observer_[41].T_odom_base.translation() - observer_[40].T_odom_base.translation();
+  EXPECT_LT((blind.T_map_base.translation() - good.T_map_base.translation() - increment).norm(),
+            1e-12)
+      << "the pose follows the odometry";
+}
+
+TEST_F(SlamStates, OneLandmarkMissingIsTooFew) {
+  SlamConfig config;
+  config.thesis_filter.min_landmarks = 1000;
+  Slam slam(config, test::forwardMounting());
+  FrameResult last;
+  for (std::size_t i = 0; i < 30; ++i) last = slam.process(look(i), observer_[i]);
+  EXPECT_EQ(last.state, SlamState::kTooFewLandmarks);
+  EXPECT_GT(last.landmark_matches, 10);
+}
+
+TEST_F(SlamStates, FixRejected) {
+  SlamConfig config;
+  config.thesis_filter.gate_deviations = 0.5;
+  config.thesis_filter.fix_angle_floor_deg = 0;
+  config.thesis_filter.common_drift = false;
+  config.thesis_filter.observer_noise_m_per_sqrt_s = 0.001;
+  Slam slam(config, test::forwardMounting());
+  for (std::size_t i = 0; i < 40; ++i) slam.process(look(i), observer_[i]);
+  ObserverState jumped = observer_[40];
+  jumped.T_odom_base.translation() += Eigen::Vector3d(0.02, 0.02, 0.02);
+  const FrameResult result = slam.process(look(40), jumped);
+  EXPECT_EQ(result.state, SlamState::kFixRejected);
+  EXPECT_TRUE(result.camera_position_map) << "shown, though not used";
+}
+
+TEST_F(SlamStates, ObserverOnly) {
+  SlamConfig config;
+  config.estimator = Estimator::kObserver;
+  Slam slam(config, test::forwardMounting());
+  EXPECT_EQ(slam.process(look(0), observer_[0]).state, SlamState::kObserverOnly);
+}
+
+TEST_F(SlamStates, EachHasAnExplanationExceptTheGoodOne) {
+  std::set<std::string> sentences;
+  for (const SlamState state : {SlamState::kBuildingMap, SlamState::kTooFewLandmarks,
+                                SlamState::kFixRejected, SlamState::kObserverOnly}) {
+    EXPECT_STRNE(explain(state), "");
+    sentences.insert(explain(state));
+  }
+  EXPECT_EQ(sentences.size(), 4U);
+  EXPECT_STREQ(explain(SlamState::kLocalised), "");
+}
+
+TEST_F(SlamStates, NothingButDarkImages) {
+  Slam slam({}, test::forwardMounting());
+  for (std::size_t i = 0; i < 100; ++i) {
+    const FrameResult& result = slam.process(dark(i), observer_[i]);
+    ASSERT_EQ(result.state, SlamState::kBuildingMap);
+    ASSERT_TRUE(result.T_map_base.matrix().allFinite());
+    ASSERT_TRUE(result.covariance.allFinite());
+    ASSERT_EQ(result.landmarks + result.map_features + result.features, 0);
+  }
+}
+
+TEST_F(SlamStates, DarkImagesDoNotWearTheMapDown) {
+  Slam slam({}, test::forwardMounting());
+  for (std::size_t i = 0; i < 60; ++i) slam.process(look(i), observer_[i]);
+  const std::size_t landmarks = slam.landmarks().size();
+  int removed = 0;
+  for (std::size_t i = 60; i < 80; ++i)
+    removed += slam.process(dark(i), observer_[i]).removed_landmarks;
+  EXPECT_EQ(removed, 0);
+  EXPECT_EQ(slam.landmarks().size(), landmarks);
+  FrameResult after;
+  for (std::size_t i = 80; i < 84; ++i) after = slam.process(look(i), observer_[i]);
+  EXPECT_EQ(after.state, SlamState::kLocalised) << "found again after 2 s without an image";
+}
+
+TEST_F(SlamStates, HoveringMakesNoLandmarks) {
+  Slam slam({}, test::forwardMounting());
+  FrameResult last;
+  for (std::size_t i = 0; i < 100; ++i) {
+    ImageFeatures features =
+        world_.look(flight_[0].T_map_base * test::forwardMounting(), flight_[i].stamp_ns);
+    ObserverState still = observer_[0];
+    still.stamp_ns = flight_[i].stamp_ns;
+    last = slam.process(features, still);
+  }
+  EXPECT_EQ(last.landmarks, 0) << "there is no parallax";
+  EXPECT_LE(last.map_features, FeatureMapConfig{}.max_map_features);
+  EXPECT_EQ(last.state, SlamState::kBuildingMap);
+}
+
+TEST_F(SlamStates, CapsHold) {
+  SlamConfig config;
+  config.feature_map.max_map_features = 50;
+  config.landmark_map.max_landmarks = 60;
+  Slam slam(config, test::forwardMounting());
+  for (std::size_t i = 0; i < flight_.size(); ++i) {
+    const FrameResult& result = slam.process(look(i), observer_[i]);
+    ASSERT_LE(result.map_features, 50);
+    ASSERT_LE(result.landmarks, 60);
+    ASSERT_EQ(static_cast<std::size_t>(result.landmarks), slam.landmarks().size());
+  }
+  EXPECT_GT(slam.landmarks().size(), 20U);
+}
+
+TEST_F(SlamStates, MountingOfTheCameraIsTakenIntoAccount) {
+  Eigen::Isometry3d T_base_cam = test::forwardMounting();
+  T_base_cam.translation() << 0.3, 0.1, -0.05;
+  T_base_cam.linear() =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()).toRotationMatrix() * T_base_cam.linear();
+  Slam slam({}, T_base_cam);
+  double largest_m = 0;
+  int matches = 0;
+  for (std::size_t i = 0; i < flight_.size(); ++i) {
+    const FrameResult& result = slam.process(
+        world_.look(flight_[i].T_map_base * T_base_cam, flight_[i].stamp_ns), observer_[i]);
+    largest_m = std::max(
+        largest_m, (result.T_map_base.translation() - flight_[i].T_map_base.translation()).norm());
+    matches += result.landmark_matches;
+  }
+  EXPECT_LT(largest_m, 0.03);
+  EXPECT_GT(matches, 30 * static_cast<int>(flight_.size()));
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

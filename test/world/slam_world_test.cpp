@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Slam in worlds of random points with random descriptors: errors against the truth.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "support/point_flight.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using test::Flight;
+using test::FlightRun;
+using test::PointWorld;
+using test::ViewFaults;
+
+constexpr int kLapFrames = 200;
+
+PointWorld room(std::uint64_t seed, double wrong_share = 0) {
+  ViewFaults faults;
+  faults.wrong_share = wrong_share;
+  PointWorld world(seed, faults);
+  world.addRoom({10, 8, 3}, 1200);
+  return world;
+}
+
+PointWorld corridor(std::uint64_t seed, double wrong_share = 0) {
+  ViewFaults faults;
+  faults.wrong_share = wrong_share;
+  PointWorld world(seed, faults);
+  world.addCorridor(50, 2000);
+  return world;
+}
+
+SlamConfig withMean(MeanKind mean) {
+  SlamConfig config;
+  config.thesis_filter.mean = mean;
+  return config;
+}
+
+/// Distance of each landmark from the nearest true point, sorted.
+std::vector<double> landmarkErrors_m(const PointWorld& world, const FlightRun& run, bool planar) {
+  std::vector<double> errors;
+  for (const Landmark& landmark : run.landmarks) {
+    double smallest = 1e9;
+    for (const test::WorldPoint& point : world.points()) {
+      Eigen::Vector3d off = point.position_map - landmark.position_map;
+      if (planar) off.z() = 0;
+      smallest = std::min(smallest, off.norm());
+    }
+    errors.push_back(smallest);
+  }
+  std::sort(errors.begin(), errors.end());
+  return errors;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+class BothMeans : public ::testing::TestWithParam<MeanKind> {};
+
+TEST_P(BothMeans, TrueOdometryIsNotMadeWorse) {
+  // Bound of the RMSE and of the largest error by share of wrong features; the exact mean follows
+  // wrong matches more.
+  struct Bound {
+    double wrong_share, printed_m, exact_m;
+  };
+  const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
+  for (const Bound& bound : {Bound{0, 0.01, 0.06}, Bound{0.2, 0.1, 0.2}, Bound{0.4, 0.15, 0.5}}) {
+    PointWorld world = room(1, bound.wrong_share);
+    const FlightRun run =
+        test::fly(world, flight, test::observeExactly(flight), withMean(GetParam()));
+    const double limit_m = GetParam() == MeanKind::kPrinted ? bound.printed_m : bound.exact_m;
+    RecordProperty("rmse_m", std::to_string(run.fused.rmse_m));
+    EXPECT_LT(run.fused.rmse_m, limit_m) << bound.wrong_share;
+    EXPECT_LT(run.fused.max_m, 2 * limit_m) << bound.wrong_share;
+    EXPECT_GT(test::meanMatches(run, kLapFrames, 2 * kLapFrames), 50);
+  }
+}
+
+TEST_P(BothMeans, RevisitsTakeTheDriftOutOfTheOdometry) {
+  const Flight flight = test::lapsFlight(kLapFrames, 3, 10);
+  for (const double wrong_share : {0.0, 0.2}) {
+    std::vector<double> ratios;
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+      PointWorld world = room(seed, wrong_share);
+      const FlightRun run =
+          test::fly(world, flight, test::observe(flight, {}, seed), withMean(GetParam()));
+      ratios.push_back(run.fused.rmse_m / run.observer.rmse_m);
+      EXPECT_LT(ratios.back(), 0.6) << "seed " << seed << ", wrong " << wrong_share;
+    }
+    EXPECT_LT(median(ratios), 0.4) << wrong_share;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Means, BothMeans, ::testing::Values(MeanKind::kPrinted, MeanKind::kExact),
+                         [](const auto& mean) { return std::string(nameOf(mean.param)); });
+
+TEST(SlamWorld, FirstPassesDoNoHarm) {
+  const Flight flight = test::straightFlight(400, 10, 1);
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    PointWorld world = corridor(seed);
+    const FlightRun run = test::fly(world, flight, test::observe(flight, {}, seed));
+    EXPECT_LT(run.fused.rmse_m, 1.1 * run.observer.rmse_m) << "seed " << seed;
+  }
+}
+
+TEST(SlamWorld, WrongFeaturesOnAFirstPassDoLittleHarm) {
+  const Flight flight = test::straightFlight(400, 10, 1);
+  for (const double wrong_share : {0.2, 0.4}) {
+    std::vector<double> ratios;
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+      PointWorld world = corridor(seed, wrong_share);
+      const FlightRun run = test::fly(world, flight, test::observe(flight, {}, seed));
+      ratios.push_back(run.fused.rmse_m / run.observer.rmse_m);
+      std::cout << ratios.back() << "\n";
+    }
+    EXPECT_LT(median(ratios), 1.1) << wrong_share;
+  }
+}
+
+TEST(SlamWorld, LandmarksStandWhereThePointsAre) {
+  const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
+  PointWorld world = room(1);
+  const FlightRun run = test::fly(world, flight, test::observeExactly(flight));
+  const auto errors = landmarkErrors_m(world, run, false);
+  ASSERT_GT(errors.size(), 800U) << "most of the 1200 points";
+  EXPECT_LT(run.landmarks.size(), 1300U) << "hardly any point twice";
+  EXPECT_LT(errors[errors.size() / 2], 0.1);
+  EXPECT_LT(errors[errors.size() * 9 / 10], 0.3);
+}
+
+TEST(SlamWorld, FirstImageMapEqualsOdometry) {
+  Flight flight = test::lapsFlight(kLapFrames, 1, 10);
+  PointWorld world = room(1);
+  auto observer = test::observeExactly(flight);
+  const Eigen::Isometry3d T_odom_map =
+      Eigen::Translation3d(5, 6, 7) * Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ());
+  for (ObserverState& state : observer) state.T_odom_base = T_odom_map * state.T_odom_base;
+  Slam slam({}, test::forwardMounting());
+  EXPECT_TRUE(slam.T_map_odom().matrix().isIdentity(0));
+  const FrameResult first = slam.process(test::film(world, flight)[0], observer[0]);
+  EXPECT_EQ(first.T_map_base.matrix(), observer[0].T_odom_base.matrix());
+  EXPECT_TRUE(slam.T_map_odom().matrix().isIdentity(0));
+  EXPECT_EQ(first.state, SlamState::kBuildingMap);
+  EXPECT_EQ(first.stamp_ns, flight[0].stamp_ns);
+}
+
+TEST(SlamWorld, MapToOdomTakesTheOdometryToThePose) {
+  const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
+  PointWorld world = room(2);
+  const auto frames = test::film(world, flight);
+  const auto observer = test::observe(flight, {}, 2);
+  Slam slam({}, test::forwardMounting());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FrameResult& r = slam.process(frames[i], observer[i]);
+    const Eigen::Isometry3d expected = slam.T_map_odom() * r.T_odom_base;
+    ASSERT_LT((expected.matrix() - r.T_map_base.matrix()).cwiseAbs().maxCoeff(), 1e-12);
+  }
+  EXPECT_GT(slam.T_map_odom().translation().norm(), 0.1) << "there was drift to correct";
+}
+
+TEST(SlamWorld, ObserverEstimatorPassesTheOdometryOn) {
+  const Flight flight = test::lapsFlight(kLapFrames, 1, 10);
+  PointWorld world = room(1);
+  SlamConfig config;
+  config.estimator = Estimator::kObserver;
+  const auto observer = test::observe(flight, {}, 3);
+  const FlightRun run = test::fly(world, flight, observer, config);
+  for (std::size_t i = 0; i < run.results.size(); ++i) {
+    ASSERT_EQ(run.results[i].state, SlamState::kObserverOnly);
+    const Eigen::Isometry3d& odometry = observer[i].T_odom_base;
+    ASSERT_LT((run.results[i].T_map_base.matrix() - odometry.matrix()).cwiseAbs().maxCoeff(),
+              1e-12);
+    ASSERT_EQ(run.results[i].landmarks, 0);
+  }
+}
+
+// Thesis 7.2: 161 frames at 3 Hz, 5 / 45 / 80 landmark matches in the 1st, 2nd and 3rd lap.
+TEST(SlamWorld, PlanarModeAtThreeHertzFindsMoreLandmarksLapByLap) {
+  constexpr int kFrames = 60;
+  SlamConfig config;
+  config.planar = true;
+  ViewFaults faults;
+  faults.lost_share = 0.5;  // corners of a coarse threshold come and go
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    PointWorld world(seed, faults);
+    world.addRoom({10, 8, 3}, 1200);
+    const Flight flight = test::lapsFlight(kFrames, 3, 3);
+    const auto observer = test::observe(flight, {}, seed);
+    const FlightRun run = test::fly(world, flight, observer, config);
+    const double first = test::meanMatches(run, 0, kFrames);
+    const double second = test::meanMatches(run, kFrames, 2 * kFrames);
+    const double third = test::meanMatches(run, 2 * kFrames, 3 * kFrames);
+    std::cout << first << ' ' << second << ' ' << third << '\n';
+    EXPECT_GT(second, 1.2 * first) << seed;
+    EXPECT_GT(third, second) << seed;
+    for (const Landmark& landmark : run.landmarks) ASSERT_EQ(landmark.position_map.z(), 0);
+    for (std::size_t i = 0; i < run.results.size(); ++i) {
+      ASSERT_NEAR(run.results[i].T_map_base.translation().z(),
+                  observer[i].T_odom_base.translation().z(), 1e-9)
+          << "height stays the observer's";
+    }
+  }
+}
+
+TEST(SlamWorld, PlanarModeWithTrueOdometry) {
+  SlamConfig config;
+  config.planar = true;
+  const Flight flight = test::lapsFlight(60, 3, 3);
+  PointWorld world = room(1);
+  const FlightRun run = test::fly(world, flight, test::observeExactly(flight), config);
+  EXPECT_LT(run.fused.max_m, 0.01);
+  const auto errors = landmarkErrors_m(world, run, true);
+  EXPECT_LT(errors[errors.size() / 2], 0.15);
+  EXPECT_LT(run.landmarks.size(), 1300U) << "hardly any point twice";
+}
+
+TEST(SlamWorld, PlanarModeDoesNotMindUnknownTilt) {
+  // The camera looks 8 degrees up and the observer does not know.
+  const Eigen::Isometry3d tilt(Eigen::AngleAxisd(-8 * M_PI / 180, Eigen::Vector3d::UnitY()));
+  const Flight flight = test::lapsFlight(60, 2, 3);
+  Flight tilted = flight;
+  for (test::FlightPose& pose : tilted) pose.T_map_base = pose.T_map_base * tilt;
+  SlamConfig config;
+  config.planar = true;
+  PointWorld world = room(4);
+  const FlightRun run = test::run(test::film(world, tilted), test::observeExactly(flight), config);
+  double largest_m = 0;
+  for (std::size_t i = 0; i < run.results.size(); ++i) {
+    largest_m = std::max(
+        largest_m,
+        (run.results[i].T_map_base.translation() - flight[i].T_map_base.translation()).norm());
+  }
+  EXPECT_LT(largest_m, 0.1);
+  EXPECT_GT(test::meanMatches(run, 60, 120), 40);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
