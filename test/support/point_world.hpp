@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "../../tools/lib/random_source.hpp"
@@ -43,7 +44,9 @@ class PointWorld {
   static constexpr double kFocalLength_px = 570;
 
   explicit PointWorld(std::uint64_t seed, const ViewFaults& faults = {})
-      : random_(seed), faults_(faults), tracker_(FrameTrackerConfig{}) {}
+      : random_(seed),
+        faults_(faults),
+        tracker_(std::make_unique<FrameTracker>(FrameTrackerConfig{})) {}
 
   void addPoint(const Eigen::Vector3d& position_map) {
     points_.push_back({position_map, randomDescriptor()});
@@ -86,7 +89,7 @@ class PointWorld {
       if (!isInside(pixel) || random_.chance(faults_.lost_share)) continue;
       addFeature(pixel, point.descriptor, features);
     }
-    tracker_.assign(features);
+    tracker_->assign(features);
     return features;
   }
 
@@ -156,7 +159,7 @@ class PointWorld {
   RandomSource random_;
   ViewFaults faults_;
   std::vector<WorldPoint> points_;
-  FrameTracker tracker_;
+  std::unique_ptr<FrameTracker> tracker_;
 };
 
 }  // namespace ardrone_vslam::test
