@@ -47,6 +47,10 @@ void Mapper::refine(const FrameView& view, const std::vector<Association>& match
 void Mapper::widenBaseline(const FrameView& view, std::size_t feature, Landmark& landmark) const {
   // A track that goes on is hardly ever a mismatch, a landmark found by its descriptor may be one.
   if (landmark.track_id != view.features().track_id[feature]) return;
+  // A wrong feature may still lie within the landmark's threshold, and would count for good, as the
+  // parallax only grows. Of the first view's epipolar plane it seldom lies within three deviations.
+  const auto offset = epipolarOffset(landmark.first_ray, view.ray(feature));
+  if (!offset || offset->across > 3 * angleDeviation_rad(view.focalLength_px())) return;
   const auto point = triangulate(landmark.first_ray, view.ray(feature));
   if (!point || point->parallax_rad < config_.baseline_growth * landmark.parallax_rad) return;
   // After a long way round the drift between the two views would turn the map: then the wider
