@@ -35,7 +35,8 @@ void visitParameters(ThesisFilterConfig& c, Visitor&& visit) {
   visit(
       ParameterInfo{
           "mean", "choice", 0, 0,
-          "printed: weighted mean (6.4), damped along the rays; exact: weighted least squares"},
+          "printed: weighted mean (6.4), damped along the rays; exact: weighted least squares, "
+          "undamped, for odometry without drift of scale and scenes without wrong matches"},
       c.mean);
   visit(ParameterInfo{"common_drift", "switch", 0, 0,
                       "on: landmarks share the drift of the time they were made, so fresh ones "

@@ -42,6 +42,7 @@ class PointWorld {
   static constexpr int kWidth_px = 640;
   static constexpr int kHeight_px = 360;
   static constexpr double kFocalLength_px = 570;
+  static constexpr double kRange_m = 15;  ///< points further away are too small to be seen
 
   explicit PointWorld(std::uint64_t seed, const ViewFaults& faults = {})
       : random_(seed),
@@ -83,7 +84,7 @@ class PointWorld {
     const Eigen::Isometry3d T_cam_map = T_map_cam.inverse();
     for (const WorldPoint& point : points_) {
       const Eigen::Vector3d p = T_cam_map * point.position_map;
-      if (p.z() < 0.2) continue;
+      if (p.z() < 0.2 || p.z() > kRange_m) continue;
       const Eigen::Vector2d pixel =
           kFocalLength_px * p.head<2>() / p.z() + Eigen::Vector2d(centre().x(), centre().y());
       if (!isInside(pixel) || random_.chance(faults_.lost_share)) continue;

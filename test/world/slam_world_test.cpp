@@ -60,49 +60,49 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-class BothMeans : public ::testing::TestWithParam<MeanKind> {};
-
-TEST_P(BothMeans, TrueOdometryIsNotMadeWorse) {
-  // The exact mean follows wrong matches: without a consensus it is only for scenes without them.
-  struct Bound {
-    double wrong_share, printed_m, exact_m;
-  };
-  const bool is_printed = GetParam() == MeanKind::kPrinted;
+TEST(SlamWorld, TrueOdometryIsHardlyMadeWorse) {
   const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
-  for (const Bound& bound : {Bound{0, 0.01, 0.06}, Bound{0.2, 0.1, 0}, Bound{0.4, 0.15, 0}}) {
-    if (bound.wrong_share > 0 && !is_printed) continue;
-    PointWorld world = room(1, bound.wrong_share);
-    const FlightRun run =
-        test::fly(world, flight, test::observeExactly(flight), withMean(GetParam()));
-    const double limit_m = is_printed ? bound.printed_m : bound.exact_m;
-    RecordProperty("rmse_m", std::to_string(run.fused.rmse_m));
-    EXPECT_LT(run.fused.rmse_m, limit_m) << bound.wrong_share;
-    EXPECT_LT(run.fused.max_m, 2 * limit_m) << bound.wrong_share;
+  struct Case {
+    MeanKind mean;
+    double wrong_share;
+    double rmse_m;  // measured: 0.003, 0.02, 0.05; 0.025
+  };
+  // The exact mean follows wrong matches (0.3 m for a share of 0.2): without a consensus it is only
+  // for scenes without them.
+  for (const Case& c : {Case{MeanKind::kPrinted, 0, 0.01}, Case{MeanKind::kPrinted, 0.2, 0.05},
+                        Case{MeanKind::kPrinted, 0.4, 0.1}, Case{MeanKind::kExact, 0, 0.05}}) {
+    PointWorld world = room(1, c.wrong_share);
+    const FlightRun run = test::fly(world, flight, test::observeExactly(flight), withMean(c.mean));
+    EXPECT_LT(run.fused.rmse_m, c.rmse_m) << nameOf(c.mean) << ' ' << c.wrong_share;
+    EXPECT_LT(run.fused.max_m, 2 * c.rmse_m) << nameOf(c.mean) << ' ' << c.wrong_share;
     EXPECT_GT(test::meanMatches(run, kLapFrames, 2 * kLapFrames), 50);
   }
 }
 
-TEST_P(BothMeans, RevisitsTakeTheDriftOutOfTheOdometry) {
+TEST(SlamWorld, RevisitsTakeTheDriftOutOfTheOdometry) {
   const Flight flight = test::lapsFlight(kLapFrames, 3, 10);
-  for (const double wrong_share : {0.0, 0.2}) {
-    if (wrong_share > 0 && GetParam() == MeanKind::kExact) continue;
+  struct Case {
+    MeanKind mean;
+    double wrong_share;
+    double worst;
+  };
+  for (const Case& c : {Case{MeanKind::kPrinted, 0, 0.5}, Case{MeanKind::kPrinted, 0.2, 0.5},
+                        Case{MeanKind::kPrinted, 0.4, 0.5}, Case{MeanKind::kExact, 0, 0.8}}) {
     std::vector<double> ratios;
     for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-      PointWorld world = room(seed, wrong_share);
+      PointWorld world = room(seed, c.wrong_share);
       const FlightRun run =
-          test::fly(world, flight, test::observe(flight, {}, seed), withMean(GetParam()));
+          test::fly(world, flight, test::observe(flight, {}, seed), withMean(c.mean));
       ratios.push_back(run.fused.rmse_m / run.observer.rmse_m);
-      EXPECT_LT(ratios.back(), 0.6) << "seed " << seed << ", wrong " << wrong_share;
+      EXPECT_LT(ratios.back(), c.worst)
+          << "seed " << seed << ", " << nameOf(c.mean) << ", wrong " << c.wrong_share;
     }
-    EXPECT_LT(median(ratios), 0.4) << wrong_share;
+    EXPECT_LT(median(ratios), 0.4) << nameOf(c.mean) << ' ' << c.wrong_share;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Means, BothMeans, ::testing::Values(MeanKind::kPrinted, MeanKind::kExact),
-                         [](const auto& mean) { return std::string(nameOf(mean.param)); });
-
 TEST(SlamWorld, FirstPassesDoNoHarm) {
-  const Flight flight = test::straightFlight(400, 10, 1);
+  const Flight flight = test::straightFlight(300, 10, 1);
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     PointWorld world = corridor(seed);
     const FlightRun run = test::fly(world, flight, test::observe(flight, {}, seed));
@@ -110,16 +110,19 @@ TEST(SlamWorld, FirstPassesDoNoHarm) {
   }
 }
 
+// Nothing but the mean over many landmarks stands against matches that are wrong by less than the
+// landmark threshold: single seeds reach 1.17.
 TEST(SlamWorld, WrongFeaturesOnAFirstPassDoLittleHarm) {
-  const Flight flight = test::straightFlight(400, 10, 1);
-  for (const double wrong_share : {0.2}) {
+  const Flight flight = test::straightFlight(300, 10, 1);
+  for (const double wrong_share : {0.2, 0.4}) {
     std::vector<double> ratios;
     for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
       PointWorld world = corridor(seed, wrong_share);
       const FlightRun run = test::fly(world, flight, test::observe(flight, {}, seed));
       ratios.push_back(run.fused.rmse_m / run.observer.rmse_m);
+      EXPECT_LT(ratios.back(), 1.3) << "seed " << seed << ", wrong " << wrong_share;
     }
-    EXPECT_LT(median(ratios), 1.1) << wrong_share;
+    EXPECT_LT(median(ratios), 1.1) << wrong_share << ' ' << ::testing::PrintToString(ratios);
   }
 }
 
@@ -196,7 +199,6 @@ TEST(SlamWorld, PlanarModeAtThreeHertzFindsMoreLandmarksLapByLap) {
     const double first = test::meanMatches(run, 0, kFrames);
     const double second = test::meanMatches(run, kFrames, 2 * kFrames);
     const double third = test::meanMatches(run, 2 * kFrames, 3 * kFrames);
-    std::cout << first << ' ' << second << ' ' << third << '\n';
     EXPECT_GT(second, 1.2 * first) << seed;
     EXPECT_GT(third, second) << seed;
     for (const Landmark& landmark : run.landmarks) ASSERT_EQ(landmark.position_map.z(), 0);
