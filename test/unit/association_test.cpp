@@ -170,14 +170,13 @@ TEST_F(AssociationTest, CrossCheckAsksTheFeatureToo) {
   addLandmark(5, 0, builder_.flipped(a, 30));  // likes the feature, which likes the other one more
   addLandmark(6, 0, a);
   builder_.addPixel(0, 0, 1, a);
-  config_.matcher.cross_check = true;
-  auto result = matchLandmarks();
-  ASSERT_EQ(result.matches.size(), 1U);
-  EXPECT_EQ(result.matches[0].target, 1);
-  config_.matcher.cross_check = false;
-  result = matchLandmarks();
-  ASSERT_EQ(result.matches.size(), 1U);
-  EXPECT_EQ(result.matches[0].target, 0) << "first come, first served";
+  const auto winner = [this](bool cross_check) {
+    config_.matcher.cross_check = cross_check;
+    const auto result = matchLandmarks();
+    return result.matches.size() == 1 ? result.matches[0].target : -1;
+  };
+  EXPECT_EQ(winner(true), 1);
+  EXPECT_EQ(winner(false), 0) << "first come, first served";
 }
 
 TEST_F(AssociationTest, LandmarksBehindOutsideOrSeenFromElsewhereAreNotInView) {
@@ -204,10 +203,7 @@ TEST_F(AssociationTest, MapFeaturesByTrackWithinTheEpipolarPlane) {
     return matchMapFeatures();
   };
   EXPECT_EQ(judged(0, 1.9).matches.size(), 1U);
-  const auto off = judged(0, 2.1);
-  EXPECT_TRUE(off.matches.empty());
-  EXPECT_EQ(off.candidates, 1);
-  EXPECT_EQ(off.mismatches, 1);
+  EXPECT_EQ(judged(0, 2.1).mismatches, 1);
   // The first ray, seen at infinity, stands 57 px to the right.
   EXPECT_EQ(judged(55, 0).matches.size(), 1U);
   EXPECT_EQ(judged(60, 0).mismatches, 1) << "the rays diverge";
@@ -243,7 +239,6 @@ TEST_F(AssociationTest, MapFeaturesWithoutABaselineAreKept) {
   builder_.addPixel(20, 20, 3);
   EXPECT_EQ(matchMapFeatures().matches.size(), 1U);
 }
-
 TEST_F(AssociationTest, EndedTracksAreFoundByDescriptor) {
   const Descriptor a = builder_.randomDescriptor();
   storeRay({0, 0.5, 0}, {100, 0, 0}, 3, a);
@@ -267,7 +262,6 @@ TEST_F(AssociationTest, EntriesOfLivingTracksAreNotSearchedByDescriptor) {
   EXPECT_EQ(result.mismatches, 1);
 }
 
-// 2-D mode: the epipolar line degenerates, order of the bearings and sign of the depth decide.
 TEST_F(AssociationTest, PlanarModeTestsTheOrderOfTheBearings) {
   storeRay({0, 0.5, 0}, {5, 0, 0}, 3);
   const auto judged = [&](double right_px, double down_px) {
