@@ -19,6 +19,14 @@ Eigen::Matrix3d excess(const Eigen::Matrix3d& covariance, double shared_m2) {
   return eigen.eigenvectors() * above.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
+/// How far a landmark lies off its measured ray from a camera position, in its own deviations.
+double residual(const Sighting& s, const Eigen::Vector3d& camera_map, double sigma_a) {
+  const Eigen::Vector3d to_landmark = s.landmark_map - camera_map;
+  const double d = to_landmark.dot(s.direction_map);
+  return (to_landmark - d * s.direction_map).norm() /
+         measurementDeviation_m(s.landmark_deviation_m, std::abs(d), sigma_a);
+}
+
 }  // namespace
 
 ThesisFilter::ThesisFilter(const ThesisFilterConfig& config) : config_(config) {
@@ -94,19 +102,54 @@ PositionFix ThesisFilter::printedMean(const std::vector<Sighting>& sightings,
 std::optional<PositionFix> ThesisFilter::exactMean(const std::vector<Sighting>& sightings,
                                                    const Eigen::Vector3d& predicted,
                                                    double sigma_a) const {
+  std::vector<double> trust(sightings.size(), 1);
+  std::optional<PositionFix> fix = leastSquares(sightings, predicted, sigma_a, trust);
+  // Iteratively reweighted: wrong matches would draw an undamped mean along with them.
+  constexpr int kRounds = 4;
+  for (int round = 0; fix && config_.outlier_deviations > 0 && round < kRounds; ++round) {
+    trust = trustIn(sightings, fix->position_map, sigma_a);
+    fix = leastSquares(sightings, predicted, sigma_a, trust);
+  }
+  return fix;
+}
+
+std::vector<double> ThesisFilter::trustIn(const std::vector<Sighting>& sightings,
+                                          const Eigen::Vector3d& camera_map, double sigma_a) const {
+  std::vector<double> residuals;
+  residuals.reserve(sightings.size());
+  for (const Sighting& s : sightings) residuals.push_back(residual(s, camera_map, sigma_a));
+  std::vector<double> sorted = residuals;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  constexpr double kMedianOfLength = 1.177;  // of a 2-vector of unit deviation per axis
+  constexpr double kPerfectFit = 1e-9;
+  const double limit =
+      config_.outlier_deviations * std::max(*middle / kMedianOfLength, kPerfectFit);
+  for (double& r : residuals) {
+    const double squared = r / limit * (r / limit);
+    r = 1 / ((1 + squared) * (1 + squared));  // Geman and McClure's weight
+  }
+  return residuals;
+}
+
+std::optional<PositionFix> ThesisFilter::leastSquares(const std::vector<Sighting>& sightings,
+                                                      const Eigen::Vector3d& predicted,
+                                                      double sigma_a,
+                                                      const std::vector<double>& trust) const {
   PositionFix fix;
   double weight_sum = 0;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d weighted_sum = Eigen::Vector3d::Zero();
-  for (const Sighting& s : sightings) {
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const Sighting& s = sightings[i];
     const double d = (s.landmark_map - predicted).dot(s.direction_map);
     const double sigma = measurementDeviation_m(s.landmark_deviation_m, std::abs(d), sigma_a);
+    const double weight = trust[i] / (sigma * sigma);
     const Eigen::Matrix3d across =
-        (Eigen::Matrix3d::Identity() - s.direction_map * s.direction_map.transpose()) /
-        (sigma * sigma);
-    fix.shared_variance_m2 += s.position_variance_m2 / (sigma * sigma);
-    fix.distance_m += std::abs(d) / (sigma * sigma);
-    weight_sum += 1 / (sigma * sigma);
+        weight * (Eigen::Matrix3d::Identity() - s.direction_map * s.direction_map.transpose());
+    fix.shared_variance_m2 += weight * s.position_variance_m2;
+    fix.distance_m += weight * std::abs(d);
+    weight_sum += weight;
     information += across;
     weighted_sum += across * s.landmark_map;
   }

@@ -19,6 +19,7 @@ struct EnumNames<MeanKind> {
 
 struct ThesisFilterConfig {
   MeanKind mean = MeanKind::kPrinted;
+  double outlier_deviations = 3.0;
   bool common_drift = true;
   int min_landmarks = 10;
   double initial_deviation_m = 0.01;
@@ -36,8 +37,12 @@ void visitParameters(ThesisFilterConfig& c, Visitor&& visit) {
       ParameterInfo{
           "mean", "choice", 0, 0,
           "printed: weighted mean (6.4), damped along the rays; exact: weighted least squares, "
-          "undamped, for odometry without drift of scale and scenes without wrong matches"},
+          "undamped, for odometry without drift of scale"},
       c.mean);
+  visit(ParameterInfo{"outlier_deviations", "-", 0, 1e6,
+                      "mean exact: a landmark that lies this many robust deviations off its ray "
+                      "weighs a quarter, further ones hardly anything; 0: all weigh fully"},
+        c.outlier_deviations);
   visit(ParameterInfo{"common_drift", "switch", 0, 0,
                       "on: landmarks share the drift of the time they were made, so fresh ones "
                       "correct little and old ones all; "
@@ -125,6 +130,12 @@ class ThesisFilter {
                           double sigma_a) const;
   std::optional<PositionFix> exactMean(const std::vector<Sighting>& sightings,
                                        const Eigen::Vector3d& predicted, double sigma_a) const;
+  std::optional<PositionFix> leastSquares(const std::vector<Sighting>& sightings,
+                                          const Eigen::Vector3d& predicted, double sigma_a,
+                                          const std::vector<double>& trust) const;
+  /// Weights in (0, 1] by how well each sighting agrees with a camera position.
+  std::vector<double> trustIn(const std::vector<Sighting>& sightings,
+                              const Eigen::Vector3d& camera_map, double sigma_a) const;
 
   ThesisFilterConfig config_;
   ObserverState observer_;

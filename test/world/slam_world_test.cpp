@@ -65,12 +65,13 @@ TEST(SlamWorld, TrueOdometryIsHardlyMadeWorse) {
   struct Case {
     MeanKind mean;
     double wrong_share;
-    double rmse_m;  // measured: 0.003, 0.02, 0.05; 0.025
+    double rmse_m;  // measured: 0.002, 0.02, 0.05; 0.02, 0.03, 0.37
   };
-  // The exact mean follows wrong matches (0.3 m for a share of 0.2): without a consensus it is only
-  // for scenes without them.
+  // With a share of 0.4 wrong landmarks, made of wrong features, outweigh what the exact mean's
+  // reweighting can tell apart.
   for (const Case& c : {Case{MeanKind::kPrinted, 0, 0.01}, Case{MeanKind::kPrinted, 0.2, 0.05},
-                        Case{MeanKind::kPrinted, 0.4, 0.1}, Case{MeanKind::kExact, 0, 0.05}}) {
+                        Case{MeanKind::kPrinted, 0.4, 0.1}, Case{MeanKind::kExact, 0, 0.05},
+                        Case{MeanKind::kExact, 0.2, 0.05}, Case{MeanKind::kExact, 0.4, 0.5}}) {
     PointWorld world = room(1, c.wrong_share);
     const FlightRun run = test::fly(world, flight, test::observeExactly(flight), withMean(c.mean));
     EXPECT_LT(run.fused.rmse_m, c.rmse_m) << nameOf(c.mean) << ' ' << c.wrong_share;
@@ -84,10 +85,13 @@ TEST(SlamWorld, RevisitsTakeTheDriftOutOfTheOdometry) {
   struct Case {
     MeanKind mean;
     double wrong_share;
+    double median;
     double worst;
   };
-  for (const Case& c : {Case{MeanKind::kPrinted, 0, 0.5}, Case{MeanKind::kPrinted, 0.2, 0.5},
-                        Case{MeanKind::kPrinted, 0.4, 0.5}, Case{MeanKind::kExact, 0, 0.8}}) {
+  for (const Case& c :
+       {Case{MeanKind::kPrinted, 0, 0.4, 0.5}, Case{MeanKind::kPrinted, 0.2, 0.4, 0.5},
+        Case{MeanKind::kPrinted, 0.4, 0.4, 0.5}, Case{MeanKind::kExact, 0, 0.4, 0.8},
+        Case{MeanKind::kExact, 0.2, 0.5, 0.8}, Case{MeanKind::kExact, 0.4, 1.0, 1.3}}) {
     std::vector<double> ratios;
     for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
       PointWorld world = room(seed, c.wrong_share);
@@ -97,7 +101,7 @@ TEST(SlamWorld, RevisitsTakeTheDriftOutOfTheOdometry) {
       EXPECT_LT(ratios.back(), c.worst)
           << "seed " << seed << ", " << nameOf(c.mean) << ", wrong " << c.wrong_share;
     }
-    EXPECT_LT(median(ratios), 0.4) << nameOf(c.mean) << ' ' << c.wrong_share;
+    EXPECT_LT(median(ratios), c.median) << nameOf(c.mean) << ' ' << c.wrong_share;
   }
 }
 
