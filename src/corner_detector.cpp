@@ -9,7 +9,7 @@
 #include "corner_cells.hpp"
 #include "corner_suppression.hpp"
 #include "corner_thresholds.hpp"
-#include "kernels/fast_kernels.hpp"
+#include "kernels/kernels.hpp"
 #include "sampling_raster.hpp"
 
 namespace ardrone_vslam {
@@ -102,7 +102,7 @@ void CornerDetector::State::testPixels(const ImageView& image) {
     if (y == kBorderPx || cells.rowAt(y) != cells.rowAt(y - 1)) spreadThresholds(cells.rowAt(y));
     const kernels::FastRow row{image.row(y), row_thresholds.data(), kBorderPx, width_px - kBorderPx,
                                sampledColumns(y, config.sampling_passes)};
-    const int count = kernels::fastRowScalar(row, circle, row_hits.data());
+    const int count = kernels::kernelsInUse().fast_row(row, circle, row_hits.data());
     for (int i = 0; i < count; ++i) {
       const auto x = static_cast<std::int16_t>(row_hits[static_cast<std::size_t>(i)]);
       hits.push_back({x, static_cast<std::int16_t>(y), 0});

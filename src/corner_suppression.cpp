@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "kernels/fast_kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -95,8 +95,8 @@ CornerSuppression::Place CornerSuppression::neighbour(const Place& place, int n)
 
 int CornerSuppression::scoreAt(const Place& place) const {
   if ((*place.entry & kScored) == 0) {
-    *place.entry =
-        static_cast<std::uint16_t>(kScored | kernels::fastScoreScalar(place.pixel, circle_));
+    *place.entry = static_cast<std::uint16_t>(
+        kScored | kernels::kernelsInUse().fast_score(place.pixel, circle_));
   }
   return *place.entry & kScoreMask;
 }
@@ -105,7 +105,7 @@ int CornerSuppression::scoreAt(const Place& place) const {
 /// cheaper than the score.
 bool CornerSuppression::reaches(const Place& place, int score) const {
   if ((*place.entry & kScored) != 0) return (*place.entry & kScoreMask) >= score;
-  return kernels::fastTestScalar(place.pixel, circle_, score);
+  return kernels::kernelsInUse().fast_test(place.pixel, circle_, score);
 }
 
 /// Moves to the highest 8-neighbour. @return false if none is higher

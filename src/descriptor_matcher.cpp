@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "kernels/hamming_kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -29,8 +29,8 @@ void matchTile(const std::vector<Descriptor>& query, const std::vector<Descripto
   std::array<std::uint16_t, kTile> distances_bits;
   std::array<BestTwo, kTile> best_of_train;
   for (std::size_t q = 0; q < query.size(); ++q) {
-    kernels::hammingDistancesScalar(query[q].words.data(), train[first].words.data(), count,
-                                    distances_bits.data());
+    kernels::kernelsInUse().hamming_distances(query[q].words.data(), train[first].words.data(),
+                                              count, distances_bits.data());
     BestTwo best = bestOf(best_of_query[q]);
     for (std::size_t t = 0; t < count; ++t)
       best.offer(static_cast<int>(first + t), distances_bits[t]);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "freak_pattern.hpp"
-#include "kernels/freak_kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -94,11 +94,11 @@ void FreakDescriber::State::computeIntegrals(const ImageView& image) {
   const auto isEnlarged = [](int scale) { return scale > 0; };
   if (!std::all_of(scales.begin(), scales.end(), isEnlarged)) {
     std::uint16_t* sums = integral16.resize(image);
-    kernels::freakIntegral16Scalar(pixels, sums, integral16.stride);
+    kernels::kernelsInUse().freak_integral16(pixels, sums, integral16.stride);
   }
   if (std::any_of(scales.begin(), scales.end(), isEnlarged)) {
     std::uint32_t* sums = integral32.resize(image);
-    kernels::freakIntegral32Scalar(pixels, sums, integral32.stride);
+    kernels::kernelsInUse().freak_integral32(pixels, sums, integral32.stride);
   }
   boxes_hold = std::max(image.width_px, image.height_px) <= FreakPattern::kLargestSide_px;
 }
@@ -108,8 +108,8 @@ void FreakDescriber::State::computeMeans(const FreakKeypoint& keypoint, int scal
   const int x = keypoint.x_px;
   const int y = keypoint.y_px;
   if (scale == 0 && boxes_hold) {
-    kernels::freakMeansScalar(integral16.at(x, y), integral16.stride, pattern.boxes(orientation),
-                              means.data());
+    kernels::kernelsInUse().freak_means(integral16.at(x, y), integral16.stride,
+                                        pattern.boxes(orientation), means.data());
     for (const auto& irregular : pattern.irregular(orientation)) {
       means[static_cast<std::size_t>(irregular.index)] =
           integral16.mean(boxAround(irregular.field, x, y));
@@ -130,14 +130,15 @@ Descriptor FreakDescriber::State::describeOne(const FreakKeypoint& keypoint, int
   angle_deg = 0.F;
   if (config.oriented) {
     std::array<std::int32_t, 2> sums;
-    kernels::freakOrientationScalar(means.data(), pattern.orientationPairs(), sums.data());
+    kernels::kernelsInUse().freak_orientation(means.data(), pattern.orientationPairs(),
+                                              sums.data());
     angle_deg = angleOf_deg(sums);
     const int orientation = orientationOf(angle_deg);
     if (orientation != 0) computeMeans(keypoint, scale, orientation, means);
   }
   Descriptor descriptor;
-  kernels::freakBitsScalar(means.data(), pattern.first(), pattern.second(),
-                           descriptor.words.data());
+  kernels::kernelsInUse().freak_bits(means.data(), pattern.first(), pattern.second(),
+                                     descriptor.words.data());
   return descriptor;
 }
 

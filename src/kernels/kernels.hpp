@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "ardrone_vslam/instruction_set.hpp"
+#include "kernels/fast_kernels.hpp"
+#include "kernels/freak_kernels.hpp"
+#include "kernels/hamming_kernels.hpp"
+
+namespace ardrone_vslam::kernels {
+
+/// One form of every kernel.
+struct Kernels {
+  decltype(&fastRowScalar) fast_row = fastRowScalar;
+  decltype(&fastTestScalar) fast_test = fastTestScalar;
+  decltype(&fastScoreScalar) fast_score = fastScoreScalar;
+  decltype(&freakIntegral16Scalar) freak_integral16 = freakIntegral16Scalar;
+  decltype(&freakIntegral32Scalar) freak_integral32 = freakIntegral32Scalar;
+  decltype(&freakMeansScalar) freak_means = freakMeansScalar;
+  decltype(&freakOrientationScalar) freak_orientation = freakOrientationScalar;
+  decltype(&freakBitsScalar) freak_bits = freakBitsScalar;
+  decltype(&hammingDistancesScalar) hamming_distances = hammingDistancesScalar;
+};
+
+/// The fastest form of each kernel that needs no more than `set`, which must be supported here.
+Kernels kernelsFor(InstructionSet set);
+
+/// Those for instructionSetInUse().
+const Kernels& kernelsInUse();
+
+}  // namespace ardrone_vslam::kernels
