@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "params.hpp"
 
-#include <algorithm>
-#include <numeric>
-
 namespace ardrone_vslam {
 namespace {
 
@@ -11,22 +8,6 @@ namespace {
 const std::set<std::string>& keysOfRos() {
   static const std::set<std::string> kKeys{"diagnostic_period", "num_worker_threads", "tf_prefix"};
   return kKeys;
-}
-
-/// Levenshtein's.
-std::size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
-    }
-  }
-  return row.back();
 }
 
 std::string textOf(XmlRpc::XmlRpcValue& value) {
@@ -92,20 +73,6 @@ std::vector<std::string> ParamReader::unknownKeys() const {
                         " (docs/parameters.md lists all)");
   }
   return sentences;
-}
-
-std::string nearestName(const std::string& name, const std::set<std::string>& known) {
-  std::string nearest;
-  std::size_t smallest = name.size() / 2 + 1;  // more than half of it wrong is not similar
-  for (const auto& candidate : known) {
-    const bool is_part = candidate.find(name) != std::string::npos;
-    const std::size_t distance = is_part ? 1 : editDistance(name, candidate);
-    if (distance < smallest) {
-      smallest = distance;
-      nearest = candidate;
-    }
-  }
-  return nearest;
 }
 
 }  // namespace ardrone_vslam

@@ -93,7 +93,4 @@ class ParamReader {
   std::string summary_;
 };
 
-/// The known name with the smallest edit distance to `name`; empty when none is similar.
-std::string nearestName(const std::string& name, const std::set<std::string>& known);
-
 }  // namespace ardrone_vslam

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -75,5 +76,10 @@ void validate(const Config& config) {
   const auto faults = rangeFaults(config);
   if (!faults.empty()) throw ConfigError(faults);
 }
+
+/// For the message that refuses an unknown name.
+/// @return the known name that takes the fewest letters to insert, remove or replace to become
+/// `written`, or contains it; empty when none is similar.
+std::string nearestName(const std::string& written, const std::set<std::string>& known);
 
 }  // namespace ardrone_vslam

@@ -67,13 +67,5 @@ TEST(NodeConfig, ShippedFilesLoad) {
   }
 }
 
-TEST(NodeConfig, NearestName) {
-  const std::set<std::string> known{"threshold", "features_per_frame", "max_landmarks"};
-  EXPECT_EQ(nearestName("thresold", known), "threshold");
-  EXPECT_EQ(nearestName("landmarks", known), "max_landmarks");
-  EXPECT_EQ(nearestName("feature_per_frames", known), "features_per_frame");
-  EXPECT_EQ(nearestName("colour", known), "");
-}
-
 }  // namespace
 }  // namespace ardrone_vslam

@@ -109,5 +109,14 @@ TEST(Parameters, NamesOfChoices) {
   EXPECT_STREQ(nameOf(MeanKind::kExact), "exact");
 }
 
+TEST(Parameters, NearestName) {
+  const std::set<std::string> known{"threshold", "features_per_frame", "max_landmarks"};
+  EXPECT_EQ(nearestName("thresold", known), "threshold");
+  EXPECT_EQ(nearestName("landmarks", known), "max_landmarks");
+  EXPECT_EQ(nearestName("feature_per_frames", known), "features_per_frame");
+  EXPECT_EQ(nearestName("colour", known), "");
+  EXPECT_EQ(nearestName("max", known), "") << "part of too many names";
+}
+
 }  // namespace
 }  // namespace ardrone_vslam

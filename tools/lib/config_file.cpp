@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <numeric>
+#include <set>
 
 #include "../../nodes/node_config.hpp"  // the structs alone: no ROS
 
@@ -123,37 +123,20 @@ bool isNodeKey(const std::string& section, const std::string& key) {
                               : hasParameter(MapperNodeConfig{}, key);
 }
 
-/// Number of letters to insert, remove or replace to make one word of the other (Levenshtein).
-std::size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-bool looksLike(const std::string& written, const std::string& name) {
-  constexpr std::size_t kSlips = 3;
-  constexpr std::size_t kWordLength = 4;  // shorter pieces are part of too many names
-  const bool contained =
-      written.size() >= kWordLength &&
-      (name.find(written) != std::string::npos || written.find(name) != std::string::npos);
-  return contained || editDistance(written, name) <= std::min(kSlips, written.size() / 2);
-}
-
 template <class Config>
-void addSimilar(const char* section, Config config, const std::string& written, std::string& hint) {
-  visitParameters(config, [&](const ParameterInfo& info, auto&) {
-    if (looksLike(written, info.name))
-      hint += std::string(hint.empty() ? "; did you mean " : " or ") + section + "/" + info.name;
-  });
+void addNames(Config config, std::set<std::string>& names) {
+  visitParameters(config, [&](const ParameterInfo& info, auto&) { names.insert(info.name); });
+}
+
+/// Over both sections: --set puts a key that it does not know into one.
+std::string hintFor(const std::string& written) {
+  std::set<std::string> names;
+  addNames(TrackerConfig{}, names);
+  addNames(SlamConfig{}, names);
+  const std::string nearest = nearestName(written, names);
+  if (nearest.empty()) return {};
+  return std::string("; did you mean ") +
+         (hasParameter(TrackerConfig{}, nearest) ? "tracker/" : "mapper/") + nearest;
 }
 
 template <class Config>
@@ -164,11 +147,8 @@ void readSection(const char* name, std::map<std::string, Section>& sections, Con
   visitParameters(config, SectionReader{name, &values, &faults});
   for (const auto& leftover : values) {
     if (isNodeKey(name, leftover.first)) continue;
-    std::string hint;  // over both sections: --set puts a key that it does not know into one
-    addSimilar("tracker", TrackerConfig{}, leftover.first, hint);
-    addSimilar("mapper", SlamConfig{}, leftover.first, hint);
-    faults.push_back(std::string(name) + "/" + leftover.first + " is not a parameter" + hint +
-                     " (docs/parameters.md lists all)");
+    faults.push_back(std::string(name) + "/" + leftover.first + " is not a parameter" +
+                     hintFor(leftover.first) + " (docs/parameters.md lists all)");
   }
   const auto range_faults = rangeFaults(config);
   faults.insert(faults.end(), range_faults.begin(), range_faults.end());
