@@ -29,7 +29,7 @@ ros::Time toRosTime(std::int64_t stamp_ns);
 // --- in -----------------------------------------------------------------------------------------
 
 /// Pose of base in odom with a normalised quaternion. The covariance is row-major, axes of odom, as
-/// in the message. The twist is only checked to be finite.
+/// in the message.
 Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry);
 
 /// @return what is wrong with the message (sizes, values not finite, bearings not of unit length),
@@ -58,8 +58,9 @@ geometry_msgs::Transform toTransform(const Eigen::Isometry3d& T_a_b);
 geometry_msgs::PoseWithCovarianceStamped toPoseMessage(const FrameResult& result,
                                                        const Frames& frames);
 /// The same as odometry; the twist (of base, axes of base) is the observer's.
+/// @param observer  at the same stamp
 nav_msgs::Odometry toOdometryMessage(const FrameResult& result, const Frames& frames,
-                                     const geometry_msgs::TwistWithCovariance& twist);
+                                     const ObserverState& observer);
 PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
                                    const Frames& frames);
 /// Fills the state and the counts of one frame; leaves stage times and totals alone.

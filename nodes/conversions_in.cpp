@@ -30,6 +30,10 @@ std::string sizesFault(const Features& m) {
   return {};
 }
 
+Matrix6d toMatrix(const boost::array<double, 36>& row_major) {
+  return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(row_major.data());
+}
+
 /// @return the fault
 std::string faultOf(const geometry_msgs::TwistWithCovariance& twist) {
   const auto& v = twist.twist.linear;
@@ -84,8 +88,11 @@ Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
   state.stamp_ns = toNanoseconds(odometry.header.stamp);
   state.T_odom_base.translation() = p;
   state.T_odom_base.linear() = q.normalized().toRotationMatrix();
-  state.covariance =
-      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(covariance.data());
+  state.covariance = toMatrix(covariance);
+  const auto& twist = odometry.twist.twist;
+  state.twist_base << twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.x,
+      twist.angular.y, twist.angular.z;
+  state.twist_covariance = toMatrix(odometry.twist.covariance);
   return {state, {}};
 }
 

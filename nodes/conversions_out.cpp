@@ -22,11 +22,14 @@ std_msgs::Header headerOf(std::int64_t stamp_ns, const std::string& frame) {
   return header;
 }
 
+void toRowMajor(const Matrix6d& matrix, boost::array<double, 36>& row_major) {
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(row_major.data()) = matrix;
+}
+
 geometry_msgs::PoseWithCovariance toPoseWithCovariance(const FrameResult& result) {
   geometry_msgs::PoseWithCovariance pose;
   pose.pose = toPose(result.T_map_base);
-  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(pose.covariance.data()) =
-      result.covariance;
+  toRowMajor(result.covariance, pose.covariance);
   return pose;
 }
 
@@ -119,12 +122,19 @@ geometry_msgs::PoseWithCovarianceStamped toPoseMessage(const FrameResult& result
 }
 
 nav_msgs::Odometry toOdometryMessage(const FrameResult& result, const Frames& frames,
-                                     const geometry_msgs::TwistWithCovariance& twist) {
+                                     const ObserverState& observer) {
   nav_msgs::Odometry message;
   message.header = headerOf(result.stamp_ns, frames.map);
   message.child_frame_id = frames.base;
   message.pose = toPoseWithCovariance(result);
-  message.twist = twist;
+  const Vector6d& twist = observer.twist_base;
+  message.twist.twist.linear.x = twist[0];
+  message.twist.twist.linear.y = twist[1];
+  message.twist.twist.linear.z = twist[2];
+  message.twist.twist.angular.x = twist[3];
+  message.twist.twist.angular.y = twist[4];
+  message.twist.twist.angular.z = twist[5];
+  toRowMajor(observer.twist_covariance, message.twist.covariance);
   return message;
 }
 

@@ -117,7 +117,6 @@ void MapperNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
     switch (matcher_->addObserver(*checked.value)) {
       case ObserverBuffer::Push::kAccepted:
         takeFrameNames(*odometry);
-        twist_ = odometry->twist;
         return processReady();
       case ObserverBuffer::Push::kNotFinite:
         fault = "it is not finite";
@@ -175,7 +174,7 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   answered_ns_ = result.stamp_ns;
   ++totals_.images;
   has_answer_ = true;
-  outputs_->publishFrame(result, slam_->T_map_odom(), frames_, twist_);
+  outputs_->publishFrame(result, slam_->T_map_odom(), frames_, frame.observer);
   publishStatus(result, *frame.features);
 }
 

@@ -67,12 +67,11 @@ class MapperNodelet : public nodelet::Nodelet {
   StampGuard stamps_;
   GapCounter gaps_;
   StageClock stage_clock_;
-  std::int64_t answered_ns_ = 0;              // stamp of the newest image in the map
-  ImageFeatures features_;                    // of the image at work; kept for its memory
-  Frames frames_;                             // odom and base are empty until the first odometry
-  CameraIdentity camera_;                     // of the newest features
-  std::string extrinsics_fault_;              // what tf says while the mounting is unknown
-  geometry_msgs::TwistWithCovariance twist_;  // of the newest odometry
+  std::int64_t answered_ns_ = 0;  // stamp of the newest image in the map
+  ImageFeatures features_;        // of the image at work; kept for its memory
+  Frames frames_;                 // odom and base are empty until the first odometry
+  CameraIdentity camera_;         // of the newest features
+  std::string extrinsics_fault_;  // what tf says while the mounting is unknown
 
   Status totals_;  // its counters only
   Status latest_;  // as published last

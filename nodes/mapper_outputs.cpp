@@ -20,11 +20,10 @@ MapperOutputs::MapperOutputs(ros::NodeHandle& nh, const MapperNodeConfig& config
 }
 
 void MapperOutputs::publishFrame(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
-                                 const Frames& frames,
-                                 const geometry_msgs::TwistWithCovariance& twist) {
+                                 const Frames& frames, const ObserverState& observer) {
   newest_ns_ = result.stamp_ns;
   pose_pub_.publish(toPoseMessage(result, frames));
-  odometry_pub_.publish(toOdometryMessage(result, frames, twist));
+  odometry_pub_.publish(toOdometryMessage(result, frames, observer));
   correction_pub_.publish(toCorrectionMessage(result, T_map_odom, frames));
   // At the first image map equals odom, so in map the observer's own poses show its drift.
   remember(fused_poses_, result.T_map_base, frames);

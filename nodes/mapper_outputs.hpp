@@ -18,8 +18,9 @@ class MapperOutputs {
   MapperOutputs(ros::NodeHandle& nh, const MapperNodeConfig& config);
 
   /// Pose, odometry, correction and tf of one image; remembers the path.
+  /// @param observer  at the image's stamp
   void publishFrame(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
-                    const Frames& frames, const geometry_msgs::TwistWithCovariance& twist);
+                    const Frames& frames, const ObserverState& observer);
 
   /// Paths, cloud and markers: large, so only to those who look, and only when there is something
   /// new. Called at a bounded rate.

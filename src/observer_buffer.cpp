@@ -7,7 +7,8 @@ namespace ardrone_vslam {
 namespace {
 
 bool isFinite(const ObserverState& state) {
-  return state.T_odom_base.matrix().allFinite() && state.covariance.allFinite();
+  return state.T_odom_base.matrix().allFinite() && state.covariance.allFinite() &&
+         state.twist_base.allFinite() && state.twist_covariance.allFinite();
 }
 
 std::int64_t toNanoseconds(double seconds) {
@@ -29,6 +30,8 @@ ObserverState interpolate(const ObserverState& a, const ObserverState& b, std::i
   state.T_odom_base.translation() =
       a.T_odom_base.translation() + s * (b.T_odom_base.translation() - a.T_odom_base.translation());
   state.covariance = a.covariance + s * (b.covariance - a.covariance);
+  state.twist_base = a.twist_base + s * (b.twist_base - a.twist_base);
+  state.twist_covariance = a.twist_covariance + s * (b.twist_covariance - a.twist_covariance);
   return state;
 }
 

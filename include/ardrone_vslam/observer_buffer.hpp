@@ -12,6 +12,7 @@
 namespace ardrone_vslam {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 /// What the drone's observer says of one instant.
 struct ObserverState {
@@ -20,6 +21,9 @@ struct ObserverState {
   /// Of position [m^2], then rotation vector [rad^2], axes of odom; all zero when the observer
   /// gives none.
   Matrix6d covariance = Matrix6d::Zero();
+  /// Of base, axes of base: linear [m/s], then angular [rad/s]. Only passed on; zero when unknown.
+  Vector6d twist_base = Vector6d::Zero();
+  Matrix6d twist_covariance = Matrix6d::Zero();  ///< in the same order
 };
 
 struct ObserverBufferConfig {
@@ -65,7 +69,7 @@ class ObserverBuffer {
   std::deque<ObserverState> states_;
 };
 
-/// Linear in position and covariance, slerp in orientation; `a` and `b` bracket the stamp.
+/// Linear in position, covariances and twist, slerp in orientation; `a` and `b` bracket the stamp.
 ObserverState interpolate(const ObserverState& a, const ObserverState& b, std::int64_t stamp_ns);
 
 }  // namespace ardrone_vslam

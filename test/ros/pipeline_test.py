@@ -141,6 +141,18 @@ class Pipeline(unittest.TestCase):
         self.assertTrue(all(time >= 0 for s in answers for time in s.stage_time))
 
     def test_features(self):
+    def test_twist_is_the_observers_at_the_images_stamp(self):
+        times_s = [o.header.stamp.to_sec() for o in self.odometry]
+        speeds = [o.twist.twist.linear.x for o in self.odometry]
+        turns = [o.twist.twist.angular.z for o in self.odometry]
+        self.assertGreater(max(speeds) - min(speeds), 0.1)
+        fused = self.all("odometry_fused")
+        stamps_s = [o.header.stamp.to_sec() for o in fused]
+        np.testing.assert_allclose([o.twist.twist.linear.x for o in fused],
+                                   np.interp(stamps_s, times_s, speeds), atol=1e-6)
+        np.testing.assert_allclose([o.twist.twist.angular.z for o in fused],
+                                   np.interp(stamps_s, times_s, turns), atol=1e-6)
+
         for features in self.all("features"):
             n = len(features.x)
             self.assertEqual(len(features.descriptor), 64 * n)

@@ -50,12 +50,23 @@ TEST(ResultConversion, Pose) {
 }
 
 TEST(ResultConversion, OdometryCarriesTheObserversTwist) {
-  geometry_msgs::TwistWithCovariance twist;
-  twist.twist.linear.x = 0.7;
-  const auto message = toOdometryMessage(someResult(), kFrames, twist);
+  ObserverState observer;
+  observer.twist_base << 0.7, 1, 2, 3, 4, 5;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column)
+      observer.twist_covariance(row, column) = 10 * row + column;
+  }
+  const auto message = toOdometryMessage(someResult(), kFrames, observer);
   EXPECT_EQ(message.header.frame_id, "map");
   EXPECT_EQ(message.child_frame_id, "base_link");
-  EXPECT_EQ(message.twist.twist.linear.x, 0.7);
+  const auto& twist = message.twist.twist;
+  EXPECT_EQ(twist.linear.x, 0.7);
+  EXPECT_EQ(twist.linear.y, 1);
+  EXPECT_EQ(twist.linear.z, 2);
+  EXPECT_EQ(twist.angular.x, 3);
+  EXPECT_EQ(twist.angular.y, 4);
+  EXPECT_EQ(twist.angular.z, 5);
+  EXPECT_EQ(message.twist.covariance[8], 12) << "row-major";
   EXPECT_EQ(message.pose, toPoseMessage(someResult(), kFrames).pose);
 }
 

@@ -33,6 +33,9 @@ TEST(ObserverBuffer, InterpolatesPositionOrientationAndCovariance) {
   ObserverState second = stateAt(kSecond_ns + 400'000'000, 6, 3.4);  // across the wrap at pi
   first.covariance.setIdentity();
   second.covariance = 5 * Matrix6d::Identity();
+  first.twist_base << 1, 2, 3, 4, 5, 6;
+  second.twist_base << 5, 2, 3, 4, 5, 2;
+  second.twist_covariance = 8 * Matrix6d::Identity();
   ASSERT_EQ(buffer.push(first), Push::kAccepted);
   ASSERT_EQ(buffer.push(second), Push::kAccepted);
   ObserverState state;
@@ -41,6 +44,10 @@ TEST(ObserverBuffer, InterpolatesPositionOrientationAndCovariance) {
   EXPECT_NEAR(state.T_odom_base.translation().x(), 3, 1e-12);
   EXPECT_NEAR(yawOf(state), 3.1, 1e-12);
   EXPECT_NEAR(state.covariance(4, 4), 2, 1e-12);
+  Vector6d twist;
+  twist << 2, 2, 3, 4, 5, 5;
+  EXPECT_TRUE(state.twist_base.isApprox(twist, 1e-12)) << state.twist_base.transpose();
+  EXPECT_NEAR(state.twist_covariance(0, 0), 2, 1e-12);
 }
 
 TEST(ObserverBuffer, EqualNeighboursStayEqualToTheBit) {
@@ -74,7 +81,9 @@ TEST(ObserverBuffer, RefusesWhatIsNotFiniteDuplicateOrBackward) {
   nan_rotation.T_odom_base.linear()(2, 1) = std::nan("");
   ObserverState endless_covariance = stateAt(1);
   endless_covariance.covariance(0, 0) = std::numeric_limits<double>::infinity();
-  for (const ObserverState& bad : {nan_position, nan_rotation, endless_covariance})
+  ObserverState nan_twist = stateAt(1);
+  nan_twist.twist_base[5] = std::nan("");
+  for (const ObserverState& bad : {nan_position, nan_rotation, endless_covariance, nan_twist})
     EXPECT_EQ(buffer.push(bad), Push::kNotFinite);
   EXPECT_TRUE(buffer.empty());
 
