@@ -162,6 +162,7 @@ bool MapperNodelet::prepareSlam() {
   if (!T_base_cam) return false;
   extrinsics_fault_.clear();
   slam_ = std::make_unique<Slam>(config_, *T_base_cam);
+  T_base_cam_ = *T_base_cam;
   NODELET_INFO_STREAM("frames: " << frames_.map << " -> " << frames_.odom << " -> " << frames_.base
                                  << " -> " << camera << ", camera at ("
                                  << T_base_cam->translation().transpose() << ") m");
@@ -174,6 +175,11 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   answered_ns_ = result.stamp_ns;
   ++totals_.images;
   has_answer_ = true;
+  if (result.state == SlamState::kBuildingMap) {
+    standstill_.see(features_, frame.observer.T_odom_base * T_base_cam_);
+  } else {
+    standstill_.reset();
+  }
   outputs_->publishFrame(result, slam_->T_map_odom(), frames_, frame.observer);
   publishStatus(result, *frame.features);
 }
@@ -194,6 +200,7 @@ void MapperNodelet::beginMapAnew(const std::string& why) {
   NODELET_WARN_STREAM(why << ": the map begins anew");
   ++totals_.restarts;
   slam_.reset();
+  standstill_.reset();
   answered_ns_ = 0;
   outputs_->clear();
 }

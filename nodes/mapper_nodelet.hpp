@@ -15,6 +15,7 @@
 #include "node_config.hpp"
 #include "stage_clock.hpp"
 #include "stamp_guard.hpp"
+#include "standstill_watch.hpp"
 #include "warning_limiter.hpp"
 
 namespace ardrone_vslam {
@@ -64,6 +65,8 @@ class MapperNodelet : public nodelet::Nodelet {
 
   std::unique_ptr<FrameMatcher> matcher_;
   std::unique_ptr<Slam> slam_;
+  Eigen::Isometry3d T_base_cam_ = Eigen::Isometry3d::Identity();  // as slam_ has it
+  StandstillWatch standstill_;
   StampGuard stamps_;
   GapCounter gaps_;
   StageClock stage_clock_;

@@ -17,6 +17,12 @@ void MapperNodelet::warn(const std::string& topic, const std::string& fault) {
 void MapperNodelet::publishStatus(const FrameResult& result, const Features& features) {
   Status status;
   toStatus(result, frames_.map, status);
+  if (standstill_.isStuck()) {
+    status.reason = explainStandstill(odometry_sub_.getTopic());
+    if (limiter_.allows(status.reason, ros::SteadyTime::now().toSec())) {
+      NODELET_WARN_STREAM(status.reason);
+    }
+  }
   for (std::size_t i = 0; i < kStageCount; ++i) {
     status.stage.emplace_back(kStageNames[i]);
     status.stage_time.push_back(
@@ -81,14 +87,14 @@ void MapperNodelet::onSecond() {
 
 void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper) {
   using diagnostic_msgs::DiagnosticStatus;
+  const bool is_stuck = latest_.state == Status::WAITING_FOR_ODOMETRY ||
+                        latest_.state == Status::WAITING_FOR_EXTRINSICS || standstill_.isStuck();
   const bool is_well = latest_.state == Status::LOCALISED ||
                        latest_.state == Status::BUILDING_MAP ||
                        latest_.state == Status::OBSERVER_ONLY;
-  const bool is_stuck = latest_.state == Status::WAITING_FOR_ODOMETRY ||
-                        latest_.state == Status::WAITING_FOR_EXTRINSICS;
-  const auto level = is_well    ? DiagnosticStatus::OK
-                     : is_stuck ? DiagnosticStatus::ERROR
-                                : DiagnosticStatus::WARN;
+  const auto level = is_stuck  ? DiagnosticStatus::ERROR
+                     : is_well ? DiagnosticStatus::OK
+                               : DiagnosticStatus::WARN;
   wrapper.summary(
       static_cast<unsigned char>(level),
       latest_.reason.empty() ? latest_.state_name : latest_.state_name + ": " + latest_.reason);

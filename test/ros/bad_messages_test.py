@@ -161,6 +161,22 @@ class BadMessages(unittest.TestCase):
             odometry.header.stamp -= rospy.Duration(0.5)
         self.refuse_odometry(change, "/odometry", "stamps must ascend")
 
+    def test_zero_odometry(self):
+        """All zeros but well formed: the reason names the topic, until the odometry moves."""
+        self.drone.time_s -= 100  # a new map
+        for _ in range(45):  # 4.5 s
+            stamp = self.drone.next()
+            odometry = self.drone.odometry()
+            odometry.pose.pose.position.y = 0
+            self.drone.send(odometry, self.drone.image(), self.drone.info())
+            self.assertIsNotNone(self.drone.answered(stamp))
+        status = self.drone.status.wait(lambda s: s.header.stamp == stamp)
+        self.assertEqual(status.state, Status.BUILDING_MAP)
+        self.assertIn("/odometry never moves", status.reason)
+        self.assert_said("/odometry never moves", "rostopic echo", "remap")
+        self.drone.time_s -= 100
+        self.assertNotIn("never moves", self.fly_well().reason)
+
     # features
 
     def test_features_of_wrong_size(self):
