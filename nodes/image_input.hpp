@@ -29,4 +29,16 @@ GreyImage toGrey(const sensor_msgs::ImageConstPtr& message);
 /// JPEG, PNG or whatever else OpenCV decodes.
 GreyImage toGrey(const sensor_msgs::CompressedImageConstPtr& message);
 
+/// An image message of either kind: exactly one pointer is set.
+struct AnyImage {
+  sensor_msgs::ImageConstPtr raw;
+  sensor_msgs::CompressedImageConstPtr compressed;
+
+  const std_msgs::Header& header() const { return raw ? raw->header : compressed->header; }
+};
+
+inline GreyImage toGrey(const AnyImage& image) {
+  return image.raw ? toGrey(image.raw) : toGrey(image.compressed);
+}
+
 }  // namespace ardrone_vslam

@@ -70,6 +70,8 @@ void MapperNodelet::readParameters() {
 void MapperNodelet::onFeatures(const FeaturesConstPtr& features) {
   has_features_ = true;
   totals_.images_dropped = features->images_dropped;
+  totals_.images_dropped_queue = features->images_dropped_queue;
+  totals_.images_without_camera_info = features->images_without_camera_info;
   gaps_.see(features->header.seq);
   totals_.dropped_queue = gaps_.lost();
   if (!acceptFeatures(*features)) return;

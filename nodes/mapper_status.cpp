@@ -65,6 +65,8 @@ void MapperNodelet::publishWaiting() {
 void MapperNodelet::fillTotals(Status& status) const {
   status.images = totals_.images;
   status.images_dropped = totals_.images_dropped;
+  status.images_dropped_queue = totals_.images_dropped_queue;
+  status.images_without_camera_info = totals_.images_without_camera_info;
   status.dropped_bad_message = totals_.dropped_bad_message;
   status.dropped_stamp = totals_.dropped_stamp;
   status.dropped_queue = totals_.dropped_queue;

@@ -4,7 +4,6 @@
 #include <ardrone_vslam/Features.h>
 #include <cv_bridge/cv_bridge.h>
 #include <image_transport/camera_common.h>
-#include <image_transport/image_transport.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include <boost/make_shared.hpp>
@@ -12,11 +11,28 @@
 
 #include "conversions.hpp"
 #include "debug_image.hpp"
-#include "image_topics.hpp"
 #include "params.hpp"
 #include "track_ids.hpp"
 
 namespace ardrone_vslam {
+
+class TrackerNodelet::Work : public ros::CallbackInterface {
+ public:
+  explicit Work(TrackerNodelet& nodelet) : nodelet_(nodelet) {}
+  CallResult call() override {
+    nodelet_.processNext();
+    return Success;
+  }
+
+ private:
+  TrackerNodelet& nodelet_;
+};
+
+TrackerNodelet::~TrackerNodelet() {
+  receiver_.reset();  // no wake() after this
+  if (own_queue_ != nullptr) own_queue_->removeByID(reinterpret_cast<std::uint64_t>(this));
+}
+
 void TrackerNodelet::onInit() {
   readParameters();
   next_track_id_ = firstTrackId(ros::WallTime::now().toNSec());
@@ -56,8 +72,10 @@ void TrackerNodelet::readParameters() {
 }
 
 void TrackerNodelet::subscribe() {
-  ros::NodeHandle& nh = getNodeHandle();
-  const auto queue_size = static_cast<std::uint32_t>(node_config_.queue_size);
+  queue_ = std::make_unique<ImageQueue>(static_cast<std::size_t>(node_config_.queue_size));
+  own_queue_ = &getSTCallbackQueue();
+  ros::NodeHandle nh(getNodeHandle());
+  nh.setCallbackQueue(&receive_queue_);
   const bool is_compressed = node_config_.image_transport == ImageTransport::kCompressed;
   const std::string base_topic = nh.resolveName("image");
   image_topic_ = is_compressed ? base_topic + "/compressed" : base_topic;
@@ -66,41 +84,51 @@ void TrackerNodelet::subscribe() {
   if (info_topic_ == nh.resolveName("camera_info", false)) {
     info_topic_ = image_transport::getCameraInfoTopic(base_topic);
   }
-  info_.registerCallback(boost::function<void(const sensor_msgs::CameraInfoConstPtr&)>(
-      [this](const sensor_msgs::CameraInfoConstPtr&) { ++infos_; }));
-  info_.subscribe(nh, info_topic_, queue_size);
+  // Without limit: the thread that receives does hardly more than count, so nothing piles up here.
+  constexpr std::uint32_t kUnlimited = 0;
+  // Else small messages like camera_info may be held back by 40 ms, and images wait for them.
+  const auto hints = ros::TransportHints().tcpNoDelay();
+  const auto on_info = [this](const sensor_msgs::CameraInfoConstPtr& info) {
+    if (queue_->addInfo(info)) wake();
+  };
+  const auto on_raw = [this](const sensor_msgs::ImageConstPtr& image) {
+    if (queue_->addImage({image, nullptr})) wake();
+  };
+  const auto on_compressed = [this](const sensor_msgs::CompressedImageConstPtr& image) {
+    if (queue_->addImage({nullptr, image})) wake();
+  };
+  info_sub_ = nh.subscribe<sensor_msgs::CameraInfo>(info_topic_, kUnlimited, on_info, {}, hints);
   if (is_compressed) {
-    using sensor_msgs::CompressedImage;
-    compressed_.registerCallback(boost::function<void(const sensor_msgs::CompressedImageConstPtr&)>(
-        [this](const sensor_msgs::CompressedImageConstPtr&) { ++images_; }));
-    compressed_sync_ = std::make_unique<
-        message_filters::TimeSynchronizer<CompressedImage, sensor_msgs::CameraInfo>>(
-        compressed_, info_, queue_size);
-    compressed_sync_->registerCallback(&TrackerNodelet::onImage<CompressedImage>, this);
-    compressed_.subscribe(nh, image_topic_, queue_size);
+    image_sub_ = nh.subscribe<sensor_msgs::CompressedImage>(image_topic_, kUnlimited, on_compressed,
+                                                            {}, hints);
   } else {
-    using sensor_msgs::Image;
-    raw_.registerCallback(boost::function<void(const sensor_msgs::ImageConstPtr&)>(
-        [this](const sensor_msgs::ImageConstPtr&) { ++images_; }));
-    raw_sync_ = std::make_unique<message_filters::TimeSynchronizer<Image, sensor_msgs::CameraInfo>>(
-        raw_, info_, queue_size);
-    raw_sync_->registerCallback(&TrackerNodelet::onImage<Image>, this);
-    raw_.subscribe(*transport_, image_topic_, queue_size, image_transport::TransportHints("raw"));
+    image_sub_ = nh.subscribe<sensor_msgs::Image>(image_topic_, kUnlimited, on_raw, {}, hints);
   }
+  receiver_ = std::make_unique<ros::AsyncSpinner>(1, &receive_queue_);
+  receiver_->start();
   NODELET_INFO_STREAM("images from " << image_topic_ << ", calibration from " << info_topic_);
 }
 
-template <class Message>
-void TrackerNodelet::onImage(const boost::shared_ptr<const Message>& message,
-                             const sensor_msgs::CameraInfoConstPtr& info) {
-  if (!acceptStamp(message->header)) return;
+void TrackerNodelet::wake() {
+  own_queue_->addCallback(boost::make_shared<Work>(*this), reinterpret_cast<std::uint64_t>(this));
+}
+
+void TrackerNodelet::processNext() {
+  bool has_more = false;
+  const auto next = queue_->take(has_more);
+  if (has_more) wake();  // one at a time, so that the timers have their turn in between
+  if (next) onImage(next->image, *next->info);
+}
+
+void TrackerNodelet::onImage(const AnyImage& message, const sensor_msgs::CameraInfo& info) {
+  const std_msgs::Header& header = message.header();
+  if (!acceptStamp(header)) return;
   const GreyImage image = toGrey(message);
   if (!image.fault.empty()) return drop(image_topic_, image.fault);
-  if (!prepareTracker(*info, message->header.frame_id, image)) return;
-  tracker_->process(image.view(), toNanoseconds(message->header.stamp), features_,
-                    stage_clock_.hook());
+  if (!prepareTracker(info, header.frame_id, image)) return;
+  tracker_->process(image.view(), toNanoseconds(header.stamp), features_, stage_clock_.hook());
   next_track_id_ = tracker_->nextTrackId();
-  publish(image, message->header);
+  publish(image, header);
 }
 
 bool TrackerNodelet::acceptStamp(const std_msgs::Header& header) {
@@ -168,6 +196,9 @@ void TrackerNodelet::publish(const GreyImage& image, const std_msgs::Header& hea
     message->stage_time[i] = static_cast<float>(stage_clock_.milliseconds(static_cast<Stage>(i)));
   }
   message->images_dropped = dropped_;
+  const ImageQueue::Counts counts = queue_->counts();
+  message->images_dropped_queue = counts.overflowed;
+  message->images_without_camera_info = counts.without_info;
   message->header.seq = static_cast<std::uint32_t>(++processed_);  // a gap tells of a lost message
   features_pub_.publish(FeaturesConstPtr(message));  // to const: no copy within the manager
   fault_.clear();
@@ -175,58 +206,6 @@ void TrackerNodelet::publish(const GreyImage& image, const std_msgs::Header& hea
   const cv_bridge::CvImage drawn(header, sensor_msgs::image_encodings::BGR8,
                                  drawFeatures(image.pixels, features_));
   debug_pub_.publish(drawn.toImageMsg());
-}
-
-void TrackerNodelet::drop(const std::string& topic, const std::string& fault) {
-  ++dropped_;
-  fault_ = topic + ": " + fault;
-  if (limiter_.allows(fault_, ros::SteadyTime::now().toSec())) {
-    NODELET_WARN_STREAM("image dropped (" << dropped_ << " so far): " << fault_);
-  }
-}
-
-void TrackerNodelet::onSecond() {
-  const bool has_images = images_ != images_before_;
-  const bool has_infos = infos_ != infos_before_;
-  const bool has_answers = processed_ + dropped_ != processed_before_ + dropped_before_;
-  rate_hz_ = static_cast<double>(processed_ - processed_before_);
-  waiting_for_.clear();
-  if (!has_images) {
-    // check() first: getTopics() would wait for a master that is gone.
-    if (isReminderDue(seconds_waiting_ + 1) && ros::master::check()) {
-      ros::master::getTopics(published_);
-    }
-    waiting_for_ = adviceWithoutImages(image_topic_, published_);
-  } else if (!has_infos) {
-    waiting_for_ = "images on " + image_topic_ + " but no camera_info on " + info_topic_ +
-                   ": calibrate the camera, or remap `camera_info`";
-  } else if (!has_answers) {
-    waiting_for_ = "images on " + image_topic_ + " and camera_info on " + info_topic_ +
-                   " have no stamps in common: the driver must give both the same stamp";
-  }
-  seconds_waiting_ = waiting_for_.empty() ? 0 : seconds_waiting_ + 1;
-  if (isReminderDue(seconds_waiting_)) NODELET_WARN_STREAM(waiting_for_);
-  diagnostics_->force_update();
-  processed_before_ = processed_;
-  dropped_before_ = dropped_;
-  images_before_ = images_;
-  infos_before_ = infos_;
-}
-
-void TrackerNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using diagnostic_msgs::DiagnosticStatus;
-  if (!waiting_for_.empty()) {
-    status.summary(DiagnosticStatus::WARN, waiting_for_);
-  } else if (!fault_.empty()) {
-    status.summary(DiagnosticStatus::ERROR, "images are dropped: " + fault_);
-  } else {
-    status.summary(DiagnosticStatus::OK, "tracking");
-  }
-  status.add("images per second", rate_hz_);
-  status.add("images received", images_);
-  status.add("images processed", processed_);
-  status.add("images dropped", dropped_);
-  status.add("features in the latest image", features_.size());
 }
 
 }  // namespace ardrone_vslam

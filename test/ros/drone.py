@@ -78,7 +78,8 @@ class Drone:
     """Publishes images, calibration, odometry and mounting; records what the nodelets answer."""
 
     def __init__(self, vslam="/vslam", camera="/camera", odometry="/odometry", prefix="", seed=1,
-                 direction=1, compressed=False):
+                 direction=1, compressed=False, queue_size=10):
+        """queue_size: of images and camera_info; None: sending blocks, so nothing is lost here"""
         self.prefix = prefix
         self.direction = direction
         self.steps = 0
@@ -87,8 +88,8 @@ class Drone:
         self._image = self.compressed_image if compressed else self.image
         self._images = rospy.Publisher(
             camera + "/image_raw" + ("/compressed" if compressed else ""),
-            CompressedImage if compressed else Image, queue_size=10)
-        self._infos = rospy.Publisher(camera + "/camera_info", CameraInfo, queue_size=10)
+            CompressedImage if compressed else Image, queue_size=queue_size)
+        self._infos = rospy.Publisher(camera + "/camera_info", CameraInfo, queue_size=queue_size)
         self._odometry = rospy.Publisher(odometry, Odometry, queue_size=100)
         self._tf = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
         self.pose = Recorder(vslam + "/pose", PoseWithCovarianceStamped)

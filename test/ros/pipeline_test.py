@@ -131,8 +131,9 @@ class Pipeline(unittest.TestCase):
         answers = [s for s in self.all("status") if s.header.stamp in set(self.answerable)]
         last = answers[-1]
         self.assertEqual(last.images, len(self.answerable))
-        self.assertEqual(last.images_dropped + last.dropped_bad_message + last.dropped_stamp +
-                         last.dropped_queue, 0)
+        self.assertEqual(last.images_dropped + last.images_dropped_queue +
+                         last.images_without_camera_info + last.dropped_bad_message +
+                         last.dropped_stamp + last.dropped_queue, 0)
         self.assertEqual(last.dropped_no_odometry, len(self.images) - len(self.answerable))
         self.assertEqual(list(last.stage),
                          ["detect", "describe", "track", "associate", "localise", "map"])
@@ -140,7 +141,6 @@ class Pipeline(unittest.TestCase):
         self.assertGreater(last.stage_time[0], 0)
         self.assertTrue(all(time >= 0 for s in answers for time in s.stage_time))
 
-    def test_features(self):
     def test_twist_is_the_observers_at_the_images_stamp(self):
         times_s = [o.header.stamp.to_sec() for o in self.odometry]
         speeds = [o.twist.twist.linear.x for o in self.odometry]
@@ -153,6 +153,7 @@ class Pipeline(unittest.TestCase):
         np.testing.assert_allclose([o.twist.twist.angular.z for o in fused],
                                    np.interp(stamps_s, times_s, turns), atol=1e-6)
 
+    def test_features(self):
         for features in self.all("features"):
             n = len(features.x)
             self.assertEqual(len(features.descriptor), 64 * n)
