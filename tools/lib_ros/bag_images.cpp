@@ -7,6 +7,7 @@
 
 #include "bag_messages.hpp"
 #include "bag_poses.hpp"
+#include "bag_read_message.hpp"
 #include "grey_image.hpp"
 
 namespace ardrone_vslam {
@@ -44,12 +45,12 @@ BagImages::BagImages(const rosbag::Bag& bag, const ChosenTopics& topics,
 BagImages::Candidate BagImages::inspect(const rosbag::MessageInstance& instance) const {
   Candidate candidate;
   if (is_compressed_) {
-    const auto message = instance.instantiate<sensor_msgs::CompressedImage>();
+    const auto message = readMessage<sensor_msgs::CompressedImage>(instance);
     if (!message) return candidate;
     const cv::Mat image = greyImage(*message);
     candidate = {message->header, !image.empty(), image.size()};
   } else {
-    const auto message = instance.instantiate<sensor_msgs::Image>();
+    const auto message = readMessage<sensor_msgs::Image>(instance);
     if (!message) return candidate;
     if (!isSupportedEncoding(message->encoding)) {
       throw std::runtime_error(place_ + ": the encoding '" + message->encoding +
@@ -111,10 +112,10 @@ cv::Mat BagImages::image(std::size_t index) const {
   const rosbag::MessageInstance& instance = instances_.at(index);
   cv::Mat image;
   if (is_compressed_) {
-    if (const auto message = instance.instantiate<sensor_msgs::CompressedImage>()) {
+    if (const auto message = readMessage<sensor_msgs::CompressedImage>(instance)) {
       image = greyImage(*message);
     }
-  } else if (const auto message = instance.instantiate<sensor_msgs::Image>()) {
+  } else if (const auto message = readMessage<sensor_msgs::Image>(instance)) {
     image = greyImage(*message);
   }
   if (image.empty()) {

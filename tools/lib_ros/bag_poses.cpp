@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "bag_messages.hpp"
+#include "bag_read_message.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -30,13 +31,13 @@ struct TruthPose {
 };
 
 std::optional<TruthPose> toTruthPose(const rosbag::MessageInstance& instance) {
-  if (const auto pose = instance.instantiate<geometry_msgs::PoseStamped>()) {
+  if (const auto pose = readMessage<geometry_msgs::PoseStamped>(instance)) {
     return TruthPose{toNanoseconds(pose->header.stamp), fromPoseMessage(pose->pose)};
   }
-  if (const auto pose = instance.instantiate<geometry_msgs::PoseWithCovarianceStamped>()) {
+  if (const auto pose = readMessage<geometry_msgs::PoseWithCovarianceStamped>(instance)) {
     return TruthPose{toNanoseconds(pose->header.stamp), fromPoseMessage(pose->pose.pose)};
   }
-  if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) {
+  if (const auto odometry = readMessage<nav_msgs::Odometry>(instance)) {
     return TruthPose{toNanoseconds(odometry->header.stamp), fromPoseMessage(odometry->pose.pose)};
   }
   return std::nullopt;
@@ -63,7 +64,7 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
   std::size_t backward = 0;
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   for (const rosbag::MessageInstance& instance : view) {
-    const auto message = instance.instantiate<nav_msgs::Odometry>();
+    const auto message = readMessage<nav_msgs::Odometry>(instance);
     if (!message) continue;
     if (odometry.base_frame.empty()) odometry.base_frame = withoutSlash(message->child_frame_id);
     const auto state = fromOdometryMessage(*message);
@@ -121,7 +122,7 @@ Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base
   std::map<std::string, std::string> parents;
   rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}));
   for (const rosbag::MessageInstance& instance : view) {
-    const auto message = instance.instantiate<tf2_msgs::TFMessage>();
+    const auto message = readMessage<tf2_msgs::TFMessage>(instance);
     if (!message) continue;
     for (const auto& transform : message->transforms) {
       const std::string child = withoutSlash(transform.child_frame_id);

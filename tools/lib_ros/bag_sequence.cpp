@@ -7,13 +7,14 @@
 #include <std_msgs/String.h>
 #include <yaml-cpp/yaml.h>
 
-#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
 #include "bag_images.hpp"
 #include "bag_messages.hpp"
+#include "bag_open.hpp"
 #include "bag_poses.hpp"
+#include "bag_read_message.hpp"
 #include "bag_topics.hpp"
 #include "bag_writer.hpp"
 #include "camera_info.hpp"
@@ -21,35 +22,12 @@
 namespace ardrone_vslam {
 namespace {
 
-void openForReading(rosbag::Bag& bag, const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) {
-    throw std::runtime_error(path + ": there is no such file; check the path");
-  }
-  if (std::filesystem::file_size(path) == 0) {
-    throw std::runtime_error(path + ": is empty (0 bytes); record it again");
-  }
-  try {
-    bag.open(path, rosbag::bagmode::Read);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw std::runtime_error(path +
-                             ": has no index, as its recording was cut off; repair it by: rosbag "
-                             "reindex " +
-                             path);
-  }
-  if (rosbag::View(bag).size() == 0) {
-    throw std::runtime_error(path +
-                             ": holds no message; record it again, or repair it by: rosbag "
-                             "reindex " +
-                             path);
-  }
-}
-
 CameraIntrinsics readCameraInfo(const rosbag::Bag& bag, const std::string& topic, bool rectified,
                                 std::vector<std::string>& warnings) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   std::optional<CameraIntrinsics> camera;
   for (const rosbag::MessageInstance& instance : view) {
-    const auto message = instance.instantiate<sensor_msgs::CameraInfo>();
+    const auto message = readMessage<sensor_msgs::CameraInfo>(instance);
     if (!message) continue;
     const CameraIntrinsics intrinsics =
         intrinsicsFromCameraInfo(*message, bag.getFileName() + ", " + topic, rectified);
@@ -72,7 +50,7 @@ ObserverNote readObserverNote(const rosbag::Bag& bag) {
   ObserverNote note;
   rosbag::View view(bag, rosbag::TopicQuery(BagTopicNames().info));
   for (const rosbag::MessageInstance& instance : view) {
-    const auto message = instance.instantiate<std_msgs::String>();
+    const auto message = readMessage<std_msgs::String>(instance);
     if (!message) continue;
     const YAML::Node yaml = YAML::Load(message->data);
     if (!yaml.IsMap()) continue;
@@ -107,11 +85,9 @@ class BagFile : public BagSequence {
   std::size_t size() const override { return images_->size(); }
   std::int64_t stamp_ns(std::size_t index) const override { return images_->stamp_ns(index); }
   cv::Mat image(std::size_t index) override {
-    try {
-      return images_->image(index);
-    } catch (const ros::Exception& e) {
-      throw std::runtime_error(name_ + ": is damaged (" + e.what() + "); record it again");
-    }
+    cv::Mat image;
+    namingTheBag(name_, [&] { image = images_->image(index); });
+    return image;
   }
   const CameraIntrinsics& camera() const override { return camera_; }
   Eigen::Isometry3d T_base_cam() const override { return T_base_cam_; }
@@ -135,21 +111,9 @@ class BagFile : public BagSequence {
 }  // namespace
 
 std::unique_ptr<BagSequence> openBag(const std::string& path, const BagReadOptions& options) {
-  const auto damaged = [&path](const std::string& what) {
-    return std::runtime_error(path + ": is no readable bag (" + what +
-                              "): truncated, damaged or another file; record it again, or try: "
-                              "rosbag reindex " +
-                              path);
-  };
-  try {
-    return std::make_unique<BagFile>(path, options);
-  } catch (const ros::Exception& e) {
-    throw damaged(e.what());
-  } catch (const std::bad_alloc&) {
-    throw damaged("a length in it is impossible");
-  } catch (const std::length_error&) {
-    throw damaged("a length in it is impossible");
-  }
+  std::unique_ptr<BagSequence> bag;
+  namingTheBag(path, [&] { bag = std::make_unique<BagFile>(path, options); });
+  return bag;
 }
 
 }  // namespace ardrone_vslam
