@@ -158,6 +158,15 @@ TEST(BagInput, OdometryThatIsWrongIsDroppedAndCounted) {
   EXPECT_EQ(sequence->observer().size(), 3u);
   expectWarning(*sequence, {"/odom", "2 messages dropped", "not finite"});
 
+  // The nodelets drop these, too.
+  recipe = BagRecipe();
+  recipe.odometry[1].twist.twist.linear.z = kNan;
+  recipe.odometry[2].twist.twist.angular.x = std::numeric_limits<double>::infinity();
+  recipe.odometry[4].twist.covariance[7] = kNan;
+  const auto without_twist = TestBag(recipe).open();
+  EXPECT_EQ(without_twist->observer().size(), 2u);
+  expectWarning(*without_twist, {"/odom", "3 messages dropped", "twist", "not finite"});
+
   recipe = BagRecipe();
   recipe.odometry[2].header.stamp = ros::Time(0.5);
   recipe.odometry[3].header.stamp = recipe.odometry[1].header.stamp;  // a burst: kept

@@ -18,6 +18,13 @@ geometry_msgs::Vector3 toVectorMessage(const Eigen::Vector3d& vector) {
   return message;
 }
 
+bool isFinite(const geometry_msgs::TwistWithCovariance& message) {
+  const auto& v = message.twist.linear;
+  const auto& w = message.twist.angular;
+  return Eigen::Vector3d(v.x, v.y, v.z).allFinite() && Eigen::Vector3d(w.x, w.y, w.z).allFinite() &&
+         ConstCovarianceMap(message.covariance.data()).allFinite();
+}
+
 geometry_msgs::Twist twistBetween(const ObserverState& before, const ObserverState& after) {
   const double dt_s = static_cast<double>(after.stamp_ns - before.stamp_ns) * 1e-9;
   const Eigen::Isometry3d T_before_after = before.T_odom_base.inverse() * after.T_odom_base;
@@ -103,7 +110,7 @@ std::vector<nav_msgs::Odometry> toOdometryMessages(const std::vector<ObserverSta
 std::optional<ObserverState> fromOdometryMessage(const nav_msgs::Odometry& message) {
   const auto pose = fromPoseMessage(message.pose.pose);
   const ConstCovarianceMap covariance(message.pose.covariance.data());
-  if (!pose || !covariance.allFinite()) return std::nullopt;
+  if (!pose || !covariance.allFinite() || !isFinite(message.twist)) return std::nullopt;
   ObserverState state;
   state.stamp_ns = toNanoseconds(message.header.stamp);
   state.T_odom_base = *pose;

@@ -77,7 +77,7 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
     }
   }
   warnOfDropped(not_finite, topic,
-                "the pose or its covariance is not finite, or its quaternion is not a unit; "
+                "pose, twist or a covariance is not finite, or the quaternion is not a unit; "
                 "correct the odometry's source",
                 warnings);
   warnOfDropped(backward, topic, "the stamp goes back; correct the clock of its source", warnings);
