@@ -35,14 +35,16 @@ class Outcomes {
 
 class BagDamage : public testing::TestWithParam<rosbag::CompressionType> {};
 
-TEST_P(BagDamage, EveryByteOfTheStructure) {
+TEST_P(BagDamage, TheStructure) {
   const std::string whole = bytesOfRecipe(BagRecipe(), GetParam());
   Damage damage(1);
   Outcomes outcomes;
   outcomes.add(whole, "whole");
   ASSERT_EQ(outcomes.read(), 1);
-  for (const std::size_t position : structureOf(whole)) {
-    outcomes.add(damage.at(whole, position), "byte " + std::to_string(position));
+  const std::vector<std::size_t> structure = structureOf(whole);
+  ASSERT_GT(structure.size(), 1000u);
+  for (std::size_t i = damage.below(4); i < structure.size(); i += 1 + damage.below(5)) {
+    outcomes.add(damage.at(whole, structure[i]), "byte " + std::to_string(structure[i]));
   }
   // A time or a padding may change unseen, and now and then a byte is overwritten with itself.
   EXPECT_GT(outcomes.refused(), 3 * outcomes.read());
@@ -52,12 +54,12 @@ TEST_P(BagDamage, MessagesAndBlocks) {
   const std::string whole = bytesOfRecipe(BagRecipe(), GetParam());
   Damage damage(2);
   Outcomes outcomes;
-  for (int i = 0; i < 800; ++i) {
+  for (int i = 0; i < 250; ++i) {
     outcomes.add(damage.at(whole, damage.below(whole.size())), "case " + std::to_string(i));
     outcomes.add(damage.anywhere(whole), "blocks " + std::to_string(i));
   }
-  EXPECT_GT(outcomes.refused(), 100);
-  EXPECT_GT(outcomes.read(), 100);
+  EXPECT_GT(outcomes.refused(), 50);
+  EXPECT_GT(outcomes.read(), 50);
 }
 
 template <class Message>

@@ -12,6 +12,8 @@ namespace {
 const std::string kVersionLine = "#ROSBAG V2.0\n";
 /// rosbag's writer makes chunks of 768 KiB, and its reader cannot double a buffer beyond 2 GiB.
 constexpr std::uint32_t kMaxChunk_bytes = 1U << 30;
+/// A packed chunk is unpacked here, and its size may be a damaged one.
+constexpr std::uint32_t kMaxPackedChunk_bytes = 1U << 28;
 /// rosbag's reader asserts more than that in a chunk.
 constexpr std::uint32_t kMinChunk_bytes = 9;
 constexpr std::uint32_t kIndexEntry_bytes = 12;  // sec, nsec, offset
@@ -104,7 +106,8 @@ class BagChecker {
     const std::string place = "byte " + std::to_string(chunk.data_at) + ": ";
     const std::string& compression = chunk.fields.text("compression");
     const std::uint32_t size = chunk.fields.number32("size");
-    if (size < kMinChunk_bytes || size > kMaxChunk_bytes) {
+    const std::uint32_t max_size = compression == "none" ? kMaxChunk_bytes : kMaxPackedChunk_bytes;
+    if (size < kMinChunk_bytes || size > max_size) {
       throw BagFault(place + "a chunk of " + std::to_string(size) + " bytes");
     }
     if (compression == "none") {
