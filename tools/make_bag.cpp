@@ -12,6 +12,7 @@
 #include "kitti_folder.hpp"
 #include "pave_sequence.hpp"
 #include "progress_line.hpp"
+#include "tool_main.hpp"
 #include "tum_folder.hpp"
 
 namespace {
@@ -60,13 +61,13 @@ void addCommon(CLI::App& command, Options& o) {
       {"none", Write::Compression::kNone},
       {"lz4", Write::Compression::kLz4},
       {"bz2", Write::Compression::kBz2}};
-  command.add_option("--out", o.out, "the bag to write")->required();
+  command.add_option("--out", o.out, "the bag to write, FILE.bag")->required();
   command.add_flag("--force", o.force, "overwrite the bag if it is there");
   command.add_option("--observer-profile", o.observer_profile,
                      "how the simulated odometry drifts: truth, wheel, drone, hover, harsh "
                      "(config/observer_profiles.yaml); default: the recorded observer if there is "
                      "one, else wheel for kitti, drone for the others");
-  command.add_option("--seed", o.write.seed, "of the odometry's noise")->capture_default_str();
+  addSeed(command, "--seed", o.write.seed, "of the odometry's noise");
   command.add_option("--compressed", o.write.image_format, "images as raw, png or jpeg")
       ->transform(CLI::CheckedTransformer(kFormats));
   command.add_option("--compression", o.write.compression, "of the bag: none, lz4 or bz2")
@@ -89,7 +90,9 @@ std::unique_ptr<Sequence> openSource(const CLI::App& app, const Options& o) {
   return pave;
 }
 
-void chooseObserver(const Sequence& sequence, const std::string& default_profile, Options& o) {
+/// @param advice  what to do when there is neither truth nor observer
+void chooseObserver(const Sequence& sequence, const std::string& default_profile,
+                    const std::string& advice, Options& o) {
   std::string name = o.observer_profile;
   if (name.empty() && sequence.observer().empty() && !sequence.truth().empty()) {
     name = default_profile;
@@ -98,17 +101,35 @@ void chooseObserver(const Sequence& sequence, const std::string& default_profile
     o.write.observer_profile = loadObserverProfile(name, findConfigFile("observer_profiles.yaml"));
   } else if (sequence.observer().empty()) {
     std::cerr << "make_bag: warning: " << sequence.name()
-              << ": has neither true poses nor an observer; the bag gets no odometry\n";
+              << ": has neither true poses nor an observer; the bag gets no odometry" << advice
+              << '\n';
+  }
+}
+
+const char* const kAtRestAdvice = "; if the drone stood still, give --at-rest";
+
+/// @throws UsageError
+void checkUsage(const CLI::App& app, const Options& o) {
+  if (std::filesystem::path(o.out).extension() != ".bag") {
+    throw UsageError("--out " + o.out + ": the name of a bag ends in .bag; give --out " + o.out +
+                     ".bag");
+  }
+  if (app.got_subcommand("pave") && !o.pave.at_rest && !o.observer_profile.empty()) {
+    throw UsageError(o.input + ": --observer-profile " + o.observer_profile +
+                     " needs true poses, and a video stream has none" + kAtRestAdvice +
+                     ", else leave the profile out");
   }
 }
 
 int run(const CLI::App& app, const std::string& default_profile, Options& o) {
-  const FrameSelection selection = FrameSelection::parse(o.frames, o.ping_pong);
+  checkUsage(app, o);
+  const FrameSelection selection =
+      asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
   if (!o.force && std::filesystem::exists(o.out)) {
     throw std::runtime_error(o.out + ": is there already; choose another name or give --force");
   }
   const auto sequence = select(openSource(app, o), selection);
-  chooseObserver(*sequence, default_profile, o);
+  chooseObserver(*sequence, default_profile, app.got_subcommand("pave") ? kAtRestAdvice : "", o);
   o.write.tool = "make_bag (ardrone_vslam) " ARDRONE_VSLAM_VERSION;
   BagWriteReport report;
   {
@@ -133,7 +154,8 @@ int run(const CLI::App& app, const std::string& default_profile, Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Writes recorded images as a bag with camera_info, odometry, tf and the truth."};
+  CLI::App app{"Writes recorded images as a bag with camera_info, odometry, tf and the truth.",
+               "make_bag"};
   app.set_version_flag("--version", std::string("make_bag (ardrone_vslam) " ARDRONE_VSLAM_VERSION));
   app.require_subcommand(1);
   Options o;
@@ -150,19 +172,10 @@ int main(int argc, char** argv) {
   pave->add_option("--camera", o.pave.camera_yaml,
                    "calibration; default: camera.yaml beside the stream");
   pave->add_flag("--at-rest", o.pave.at_rest, "the drone stood still: its true pose is known");
-  try {
-    app.parse(argc, argv);
+  return runTool(app, argc, argv, [&] {
     for (const Source& source : sources) {
       if (source.command->parsed()) return run(app, source.default_profile, o);
     }
     return 2;
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
-  } catch (const std::invalid_argument& e) {
-    std::cerr << "make_bag: " << e.what() << '\n';
-    return 2;
-  } catch (const std::exception& e) {
-    std::cerr << "make_bag: " << e.what() << '\n';
-    return 1;
-  }
+  });
 }

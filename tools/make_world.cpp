@@ -6,12 +6,15 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <memory>
+#include <vector>
 
 #ifdef ARDRONE_VSLAM_WITH_ROS
 #include "bag_writer.hpp"
 #endif
 #include "config_path.hpp"
 #include "progress_line.hpp"
+#include "tool_main.hpp"
 #include "tum_folder_writer.hpp"
 #include "world_sequence.hpp"
 
@@ -27,6 +30,7 @@ struct Options {
   std::string start;  // "X,Y,YAW" [m, m, rad]; empty: the flight's own
   std::string images = "raw";
   std::string compression = "none";
+  std::vector<const CLI::Option*> bag_only;
 };
 
 void addOptions(CLI::App& app, Options& o) {
@@ -47,18 +51,16 @@ void addOptions(CLI::App& app, Options& o) {
                  "how the simulated odometry drifts: truth, wheel, drone, hover, harsh "
                  "(config/observer_profiles.yaml); default: drone in a bag, no odometry in a "
                  "folder");
-  app.add_option("--seed", o.world.seed, "of the noise in odometry and images")
-      ->capture_default_str();
-  app.add_option("--world-seed", o.world.world_seed, "of the room")->capture_default_str();
+  addSeed(app, "--seed", o.world.seed, "of the noise in odometry and images");
+  addSeed(app, "--world-seed", o.world.world_seed, "of the room");
   app.add_option("--start", o.start,
                  "X,Y,YAW, where the flight begins [m, m, rad] in the room of 8 x 6 m whose middle "
                  "is 0,0; default: on the flight's path");
-  app.add_option("--compressed", o.images, "images in a bag")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"raw", "png", "jpeg"}));
-  app.add_option("--compression", o.compression, "of the bag's chunks")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"none", "lz4", "bz2"}));
+  auto* images = app.add_option("--compressed", o.images, "images in a bag");
+  images->capture_default_str()->check(CLI::IsMember({"raw", "png", "jpeg"}));
+  auto* compression = app.add_option("--compression", o.compression, "of the bag's chunks");
+  compression->capture_default_str()->check(CLI::IsMember({"none", "lz4", "bz2"}));
+  o.bag_only = {images, compression};
 }
 
 bool isBag(const std::string& path) {
@@ -70,7 +72,7 @@ FlightStart parseStart(const std::string& text) {
   char rest = 0;
   if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &start.x_m, &start.y_m, &start.yaw_rad, &rest) !=
       3) {
-    throw std::invalid_argument("--start: '" + text + "' must be X,Y,YAW, for example 1,-0.5,1.57");
+    throw UsageError("--start: '" + text + "' must be X,Y,YAW, for example 1,-0.5,1.57");
   }
   return start;
 }
@@ -81,8 +83,8 @@ void loadProfile(Options& o) {
   if (std::find(names.begin(), names.end(), o.observer_profile) == names.end()) {
     std::string known;
     for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;
-    throw std::invalid_argument("--observer-profile: there is no profile '" + o.observer_profile +
-                                "'; known are " + known);
+    throw UsageError("--observer-profile: there is no profile '" + o.observer_profile +
+                     "'; known are " + known);
   }
   o.world.observer = loadObserverProfile(o.observer_profile, profiles);
 }
@@ -136,8 +138,18 @@ void writeWorldFolder(WorldSequence& world, const Options& o, ProgressLine& prog
   writeTumFolder(world, o.out, write);
 }
 
+void refuseBagOptions(const Options& o) {
+  for (const CLI::Option* option : o.bag_only) {
+    if (option->count() == 0) continue;
+    throw UsageError("--out " + o.out + ": is a folder (a bag's name ends in .bag), and " +
+                     option->get_name() + " is for bags only; leave it out, or give --out " +
+                     o.out + ".bag");
+  }
+}
+
 int run(Options& o) {
   const bool bag = isBag(o.out);
+  if (!bag) refuseBagOptions(o);
   if (!o.force && std::filesystem::exists(o.out)) {
     throw std::runtime_error(o.out + ": is there already; choose another name or give --force");
   }
@@ -146,7 +158,8 @@ int run(Options& o) {
   if (!o.start.empty()) o.world.start = parseStart(o.start);
   // Base of a folder is by its definition where the camera is.
   if (!bag) o.world.T_base_cam = forwardCamera();
-  WorldSequence world(o.world);
+  auto world_pointer = asUsage([&o] { return std::make_unique<WorldSequence>(o.world); });
+  WorldSequence& world = *world_pointer;
   {
     ProgressLine progress("make_world", world.size());
     bag ? writeWorldBag(world, o, progress) : writeWorldFolder(world, o, progress);
@@ -164,19 +177,9 @@ int run(Options& o) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Renders a flight of an AR.Drone through a synthetic room: images, exact truth, odometry."};
+      "Renders a flight of an AR.Drone through a synthetic room: images, exact truth, odometry.",
+      "make_world"};
   Options options;
   addOptions(app, options);
-  try {
-    app.parse(argc, argv);
-    return run(options);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
-  } catch (const std::invalid_argument& e) {
-    std::cerr << "make_world: " << e.what() << '\n';
-    return 2;
-  } catch (const std::exception& e) {
-    std::cerr << "make_world: " << e.what() << '\n';
-    return 1;
-  }
+  return runTool(app, argc, argv, [&options] { return run(options); });
 }

@@ -7,17 +7,18 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <future>
 #include <iostream>
 
-#include "offline_run.hpp"
 #include "parameter_table.hpp"
 #include "progress_line.hpp"
+#include "run_all.hpp"
 #include "run_observers.hpp"
+#include "run_print.hpp"
 #include "run_report.hpp"
+#include "tool_main.hpp"
 #ifdef ARDRONE_VSLAM_WITH_ROS
+#include "bag_options.hpp"
 #include "bag_sequence.hpp"
-#include "camera_yaml.hpp"
 #endif
 
 namespace {
@@ -33,13 +34,13 @@ struct Options {
   std::string estimator;
   std::string observer_profile;
   std::uint64_t seed = 0;
+  CLI::Option* seed_option = nullptr;
   std::string seeds;
   std::string frames;
   bool ping_pong = false;
   int threads = 2;
 #ifdef ARDRONE_VSLAM_WITH_ROS
-  BagReadOptions bag;
-  std::string camera_yaml;
+  BagOptions bag;
 #endif
 };
 
@@ -63,39 +64,32 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--observer-profile", o.observer_profile,
                  "corrupt the truth like this (truth, wheel, drone, hover, harsh); default: the "
                  "input's own odometry, else wheel");
-  auto* seed = app.add_option("--seed", o.seed, "of the observer's noise");
+  o.seed_option = addSeed(app, "--seed", o.seed, "of the observer's noise");
   app.add_option("--seeds", o.seeds, "A:B, runs the seeds A to B and prints median and worst")
-      ->excludes(seed);
+      ->excludes(o.seed_option);
   app.add_option("--frames", o.frames, "A:B:STEP, frames A up to but without B");
   app.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
   app.add_option("--threads", o.threads,
                  "2: decode ahead, spread the seeds; results do not depend on it")
       ->check(CLI::Range(1, 256));
 #ifdef ARDRONE_VSLAM_WITH_ROS
-  app.add_option("--image-topic", o.bag.image_topic, "of a bag; default: the only one there is");
-  app.add_option("--camera-info-topic", o.bag.camera_info_topic,
-                 "of a bag; default: beside the images");
-  app.add_option("--odometry-topic", o.bag.odometry_topic,
-                 "of a bag; default: the only one there is");
-  app.add_option("--truth-topic", o.bag.truth_topic, "of a bag; default: the one called truth");
-  app.add_option("--camera-frame", o.bag.camera_frame, "of a bag; default: the images' frame_id");
-  app.add_option("--base-frame", o.bag.base_frame,
-                 "of a bag; default: the odometry's child_frame_id");
-  app.add_option("--camera", o.camera_yaml, "calibration to use instead of a bag's camera_info");
+  o.bag.addTo(app);
 #endif
 }
 
 std::unique_ptr<Sequence> openInput(const Options& o, const PipelineConfig& config) {
-  if (std::filesystem::is_directory(o.input)) return openFolder(o.input);
+  const bool is_folder = std::filesystem::is_directory(o.input);
 #ifdef ARDRONE_VSLAM_WITH_ROS
-  BagReadOptions options = o.bag;
-  options.rectified = config.rectified;
-  if (!o.camera_yaml.empty()) options.camera = readCameraYaml(o.camera_yaml);
-  auto bag = openBag(o.input, options);
+  if (is_folder) {
+    o.bag.refuseForFolder(o.input);
+    return openFolder(o.input);
+  }
+  auto bag = openBag(o.input, o.bag.read(config.rectified));
   for (const std::string& warning : bag->warnings()) std::cerr << "replay: " << warning << '\n';
   return bag;
 #else
   static_cast<void>(config);
+  if (is_folder) return openFolder(o.input);
   throw std::runtime_error(
       o.input + ": is no folder, and this replay was built without ROS, so it reads no bags");
 #endif
@@ -106,10 +100,12 @@ std::vector<std::uint64_t> seedsOf(const Options& o) {
   std::uint64_t first = 0;
   std::uint64_t last = 0;
   char rest = 0;
-  if (std::sscanf(o.seeds.c_str(), "%lu:%lu%c", &first, &last, &rest) != 2 || last < first ||
+  // sscanf alone takes -1 for 2^64 - 1.
+  if (o.seeds.find('-') != std::string::npos ||
+      std::sscanf(o.seeds.c_str(), "%lu:%lu%c", &first, &last, &rest) != 2 || last < first ||
       last - first > 9999) {
-    throw CLI::ValidationError("--seeds",
-                               "'" + o.seeds + "' must be A:B with A <= B, for example 1:5");
+    throw UsageError("--seeds: '" + o.seeds +
+                     "' must be A:B with 0 <= A <= B, at most 10000 seeds, for example 1:5");
   }
   std::vector<std::uint64_t> seeds;
   for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
@@ -122,10 +118,9 @@ std::vector<RunObserver> observersOf(const Sequence& sequence, const Options& o)
   const bool is_bag = !std::filesystem::is_directory(o.input);
   std::vector<RunObserver> observers;
   if (o.observer_profile.empty() && (is_bag || !sequence.observer().empty())) {
-    if (!o.seeds.empty()) {
-      throw std::runtime_error(
-          sequence.name() +
-          ": --seeds needs --observer-profile: the recorded odometry has no seeds");
+    if (!o.seeds.empty() || o.seed_option->count() > 0) {
+      throw UsageError(sequence.name() + (o.seeds.empty() ? ": --seed" : ": --seeds") +
+                       " needs --observer-profile: the recorded odometry has no seeds");
     }
     observers.push_back(recordedObserver(sequence));
     return observers;
@@ -134,79 +129,6 @@ std::vector<RunObserver> observersOf(const Sequence& sequence, const Options& o)
   for (const std::uint64_t seed : seedsOf(o))
     observers.push_back(simulatedObserver(sequence, profile, seed));
   return observers;
-}
-
-/// Calls work(i) for i = 0 .. count - 1, spread over at most `threads` threads.
-template <class Work>
-void forEach(std::size_t count, int threads, const Work& work) {
-  const std::size_t workers = std::min(count, static_cast<std::size_t>(threads));
-  std::vector<std::future<void>> others;
-  const auto share = [&](std::size_t worker) {
-    for (std::size_t i = worker; i < count; i += workers) work(i);
-  };
-  for (std::size_t worker = 1; worker < workers; ++worker) {
-    others.push_back(std::async(std::launch::async, share, worker));
-  }
-  share(0);
-  for (auto& other : others) other.get();
-}
-
-std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
-                              const std::vector<RunObserver>& observers, int threads) {
-  std::vector<std::unique_ptr<BackEnd>> back_ends;
-  for (const RunObserver& observer : observers) {
-    back_ends.push_back(
-        std::make_unique<BackEnd>(config.mapper, sequence.T_base_cam(), observer.run.states));
-  }
-  ProgressLine progress("replay", sequence.size());
-  std::size_t done = 0;
-  // The front end does not depend on the observer: it runs once for all seeds.
-  runFrontEnd(sequence, config.tracker, threads, [&](const TrackedFrame& frame) {
-    forEach(back_ends.size(), threads, [&](std::size_t i) { back_ends[i]->process(frame); });
-    progress.update(++done);
-  });
-  std::vector<RunResult> results;
-  for (std::size_t i = 0; i < back_ends.size(); ++i) {
-    results.push_back(back_ends[i]->finish());
-    results.back().scale_error = observers[i].run.scale_error;
-  }
-  return results;
-}
-
-std::string shown(const Json& value) {
-  return value.is_null() ? "-" : value.dump();
-}
-
-void printSummary(const Json& summary) {
-  for (const auto& item : summary.items()) {
-    if (!item.value().is_object()) std::cout << item.key() << ": " << shown(item.value()) << '\n';
-  }
-  std::cout << "stage_share:";
-  for (const auto& stage : summary["stage_share"].items())
-    std::cout << ' ' << stage.key() << ' ' << shown(stage.value());
-  std::cout << '\n';
-}
-
-void printSeeds(const Json& summary) {
-  std::cout << "seed, observer_ate_rmse_m, fused_ate_rmse_m, ratio, ratio_scale_removed\n";
-  for (const Json& run : summary["runs"]) {
-    std::cout << shown(run["seed"]);
-    for (const char* name :
-         {"observer_ate_rmse_m", "fused_ate_rmse_m", "ratio", "ratio_scale_removed"}) {
-      std::cout << ", " << shown(run[name]);
-    }
-    std::cout << '\n';
-  }
-  for (const char* kind : {"median", "worst"})
-    std::cout << kind << ": " << summary[kind].dump() << '\n';
-}
-
-FrameSelection selectionOf(const Options& o) {
-  try {
-    return FrameSelection::parse(o.frames, o.ping_pong);
-  } catch (const std::invalid_argument& e) {
-    throw CLI::ValidationError("--frames", e.what());
-  }
 }
 
 /// Made before the work, so that a folder that cannot be written does not cost a run.
@@ -251,11 +173,17 @@ int run(const Options& o) {
   std::vector<std::string> overrides = o.overrides;
   if (!o.estimator.empty()) overrides.push_back("mapper/estimator=" + o.estimator);
   const PipelineConfig config = loadConfig(o.config, overrides);
-  const FrameSelection selection = selectionOf(o);
+  const FrameSelection selection =
+      asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
   const auto sequence = select(openInput(o, config), selection);
   const std::vector<RunObserver> observers = observersOf(*sequence, o);
   makeFolder(o.out);
-  const std::vector<RunResult> results = runAll(*sequence, config, observers, o.threads);
+  std::vector<RunResult> results;
+  {
+    ProgressLine progress("replay", sequence->size());
+    results = runAll(*sequence, config, observers, o.threads,
+                     [&progress](std::size_t done) { progress.update(done); });
+  }
 
   std::vector<Json> summaries;
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -286,16 +214,9 @@ int run(const Options& o) {
 int main(int argc, char** argv) {
   CLI::App app{
       "Runs a bag or an image folder through tracker and mapper, offline and deterministic, and "
-      "compares with the truth."};
+      "compares with the truth.",
+      "replay"};
   Options options;
   addOptions(app, options);
-  try {
-    app.parse(argc, argv);
-    return run(options);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
-  } catch (const std::exception& e) {
-    std::cerr << "replay: " << e.what() << '\n';
-    return 1;
-  }
+  return runTool(app, argc, argv, [&options] { return run(options); });
 }

@@ -164,6 +164,18 @@ TEST_F(MakeWorld, ExitCodesTellUsageFromFaults) {
   EXPECT_NE(text("output").find("known are truth, wheel, drone, hover, harsh"), std::string::npos);
   EXPECT_EQ(run(brief + path("x") + " --start 9,0,0"), 2);
   EXPECT_NE(text("output").find("0.5 m from the walls"), std::string::npos);
+  for (const char* option : {"--seed", "--world-seed"}) {
+    for (const char* value : {" -1", "=-1", " 1.5", " x"}) {
+      EXPECT_EQ(run(brief + path("x") + " " + option + value), 2) << option << value;
+      EXPECT_NE(text("output").find(option), std::string::npos) << text("output");
+    }
+  }
+  for (const char* option : {"--compressed png", "--compressed raw", "--compression lz4"}) {
+    EXPECT_EQ(run(brief + path("x") + " " + option), 2) << option;
+    EXPECT_NE(text("output").find("for bags only"), std::string::npos) << text("output");
+    EXPECT_NE(text("output").find("/x.bag"), std::string::npos) << text("output");
+  }
+  EXPECT_FALSE(fs::exists(path("x")));
   for (const char* start : {"1,2", "1,2,3,4", "a,b,c", "1 2 3"}) {
     EXPECT_EQ(run(brief + path("x") + " --start '" + start + "'"), 2) << start;
     EXPECT_NE(text("output").find("must be X,Y,YAW"), std::string::npos) << start;

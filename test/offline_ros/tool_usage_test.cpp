@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// replay and make_bag as programs: what does not fit is refused by name, with the exit code that
+// tells wrong usage (2) from faults of the input (1).
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include "bag_damage.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+class ToolUsage : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return folder_.file(name); }
+  std::string output() const { return readWhole(path("output")); }
+
+  /// Exit code, 128 and more for a signal; what it prints goes to the file `output`.
+  int run(const std::string& command) const {
+    const int status = std::system((command + " > " + path("output") + " 2>&1").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  int replay(const std::string& arguments) const {
+    return run(ARDRONE_VSLAM_REPLAY " " + arguments + " --out " + path("run"));
+  }
+  int makeBag(const std::string& arguments) const {
+    return run(ARDRONE_VSLAM_MAKE_BAG " " + arguments);
+  }
+  void expectOutput(const std::vector<std::string>& parts) const {
+    for (const auto& part : parts) {
+      EXPECT_NE(output().find(part), std::string::npos) << part << " is not in: " << output();
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ToolUsage, ReplayRefusesABagsOptionsForAFolder) {
+  makeKittiFolder(folder_, 3);
+  for (const std::string option : {"--image-topic", "--camera-info-topic", "--odometry-topic",
+                                   "--truth-topic", "--camera-frame", "--base-frame", "--camera"}) {
+    EXPECT_EQ(replay(folder_.path() + " " + option + " x"), 2) << option;
+    expectOutput({"replay: ", folder_.path(), "is a folder", option + " is for bags only"});
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("run")));
+}
+
+TEST_F(ToolUsage, SeedsAreWholeNumbersAndNeedAProfile) {
+  makeKittiFolder(folder_, 3);
+  for (const std::string value : {" -1", "=-1", " 0.5", " x"}) {
+    EXPECT_EQ(replay(folder_.path() + " --seed" + value), 2) << value;
+    expectOutput({"--seed", "whole number from 0"});
+    EXPECT_EQ(makeBag("kitti " + folder_.path() + " --out " + path("a.bag") + " --seed" + value),
+              2);
+    expectOutput({"--seed", "whole number from 0"});
+  }
+  for (const std::string value : {"-1:2", "1:-1", "3:2", "x"}) {
+    EXPECT_EQ(replay(folder_.path() + " --seeds=" + value), 2) << value;
+    expectOutput({"replay: --seeds: '" + value + "'", "1:5"});
+  }
+  const TestBag bag{BagRecipe()};
+  EXPECT_EQ(replay(bag.path() + " --seed 3"), 2);
+  expectOutput({"--seed needs --observer-profile"});
+  EXPECT_EQ(replay(bag.path() + " --seeds 1:2"), 2);
+  expectOutput({"--seeds needs --observer-profile"});
+}
+
+TEST_F(ToolUsage, AFramesFaultIsWrongUsage) {
+  makeKittiFolder(folder_, 3);
+  EXPECT_EQ(replay(folder_.path() + " --frames 0:x"), 2);
+  expectOutput({"replay: ", "0:x"});
+  EXPECT_EQ(makeBag("kitti " + folder_.path() + " --out " + path("a.bag") + " --frames 0:x"), 2);
+  expectOutput({"make_bag: ", "0:x"});
+}
+
+TEST_F(ToolUsage, ABagsNameEndsInBag) {
+  makeKittiFolder(folder_, 3);
+  for (const std::string name : {"out", "out.bg", "out/"}) {
+    EXPECT_EQ(makeBag("kitti " + folder_.path() + " --out " + path(name)), 2) << name;
+    expectOutput({"make_bag: --out " + path(name), "ends in .bag"});
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+  EXPECT_EQ(makeBag("kitti " + folder_.path() + " --out " + path("out.bag")), 0) << output();
+  EXPECT_TRUE(std::filesystem::exists(path("out.bag")));
+}
+
+TEST_F(ToolUsage, AVideoStreamHasTruePosesOnlyAtRest) {
+  const std::string command = "pave stream.pave --out " + path("a.bag");
+  EXPECT_EQ(makeBag(command + " --observer-profile drone"), 2);
+  expectOutput({"make_bag: stream.pave", "--observer-profile drone", "true poses", "--at-rest"});
+  // With it the fault is that there is no such file.
+  EXPECT_EQ(makeBag(command + " --observer-profile drone --at-rest"), 1);
+  expectOutput({"stream.pave", "check the path"});
+}
+
+TEST_F(ToolUsage, FaultsOfTheInputAreNoWrongUsage) {
+  folder_.write("none.bag", "");
+  EXPECT_EQ(replay(path("none.bag")), 1);
+  expectOutput({"replay: ", "none.bag", "is empty"});
+  EXPECT_EQ(replay(path("missing.bag")), 1);
+  expectOutput({"replay: ", "missing.bag", "no such file"});
+  EXPECT_EQ(makeBag("tum " + path("missing") + " --out " + path("a.bag")), 1);
+  expectOutput({"make_bag: ", "missing"});
+  EXPECT_EQ(run(ARDRONE_VSLAM_REPLAY), 2);
+  EXPECT_EQ(run(ARDRONE_VSLAM_REPLAY " --help"), 0);
+  EXPECT_EQ(run(ARDRONE_VSLAM_MAKE_BAG " --version"), 0);
+}
+
+TEST_F(ToolUsage, ReplayOfADamagedBagNamesItAndDoesNotCrash) {
+  std::string bytes = bytesOfRecipe(BagRecipe(), rosbag::compression::Uncompressed);
+  // The first index entry's offset leads far out of its chunk.
+  const std::size_t index = bytes.find(std::string("op=\4", 4));
+  ASSERT_NE(index, std::string::npos);
+  const std::size_t data = bytes.find(std::string("ver=\1\0\0\0", 8), index) + 8 + 4;
+  bytes.replace(data + 8, 4, "\xff\xff\xff\x7f");
+  folder_.write("damaged.bag", bytes);
+  EXPECT_EQ(replay(path("damaged.bag")), 1);
+  expectOutput({"replay: ", "damaged.bag", "is no readable bag", "rosbag reindex"});
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run_all.hpp"
+
+#include <algorithm>
+#include <future>
+#include <memory>
+
+namespace ardrone_vslam {
+namespace {
+
+/// Calls work(i) for i = 0 .. count - 1, spread over at most `threads` threads.
+template <class Work>
+void forEach(std::size_t count, int threads, const Work& work) {
+  const std::size_t workers = std::min(count, static_cast<std::size_t>(threads));
+  std::vector<std::future<void>> others;
+  const auto share = [&](std::size_t worker) {
+    for (std::size_t i = worker; i < count; i += workers) work(i);
+  };
+  for (std::size_t worker = 1; worker < workers; ++worker) {
+    others.push_back(std::async(std::launch::async, share, worker));
+  }
+  share(0);
+  for (auto& other : others) other.get();
+}
+
+}  // namespace
+
+std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
+                              const std::vector<RunObserver>& observers, int threads,
+                              const Progress& progress) {
+  std::vector<std::unique_ptr<BackEnd>> back_ends;
+  for (const RunObserver& observer : observers) {
+    back_ends.push_back(
+        std::make_unique<BackEnd>(config.mapper, sequence.T_base_cam(), observer.run.states));
+  }
+  std::size_t done = 0;
+  // The front end does not depend on the observer: it runs once for all seeds.
+  runFrontEnd(sequence, config.tracker, threads, [&](const TrackedFrame& frame) {
+    forEach(back_ends.size(), threads, [&](std::size_t i) { back_ends[i]->process(frame); });
+    if (progress) progress(++done);
+  });
+  std::vector<RunResult> results;
+  for (std::size_t i = 0; i < back_ends.size(); ++i) {
+    results.push_back(back_ends[i]->finish());
+    results.back().scale_error = observers[i].run.scale_error;
+  }
+  return results;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace ardrone_vslam {
+
+/// One run's numbers on stdout, a line for each.
+void printSummary(const nlohmann::ordered_json& summary);
+
+/// A line for each seed, then median and worst. @param summary  of summaryOfSeeds
+void printSeeds(const nlohmann::ordered_json& summary);
+
+}  // namespace ardrone_vslam

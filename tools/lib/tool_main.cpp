@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool_main.hpp"
+
+#include <iostream>
+
+namespace ardrone_vslam {
+
+int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& run) {
+  const auto fault = [&app](const std::exception& e, int exit_code) {
+    std::cerr << app.get_name() << ": " << e.what() << '\n';
+    return exit_code;
+  };
+  try {
+    app.parse(argc, argv);
+    return run();
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  } catch (const UsageError& e) {
+    return fault(e, 2);
+  } catch (const std::exception& e) {
+    return fault(e, 1);
+  }
+}
+
+CLI::Option* addSeed(CLI::App& app, const std::string& name, std::uint64_t& seed,
+                     const std::string& what) {
+  const auto isWholeNumber = [](const std::string& text) {
+    const bool is_good = text.find_first_not_of("0123456789") == std::string::npos;
+    return is_good ? std::string() : "'" + text + "' must be a whole number from 0";
+  };
+  return app.add_option(name, seed, what)
+      ->capture_default_str()
+      ->check(CLI::Validator(isWholeNumber, "", "seed"));
+}
+
+}  // namespace ardrone_vslam

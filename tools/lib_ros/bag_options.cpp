@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bag_options.hpp"
+
+#include "camera_yaml.hpp"
+#include "tool_main.hpp"
+
+namespace ardrone_vslam {
+
+void BagOptions::addTo(CLI::App& app) {
+  const auto add = [this, &app](const std::string& name, std::string& value,
+                                const std::string& what) {
+    options_.push_back(app.add_option(name, value, what));
+  };
+  add("--image-topic", bag_.image_topic, "of a bag; default: the only one there is");
+  add("--camera-info-topic", bag_.camera_info_topic, "of a bag; default: beside the images");
+  add("--odometry-topic", bag_.odometry_topic, "of a bag; default: the only one there is");
+  add("--truth-topic", bag_.truth_topic, "of a bag; default: the one called truth");
+  add("--camera-frame", bag_.camera_frame, "of a bag; default: the images' frame_id");
+  add("--base-frame", bag_.base_frame, "of a bag; default: the odometry's child_frame_id");
+  add("--camera", camera_yaml_, "calibration to use instead of a bag's camera_info");
+}
+
+void BagOptions::refuseForFolder(const std::string& folder) const {
+  std::string given;
+  for (const CLI::Option* option : options_) {
+    if (option->count() > 0) given += (given.empty() ? "" : ", ") + option->get_name();
+  }
+  if (given.empty()) return;
+  throw UsageError(folder + ": is a folder, and " + given +
+                   " is for bags only; leave it out (a folder's files say it)");
+}
+
+BagReadOptions BagOptions::read(bool rectified) const {
+  BagReadOptions options = bag_;
+  options.rectified = rectified;
+  if (!camera_yaml_.empty()) options.camera = readCameraYaml(camera_yaml_);
+  return options;
+}
+
+}  // namespace ardrone_vslam

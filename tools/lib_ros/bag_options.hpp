@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "bag_sequence.hpp"
+
+namespace ardrone_vslam {
+
+/// The command line's options for reading a bag.
+class BagOptions {
+ public:
+  void addTo(CLI::App& app);
+  /// @throws UsageError naming the options that were given although the input is a folder
+  void refuseForFolder(const std::string& folder) const;
+  /// @param rectified  of the configuration. @throws std::runtime_error for a wrong --camera file
+  BagReadOptions read(bool rectified) const;
+
+ private:
+  BagReadOptions bag_;
+  std::string camera_yaml_;
+  std::vector<const CLI::Option*> options_;
+};
+
+}  // namespace ardrone_vslam
