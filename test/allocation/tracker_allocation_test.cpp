@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Counts what the whole program allocates; hence an executable of its own.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "ardrone_vslam/tracker.hpp"
+#include "support/generated_image.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto a = static_cast<std::size_t>(alignment);
+  if (void* memory = std::aligned_alloc(a, (size + a - 1) / a * a)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+namespace ardrone_vslam {
+namespace {
+
+CameraIntrinsics camera() {
+  CameraIntrinsics intrinsics;
+  intrinsics.width_px = 640;
+  intrinsics.height_px = 360;
+  intrinsics.fx_px = intrinsics.fy_px = 560;
+  intrinsics.cx_px = 319.5;
+  intrinsics.cy_px = 179.5;
+  intrinsics.k1 = -0.3;
+  return intrinsics;
+}
+
+TEST(TrackerAllocation, NoneAfterWarmUp) {
+  const test::TestImage scene = test::generatedImage(760, 420);
+  constexpr int kCycle_frames = 40;
+  const auto frameAt = [&scene](int i) {
+    const int step = i % kCycle_frames;
+    ImageView view = scene.view();
+    view.data += (step % 20) * 2 * scene.stride_bytes + step * 3;
+    view.width_px = camera().width_px;
+    view.height_px = camera().height_px;
+    return view;
+  };
+  Tracker tracker({}, camera());
+  ImageFeatures features;
+  int frame = 0;
+  for (; frame < 3 * kCycle_frames; ++frame) tracker.process(frameAt(frame), frame + 1, features);
+  const long before = allocations;
+  ASSERT_GT(before, 0) << "allocations are not counted";
+  std::size_t found = 0;
+  for (int end = frame + kCycle_frames; frame < end; ++frame) {
+    tracker.process(frameAt(frame), frame + 1, features);
+    found += features.size();
+  }
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_GT(found, 100U * kCycle_frames) << "there was hardly anything to do";
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
