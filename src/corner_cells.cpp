@@ -2,10 +2,14 @@
 #include "corner_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <numeric>
 
 namespace ardrone_vslam {
 namespace {
+
+constexpr std::size_t kScores = 256;
 
 /// Divides `size_px` pixels into parts of about `part_px`. @return the number of parts
 int divide(int size_px, int part_px, std::vector<std::uint16_t>& part_of) {
@@ -27,30 +31,30 @@ std::size_t at(int index) {
 void CornerCells::reset(int width_px, int height_px, int cell_size_px) {
   columns_ = divide(width_px, cell_size_px, cell_column_);
   rows_ = divide(height_px, cell_size_px, cell_row_);
+  column_begin_.assign(at(columns_ + 1), width_px);
+  for (int x = width_px - 1; x >= 0; --x) column_begin_[at(columnAt(x))] = x;
 }
 
 void CornersByCell::group(const std::vector<Corner>& corners, const CornerCells& cells) {
   corners_ = &corners;
   const int n = static_cast<int>(corners.size());
   begin_.assign(at(cells.count() + 1), 0);
-  cell_.resize(corners.size());
+  by_score_.resize(corners.size());
   order_.resize(corners.size());
 
-  for (int i = 0; i < n; ++i) {
-    cell_[at(i)] = cells.cellAt(corners[at(i)].x_px, corners[at(i)].y_px);
-    ++begin_[at(cell_[at(i)] + 1)];
+  // Sorted by counting, which keeps equal ones in their order: by score, then by cell.
+  std::array<int, kScores + 1> place{};
+  for (const Corner& corner : corners) {
+    ++place[kScores - corner.score];
+    ++begin_[at(cells.cellAt(corner.x_px, corner.y_px) + 1)];
   }
-  for (int cell = 0; cell < cells.count(); ++cell) begin_[at(cell + 1)] += begin_[at(cell)];
+  std::partial_sum(place.begin(), place.end(), place.begin());
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  for (int i = 0; i < n; ++i) by_score_[at(place[kScores - 1U - corners[at(i)].score]++)] = i;
   next_ = begin_;
-  for (int i = 0; i < n; ++i) order_[at(next_[at(cell_[at(i)])]++)] = i;
-
-  const auto stronger = [&](int a, int b) {
-    const int score_a = corners[at(a)].score;
-    const int score_b = corners[at(b)].score;
-    return score_a != score_b ? score_a > score_b : a < b;
-  };
-  for (int cell = 0; cell < cells.count(); ++cell) {
-    std::sort(order_.begin() + begin_[at(cell)], order_.begin() + begin_[at(cell + 1)], stronger);
+  for (const int i : by_score_) {
+    const Corner& corner = corners[at(i)];
+    order_[at(next_[at(cells.cellAt(corner.x_px, corner.y_px))]++)] = i;
   }
 }
 
@@ -99,10 +103,13 @@ void CornersByCell::select(int budget, std::vector<Corner>& selected) {
   const int left = std::min(budget - taken(level), static_cast<int>(next_.size()));
   for (int i = 0; i < left; ++i) keep_[at(next_[at(i)])] = 1;
 
-  selected.clear();
+  selected.resize(corners.size() + 1);  // appended to without a branch, one too many at the end
+  std::size_t count = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (keep_[i] != 0) selected.push_back(corners[i]);
+    selected[count] = corners[i];
+    count += keep_[i];
   }
+  selected.resize(count);
 }
 
 }  // namespace ardrone_vslam

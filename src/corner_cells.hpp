@@ -18,6 +18,8 @@ class CornerCells {
 
   int count() const { return columns_ * rows_; }
   int columns() const { return columns_; }
+  /// First column of pixels; of the column after the last: the image's width.
+  int columnBegin(int column) const { return column_begin_[static_cast<std::size_t>(column)]; }
   int rowAt(int y_px) const { return cell_row_[static_cast<std::size_t>(y_px)]; }
   int columnAt(int x_px) const { return cell_column_[static_cast<std::size_t>(x_px)]; }
   int cellAt(int x_px, int y_px) const { return rowAt(y_px) * columns_ + columnAt(x_px); }
@@ -27,6 +29,7 @@ class CornerCells {
   int rows_ = 0;
   std::vector<std::uint16_t> cell_column_;  ///< for each pixel column
   std::vector<std::uint16_t> cell_row_;     ///< for each pixel row
+  std::vector<int> column_begin_;
 };
 
 /// Corners grouped by cell, in each cell the strongest first; of equal ones the first in raster
@@ -56,8 +59,8 @@ class CornersByCell {
 
   const std::vector<Corner>* corners_ = nullptr;
   std::vector<int> begin_;  ///< first entry of each cell in `order_`, and the end of the last
-  std::vector<int> cell_;   ///< cell of each corner
-  std::vector<int> order_;  ///< indices of the corners, grouped and sorted
+  std::vector<int> by_score_;  ///< indices of the corners, the strongest first
+  std::vector<int> order_;     ///< indices of the corners, grouped by cell, in each the strongest first
   std::vector<int> next_;
   std::vector<std::uint8_t> keep_;
 };

@@ -7,15 +7,18 @@
 #include <string>
 
 #include "corner_cells.hpp"
-#include "corner_suppression.hpp"
+#include "corner_climb.hpp"
+#include "corner_maxima.hpp"
 #include "corner_thresholds.hpp"
 #include "kernels/kernels.hpp"
 #include "sampling_raster.hpp"
+#include "threshold_rows.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr int kBorderPx = kernels::kCircleRadiusPx;
+constexpr int kAllPasses = 16;
 
 const CornerDetectorConfig& checked(const CornerDetectorConfig& config) {
   auto faults = rangeFaults(config);
@@ -38,29 +41,35 @@ const CornerDetectorConfig& checked(const CornerDetectorConfig& config) {
 }  // namespace
 
 struct CornerDetector::State {
-  CornerDetectorConfig config;
+  State(const CornerDetectorConfig& checked_config, InstructionSet set)
+      : config(checked_config), kernels(kernels::kernelsFor(set)), climb(kernels) {}
+
+  const CornerDetectorConfig config;
+  const kernels::Kernels kernels;
   int width_px = 0;
   int height_px = 0;
   CornerCells cells;
   CornerThresholds thresholds;
-  CornerSuppression suppression;
+  ThresholdRows threshold_rows;
+  CornerMaxima maxima;
+  CornerClimb climb;
   CornersByCell by_cell;
 
-  std::vector<std::uint8_t> row_thresholds;  ///< one for each column
-  std::vector<std::uint16_t> row_hits;
+  std::vector<std::uint16_t> row_columns;  ///< of one row's corners
+  std::vector<std::uint8_t> row_scores;    ///< 0 between two rows
   std::vector<Corner> hits;     ///< all tested pixels that are corners, in raster order
   std::vector<Corner> thinned;  ///< what suppression leaves of them
 
   void reset(const ImageView& image);
-  void spreadThresholds(int cell_row);
-  void testPixels(const ImageView& image);
-  void thin(const ImageView& image);
+  template <class NextHits, class EndRow>
+  void scan(const ImageView& image, const NextHits& nextHits, const EndRow& endRow);
+  void keepMaxima(const ImageView& image, CornerMaxima::Ties ties);
+  void climbFromSamples(const ImageView& image);
+  void dropBelowThreshold();
 };
 
-CornerDetector::CornerDetector(const CornerDetectorConfig& config)
-    : state_(std::make_unique<State>()) {
-  state_->config = checked(config);
-}
+CornerDetector::CornerDetector(const CornerDetectorConfig& config, InstructionSet set)
+    : state_(std::make_unique<State>(checked(config), set)) {}
 
 CornerDetector::~CornerDetector() = default;
 
@@ -70,8 +79,19 @@ void CornerDetector::detect(const ImageView& image, std::vector<Corner>& corners
   if (image.empty() || std::min(image.width_px, image.height_px) <= 2 * kBorderPx) return;
   if (image.width_px != s.width_px || image.height_px != s.height_px) s.reset(image);
 
-  s.testPixels(image);
-  s.thin(image);
+  if (s.config.suppression == Suppression::kStrict3x3) {
+    s.threshold_rows.begin(s.cells, s.thresholds, ThresholdRows::Reach::kOwnCell);
+    s.keepMaxima(image, CornerMaxima::Ties::kBothDropped);
+  } else if (s.config.sampling_passes == kAllPasses) {
+    // All pixels are tested: the climbs end at the maxima.
+    s.threshold_rows.begin(s.cells, s.thresholds, ThresholdRows::Reach::kCellsBeside);
+    s.keepMaxima(image, CornerMaxima::Ties::kEarlierIsHigher);
+    s.dropBelowThreshold();
+  } else {
+    s.threshold_rows.begin(s.cells, s.thresholds, ThresholdRows::Reach::kOwnCell);
+    s.climbFromSamples(image);
+    s.dropBelowThreshold();
+  }
   s.by_cell.group(s.thinned, s.cells);
   s.by_cell.select(s.config.features_per_frame, corners);
   s.thresholds.adapt(s.by_cell);
@@ -84,40 +104,49 @@ void CornerDetector::State::reset(const ImageView& image) {
   height_px = image.height_px;
   cells.reset(width_px, height_px, config.cell_size_px);
   thresholds.reset(config, cells.count());
-  row_thresholds.resize(static_cast<std::size_t>(width_px));
-  row_hits.resize(static_cast<std::size_t>(width_px));
+  row_columns.resize(static_cast<std::size_t>(width_px));
+  row_scores.assign(static_cast<std::size_t>(width_px), 0);
 }
 
-void CornerDetector::State::spreadThresholds(int cell_row) {
-  for (int x = 0; x < width_px; ++x) {
-    const int threshold = thresholds.at(cell_row * cells.columns() + cells.columnAt(x));
-    row_thresholds[static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(threshold);
-  }
-}
-
-void CornerDetector::State::testPixels(const ImageView& image) {
+/// Tests the pixels of `sampling_passes`, row by row from the top.
+/// @param nextHits  gives the place for a row's corners
+/// @param endRow  takes the row and the number of its corners
+template <class NextHits, class EndRow>
+void CornerDetector::State::scan(const ImageView& image, const NextHits& nextHits,
+                                 const EndRow& endRow) {
   const auto circle = kernels::fastCircle(image.stride_bytes, config.arc_length_px);
-  hits.clear();
   for (int y = kBorderPx; y < height_px - kBorderPx; ++y) {
-    if (y == kBorderPx || cells.rowAt(y) != cells.rowAt(y - 1)) spreadThresholds(cells.rowAt(y));
-    const kernels::FastRow row{image.row(y), row_thresholds.data(), kBorderPx, width_px - kBorderPx,
+    const kernels::FastRow row{image.row(y), threshold_rows.at(y), kBorderPx, width_px - kBorderPx,
                                sampledColumns(y, config.sampling_passes)};
-    const int count = kernels::kernelsInUse().fast_row(row, circle, row_hits.data());
-    for (int i = 0; i < count; ++i) {
-      const auto x = static_cast<std::int16_t>(row_hits[static_cast<std::size_t>(i)]);
-      hits.push_back({x, static_cast<std::int16_t>(y), 0});
-    }
+    endRow(y, kernels.fast_row(row, circle, nextHits()));
   }
 }
 
-void CornerDetector::State::thin(const ImageView& image) {
-  suppression.begin(image, config.arc_length_px);
-  if (config.suppression == Suppression::kStrict3x3) {
-    suppression.keepStrictMaxima(hits, thinned);
-    return;
-  }
-  suppression.climb(hits, thinned);
-  // A climb may end in a neighbouring cell whose threshold is higher than the end's score.
+void CornerDetector::State::keepMaxima(const ImageView& image, CornerMaxima::Ties ties) {
+  maxima.begin(width_px, ties, thinned);
+  scan(
+      image, [this] { return maxima.nextRow(); },
+      [this](int y, int count) { maxima.endRow(y, count); });
+  maxima.endRow(height_px - kBorderPx, 0);
+}
+
+void CornerDetector::State::climbFromSamples(const ImageView& image) {
+  hits.clear();
+  scan(
+      image, [this] { return kernels::FastHits{row_columns.data(), row_scores.data()}; },
+      [this](int y, int count) {
+        for (int i = 0; i < count; ++i) {
+          const std::uint16_t x = row_columns[static_cast<std::size_t>(i)];
+          std::uint8_t& score = row_scores[x];
+          hits.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), score});
+          score = 0;
+        }
+      });
+  climb.climb(image, config.arc_length_px, hits, thinned);
+}
+
+/// A climb may end in a neighbouring cell whose threshold is higher than the end's score.
+void CornerDetector::State::dropBelowThreshold() {
   const auto below = [this](const Corner& c) {
     return c.score < thresholds.at(cells.cellAt(c.x_px, c.y_px));
   };

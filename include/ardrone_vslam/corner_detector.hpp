@@ -7,6 +7,7 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/image_view.hpp"
+#include "ardrone_vslam/instruction_set.hpp"
 #include "ardrone_vslam/parameters.hpp"
 
 namespace ardrone_vslam {
@@ -91,10 +92,12 @@ void visitParameters(CornerDetectorConfig& c, Visitor&& visit) {
 /// time.
 class CornerDetector {
  public:
+  /// @param set  one of supportedInstructionSets(); the corners are the same with each
   /// @throws ConfigError listing every parameter out of its range, threshold_min above
   ///   threshold_max, and a `threshold` outside of threshold_min..threshold_max when it is to
   ///   adapt.
-  explicit CornerDetector(const CornerDetectorConfig& config);
+  explicit CornerDetector(const CornerDetectorConfig& config,
+                          InstructionSet set = instructionSetInUse().set);
   ~CornerDetector();
 
   /// Detects the corners of one image.

@@ -6,6 +6,16 @@ namespace ardrone_vslam::kernels {
 Kernels kernelsFor(InstructionSet set) {
   Kernels kernels;
   static_cast<void>(set);
+#ifdef ARDRONE_VSLAM_WITH_AVX2
+  if (set == InstructionSet::kAvx2 || set == InstructionSet::kAvx512) {
+    kernels.fast_row = fastRowAvx2;
+  }
+#endif
+#ifdef ARDRONE_VSLAM_WITH_NEON
+  if (set == InstructionSet::kNeon) {
+    kernels.fast_row = fastRowNeon;
+  }
+#endif
   return kernels;
 }
 

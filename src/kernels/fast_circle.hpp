@@ -28,6 +28,7 @@ constexpr std::uint8_t kTestOrder[kCircleSize] = {0, 8, 4, 12, 2, 10, 6, 14,
 /// The circle in one image: where its pixels lie in memory, and how many in a row make a corner.
 struct FastCircle {
   std::ptrdiff_t offset[kCircleSize];  ///< bytes from the centre, once around
+  std::ptrdiff_t stride_bytes;         ///< from row to row
   int arc_length_px;                   ///< s of FAST-s, 9..12
 };
 

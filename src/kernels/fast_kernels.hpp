@@ -13,19 +13,27 @@ namespace ardrone_vslam::kernels {
 /// The pixels of one row that are to be tested. Three rows above and below it must exist.
 struct FastRow {
   const std::uint8_t* pixels;      ///< the row's first pixel
-  const std::uint8_t* thresholds;  ///< threshold of each column, in grey levels
+  const std::uint8_t* thresholds;  ///< threshold of each column, 1..255 grey levels
   int x_begin_px;  ///< columns x_begin .. x_end - 1, at least 3 from either end of the row
   int x_end_px;
   unsigned columns;  ///< bit k of 0..3: test the columns with x mod 4 == k
 };
 
+/// Where the corners of a row go.
+struct FastHits {
+  std::uint16_t* columns;  ///< of the corners, ascending; room for x_end - x_begin
+  std::uint8_t* scores;    ///< for each column of the row; receives those of the corners. The others
+                           ///< must be 0, and stay so
+};
+
 /// @param arc_length_px  s of FAST-s, 9..12
 FastCircle fastCircle(std::ptrdiff_t stride_bytes, int arc_length_px);
 
-/// Tests a row's pixels.
-/// @param hits  receives the columns of the corners, ascending; room for x_end - x_begin
+/// Tests a row's pixels and scores those that are corners.
 /// @return the number of corners
-int fastRowScalar(const FastRow& row, const FastCircle& circle, std::uint16_t* hits);
+int fastRowScalar(const FastRow& row, const FastCircle& circle, const FastHits& hits);
+int fastRowAvx2(const FastRow& row, const FastCircle& circle, const FastHits& hits);
+int fastRowNeon(const FastRow& row, const FastCircle& circle, const FastHits& hits);
 
 /// @param threshold  1..255
 /// @return whether s circle pixels in a row are all brighter than `centre` + threshold, or all

@@ -81,12 +81,14 @@ int listByFirstPair(const FastRow& row, const FastCircle& circle, std::uint16_t*
 }
 
 template <bool kTwelve>
-int testRow(const FastRow& row, const FastCircle& circle, std::uint16_t* hits) {
-  const int candidates = listByFirstPair(row, circle, hits);
+int testRow(const FastRow& row, const FastCircle& circle, const FastHits& hits) {
+  const int candidates = listByFirstPair(row, circle, hits.columns);
   int count = 0;
   for (int i = 0; i < candidates; ++i) {
-    const int x = hits[i];
-    if (isCorner<kTwelve>(row.pixels + x, circle, row.thresholds[x])) hits[count++] = hits[i];
+    const std::uint16_t x = hits.columns[i];
+    if (!isCorner<kTwelve>(row.pixels + x, circle, row.thresholds[x])) continue;
+    hits.columns[count++] = x;
+    hits.scores[x] = static_cast<std::uint8_t>(fastScoreScalar(row.pixels + x, circle));
   }
   return count;
 }
@@ -121,11 +123,12 @@ FastCircle fastCircle(std::ptrdiff_t stride_bytes, int arc_length_px) {
   FastCircle circle{};
   for (int n = 0; n < kCircleSize; ++n)
     circle.offset[n] = kCircle[n].y_px * stride_bytes + kCircle[n].x_px;
+  circle.stride_bytes = stride_bytes;
   circle.arc_length_px = arc_length_px;
   return circle;
 }
 
-int fastRowScalar(const FastRow& row, const FastCircle& circle, std::uint16_t* hits) {
+int fastRowScalar(const FastRow& row, const FastCircle& circle, const FastHits& hits) {
   if (row.columns == 0) return 0;
   return circle.arc_length_px == 12 ? testRow<true>(row, circle, hits)
                                     : testRow<false>(row, circle, hits);

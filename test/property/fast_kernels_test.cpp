@@ -147,7 +147,9 @@ void expectRowsEqualDefinition(const GreyImage& image, int arc, unsigned columns
     const int end = uniformInt(random, begin, image.width() - 3);
     const FastRow row{image.view().row(y), thresholds.data(), begin, end, columns};
     hits.resize(static_cast<std::size_t>(image.width()));
-    hits.resize(static_cast<std::size_t>(fastRowScalar(row, circle, hits.data())));
+    std::vector<std::uint8_t> scores(thresholds.size(), 0);
+    const int count = fastRowScalar(row, circle, {hits.data(), scores.data()});
+    hits.resize(static_cast<std::size_t>(count));
 
     std::vector<std::uint16_t> expected;
     for (int x = begin; x < end; ++x) {

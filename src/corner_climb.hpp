@@ -6,18 +6,16 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/image_view.hpp"
-#include "kernels/fast_circle.hpp"
+#include "kernels/kernels.hpp"
 
 namespace ardrone_vslam {
 
-/// Thins clusters of neighbouring corners (algorithm.md 2; thesis 3.2.2, 3.5, 3.6). Holds the
-/// scores of one image's pixels, computed on demand. Allocates only when an image is larger than
-/// all before.
-class CornerSuppression {
+/// Climbs from corners to the local maxima of the score (algorithm.md 2; thesis 3.2.2, 3.5, 3.6),
+/// where not every pixel was tested: holds the scores of one image's pixels, computed on demand.
+/// (Where all were, the ends are the maxima that CornerMaxima finds.)
+class CornerClimb {
  public:
-  /// Forgets all scores and takes a new image, which must outlive the calls below. At least 7x7
-  /// pixels.
-  void begin(const ImageView& image, int arc_length_px);
+  explicit CornerClimb(const kernels::Kernels& kernels) : kernels_(kernels) {}
 
   /// From every hit climbs to the 8-neighbour that is highest, until none is higher. Of two pixels
   /// with equal score the one earlier in raster order (row by row from the top left) is the higher
@@ -25,14 +23,11 @@ class CornerSuppression {
   /// higher than all their 8 neighbours. So if all corners of an image are hits, the result is the
   /// set of corners that are higher than all their neighbours, and with fewer hits a subset of it.
   /// Neighbours take part with their score even if they were never sampled.
-  /// @param hits  corner positions in raster order, at least 3 px from the border; `score` is
-  ///   filled in
+  /// @param image  at least 7x7 pixels. Allocates only when its size changes.
+  /// @param hits  corners in raster order, at least 3 px from the border
   /// @param ends  receives the end points in raster order, each once
-  void climb(std::vector<Corner>& hits, std::vector<Corner>& ends);
-
-  /// Keeps the hits whose score is greater than that of every hit among their 8 neighbours: of
-  /// equal neighbours both are dropped (as cv::FAST does). Pixels that are no hits do not count.
-  void keepStrictMaxima(std::vector<Corner>& hits, std::vector<Corner>& kept);
+  void climb(const ImageView& image, int arc_length_px, const std::vector<Corner>& hits,
+             std::vector<Corner>& ends);
 
  private:
   /// A place in the image and in the map of scores.
@@ -41,16 +36,21 @@ class CornerSuppression {
     std::uint16_t* entry;
     int x_px, y_px;
   };
-  void scoreAll(std::vector<Corner>& hits);
+  void begin(const ImageView& image, int arc_length_px, const std::vector<Corner>& hits);
+  void reset(int width_px, int height_px);
   Place placeOf(const Corner& corner);
   Place neighbour(const Place& place, int n) const;
-  int scoreAt(const Place& place) const;
+  int scoreAt(const Place& place);
   bool reaches(const Place& place, int score) const;
-  bool step(Place& place) const;
+  bool step(Place& place);
 
+  const kernels::Kernels kernels_;
   ImageView image_;
   kernels::FastCircle circle_{};
-  std::vector<std::uint16_t> map_;  ///< for each pixel its score, and whether scored and climbed
+  int map_width_px_ = 0;
+  int map_height_px_ = 0;
+  std::vector<std::uint16_t> map_;        ///< for each pixel its score, if scored, and if climbed
+  std::vector<std::uint16_t*> written_;  ///< entries of the map: to be cleared for the next image
 };
 
 }  // namespace ardrone_vslam

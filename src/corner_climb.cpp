@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "corner_suppression.hpp"
+#include "corner_climb.hpp"
 
 #include <algorithm>
 #include <cassert>
-
-#include "kernels/kernels.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -24,14 +22,12 @@ bool rasterBefore(const Corner& a, const Corner& b) {
 
 }  // namespace
 
-void CornerSuppression::begin(const ImageView& image, int arc_length_px) {
-  const int width = image.width_px;
-  const int height = image.height_px;
+void CornerClimb::reset(int width_px, int height_px) {
+  const int width = map_width_px_ = width_px;
+  const int height = map_height_px_ = height_px;
   constexpr int kRing = kernels::kCircleRadiusPx - 1;
   assert(width > 2 * kernels::kCircleRadiusPx && height > 2 * kernels::kCircleRadiusPx &&
          "image without corners");
-  image_ = image;
-  circle_ = kernels::fastCircle(image.stride_bytes, arc_length_px);
   map_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
 
   // The ring around the testable pixels counts as scored, 0: no climb leaves them, without a test
@@ -43,9 +39,25 @@ void CornerSuppression::begin(const ImageView& image, int arc_length_px) {
     rowAt(kRing)[x] = rowAt(height - 1 - kRing)[x] = kScored;
 }
 
-void CornerSuppression::climb(std::vector<Corner>& hits, std::vector<Corner>& ends) {
+void CornerClimb::begin(const ImageView& image, int arc_length_px,
+                        const std::vector<Corner>& hits) {
+  for (std::uint16_t* entry : written_) *entry = 0;
+  written_.clear();
+  if (image.width_px != map_width_px_ || image.height_px != map_height_px_)
+    reset(image.width_px, image.height_px);
+  image_ = image;
+  circle_ = kernels::fastCircle(image.stride_bytes, arc_length_px);
+  for (const Corner& hit : hits) {
+    std::uint16_t* const entry = placeOf(hit).entry;
+    *entry = static_cast<std::uint16_t>(kScored | hit.score);
+    written_.push_back(entry);
+  }
+}
+
+void CornerClimb::climb(const ImageView& image, int arc_length_px,
+                        const std::vector<Corner>& hits, std::vector<Corner>& ends) {
   ends.clear();
-  scoreAll(hits);
+  begin(image, arc_length_px, hits);
   for (const Corner& hit : hits) {
     Place place = placeOf(hit);
     // Climbing has no memory: from a pixel passed before it can only lead to the same end.
@@ -61,55 +73,38 @@ void CornerSuppression::climb(std::vector<Corner>& hits, std::vector<Corner>& en
   std::sort(ends.begin(), ends.end(), rasterBefore);
 }
 
-void CornerSuppression::keepStrictMaxima(std::vector<Corner>& hits, std::vector<Corner>& kept) {
-  kept.clear();
-  scoreAll(hits);
-  for (const Corner& hit : hits) {
-    const Place place = placeOf(hit);
-    bool strict = true;
-    for (int n = 0; n < kNeighbours && strict; ++n) {
-      const std::uint16_t entry = *neighbour(place, n).entry;
-      strict = (entry & kScored) == 0 || (entry & kScoreMask) < hit.score;
-    }
-    if (strict) kept.push_back(hit);
-  }
-}
-
-void CornerSuppression::scoreAll(std::vector<Corner>& hits) {
-  for (Corner& hit : hits) hit.score = static_cast<std::uint8_t>(scoreAt(placeOf(hit)));
-}
-
-CornerSuppression::Place CornerSuppression::placeOf(const Corner& corner) {
+CornerClimb::Place CornerClimb::placeOf(const Corner& corner) {
   const std::ptrdiff_t x = corner.x_px;
   const std::ptrdiff_t y = corner.y_px;
   return {image_.data + y * image_.stride_bytes + x, map_.data() + y * image_.width_px + x,
           corner.x_px, corner.y_px};
 }
 
-CornerSuppression::Place CornerSuppression::neighbour(const Place& place, int n) const {
+CornerClimb::Place CornerClimb::neighbour(const Place& place, int n) const {
   const int dx = kNeighbour[n].x_px;
   const int dy = kNeighbour[n].y_px;
   return {place.pixel + dy * image_.stride_bytes + dx, place.entry + dy * image_.width_px + dx,
           place.x_px + dx, place.y_px + dy};
 }
 
-int CornerSuppression::scoreAt(const Place& place) const {
+int CornerClimb::scoreAt(const Place& place) {
   if ((*place.entry & kScored) == 0) {
     *place.entry = static_cast<std::uint16_t>(
-        kScored | kernels::kernelsInUse().fast_score(place.pixel, circle_));
+        kScored | kernels_.fast_score(place.pixel, circle_));
+    written_.push_back(place.entry);
   }
   return *place.entry & kScoreMask;
 }
 
 /// Whether the pixel's score is at least `score`. Most neighbours are no corners: the test is
 /// cheaper than the score.
-bool CornerSuppression::reaches(const Place& place, int score) const {
+bool CornerClimb::reaches(const Place& place, int score) const {
   if ((*place.entry & kScored) != 0) return (*place.entry & kScoreMask) >= score;
-  return kernels::kernelsInUse().fast_test(place.pixel, circle_, score);
+  return kernels_.fast_test(place.pixel, circle_, score);
 }
 
 /// Moves to the highest 8-neighbour. @return false if none is higher
-bool CornerSuppression::step(Place& place) const {
+bool CornerClimb::step(Place& place) {
   const Place centre = place;
   int required = scoreAt(centre);  // equal score is enough for the neighbours before the centre
   bool moved = false;

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "kernels/fast_kernels.hpp"
+
+namespace ardrone_vslam {
+
+/// Keeps of an image's corners those that are higher than their 8 neighbours, while the rows are
+/// scanned from the top: the scores of three rows are enough. Pixels that are no corners do not
+/// count. Allocates only when an image is wider than all before.
+class CornerMaxima {
+ public:
+  /// Which of two neighbours with equal score is the higher: the one earlier in raster order (row
+  /// by row from the top left), or neither, so that both are dropped.
+  enum class Ties { kEarlierIsHigher, kBothDropped };
+
+  /// Starts a new image.
+  /// @param maxima  receives the corners kept, in raster order
+  void begin(int width_px, Ties ties, std::vector<Corner>& maxima);
+
+  /// Where the corners of the next row are to be put. No corner in the first and the last column.
+  kernels::FastHits nextRow();
+
+  /// Ends that row, and with it the search in the row above. After the image's last row with
+  /// corners one without any must follow.
+  /// @param count  of the row's corners
+  void endRow(int y_px, int count);
+
+ private:
+  struct Row {
+    std::vector<std::uint8_t> scores;    ///< 0 where there is no corner
+    std::vector<std::uint16_t> columns;  ///< of the corners
+    int count = 0;
+  };
+  static void clear(Row& row);
+  void keepMaxima(int y_px, const Row& above, const Row& row, const Row& below);
+
+  std::array<Row, 3> rows_;
+  std::size_t next_ = 0;  ///< of rows_
+  int later_may_equal_ = 0;  ///< 1: a later neighbour's equal score does no harm
+  std::vector<Corner>* maxima_ = nullptr;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <immintrin.h>
+
+#include <cstdint>
+
+#include "kernels/fast_lanes.hpp"
+
+namespace ardrone_vslam::kernels {
+namespace {
+
+/// 32 pixels; see fast_lanes.hpp.
+struct Avx2 {
+  using Bytes = __m256i;
+  static constexpr int kLanes = 32;
+
+  static Bytes load(const std::uint8_t* p) {
+    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
+  }
+  static void store(std::uint8_t* p, Bytes a) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a);
+  }
+  static Bytes broadcast(std::uint32_t four) {
+    return _mm256_set1_epi32(static_cast<int>(four));
+  }
+  static Bytes add(Bytes a, Bytes b) { return _mm256_adds_epu8(a, b); }
+  static Bytes subtract(Bytes a, Bytes b) { return _mm256_subs_epu8(a, b); }
+  static Bytes min(Bytes a, Bytes b) { return _mm256_min_epu8(a, b); }
+  static Bytes max(Bytes a, Bytes b) { return _mm256_max_epu8(a, b); }
+  static Bytes bitOr(Bytes a, Bytes b) { return _mm256_or_si256(a, b); }
+  static Bytes where(Bytes condition, Bytes a) {
+    return _mm256_andnot_si256(_mm256_cmpeq_epi8(condition, _mm256_setzero_si256()), a);
+  }
+  static bool any(Bytes a) { return _mm256_testz_si256(a, a) == 0; }
+
+  template <class Function>
+  static void forNonZero(Bytes a, const Function& function) {
+    const Bytes zero = _mm256_cmpeq_epi8(a, _mm256_setzero_si256());
+    auto lanes = ~static_cast<unsigned>(_mm256_movemask_epi8(zero));
+    for (; lanes != 0; lanes = _blsr_u32(lanes)) function(static_cast<int>(_tzcnt_u32(lanes)));
+  }
+};
+
+}  // namespace
+
+int fastRowAvx2(const FastRow& row, const FastCircle& circle, const FastHits& hits) {
+  return fastRowLanes<Avx2>(row, circle, hits);
+}
+
+}  // namespace ardrone_vslam::kernels
