@@ -58,9 +58,10 @@ class CornersByCell {
   int taken(int level) const;
 
   const std::vector<Corner>* corners_ = nullptr;
-  std::vector<int> begin_;  ///< first entry of each cell in `order_`, and the end of the last
+  std::vector<int> begin_;     ///< first entry of each cell in `order_`, and the end of the last
   std::vector<int> by_score_;  ///< indices of the corners, the strongest first
-  std::vector<int> order_;     ///< indices of the corners, grouped by cell, in each the strongest first
+  std::vector<int>
+      order_;  ///< indices of the corners, grouped by cell, in each the strongest first
   std::vector<int> next_;
   std::vector<std::uint8_t> keep_;
 };

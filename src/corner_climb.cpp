@@ -54,8 +54,8 @@ void CornerClimb::begin(const ImageView& image, int arc_length_px,
   }
 }
 
-void CornerClimb::climb(const ImageView& image, int arc_length_px,
-                        const std::vector<Corner>& hits, std::vector<Corner>& ends) {
+void CornerClimb::climb(const ImageView& image, int arc_length_px, const std::vector<Corner>& hits,
+                        std::vector<Corner>& ends) {
   ends.clear();
   begin(image, arc_length_px, hits);
   for (const Corner& hit : hits) {
@@ -89,8 +89,7 @@ CornerClimb::Place CornerClimb::neighbour(const Place& place, int n) const {
 
 int CornerClimb::scoreAt(const Place& place) {
   if ((*place.entry & kScored) == 0) {
-    *place.entry = static_cast<std::uint16_t>(
-        kScored | kernels_.fast_score(place.pixel, circle_));
+    *place.entry = static_cast<std::uint16_t>(kScored | kernels_.fast_score(place.pixel, circle_));
     written_.push_back(place.entry);
   }
   return *place.entry & kScoreMask;

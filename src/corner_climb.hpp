@@ -49,7 +49,7 @@ class CornerClimb {
   kernels::FastCircle circle_{};
   int map_width_px_ = 0;
   int map_height_px_ = 0;
-  std::vector<std::uint16_t> map_;        ///< for each pixel its score, if scored, and if climbed
+  std::vector<std::uint16_t> map_;       ///< for each pixel its score, if scored, and if climbed
   std::vector<std::uint16_t*> written_;  ///< entries of the map: to be cleared for the next image
 };
 

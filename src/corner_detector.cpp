@@ -57,8 +57,8 @@ struct CornerDetector::State {
 
   std::vector<std::uint16_t> row_columns;  ///< of one row's corners
   std::vector<std::uint8_t> row_scores;    ///< 0 between two rows
-  std::vector<Corner> hits;     ///< all tested pixels that are corners, in raster order
-  std::vector<Corner> thinned;  ///< what suppression leaves of them
+  std::vector<Corner> hits;                ///< all tested pixels that are corners, in raster order
+  std::vector<Corner> thinned;             ///< what suppression leaves of them
 
   void reset(const ImageView& image);
   template <class NextHits, class EndRow>
@@ -104,7 +104,7 @@ void CornerDetector::State::reset(const ImageView& image) {
   height_px = image.height_px;
   cells.reset(width_px, height_px, config.cell_size_px);
   thresholds.reset(config, cells.count());
-  row_columns.resize(static_cast<std::size_t>(width_px));
+  row_columns.resize(static_cast<std::size_t>(width_px + kernels::kHitPadding));
   row_scores.assign(static_cast<std::size_t>(width_px), 0);
 }
 
@@ -133,7 +133,10 @@ void CornerDetector::State::keepMaxima(const ImageView& image, CornerMaxima::Tie
 void CornerDetector::State::climbFromSamples(const ImageView& image) {
   hits.clear();
   scan(
-      image, [this] { return kernels::FastHits{row_columns.data(), row_scores.data()}; },
+      image,
+      [this] {
+        return kernels::FastHits{row_columns.data(), row_scores.data()};
+      },
       [this](int y, int count) {
         for (int i = 0; i < count; ++i) {
           const std::uint16_t x = row_columns[static_cast<std::size_t>(i)];

@@ -10,7 +10,7 @@ void CornerMaxima::begin(int width_px, Ties ties, std::vector<Corner>& maxima) {
   for (Row& row : rows_) {
     clear(row);
     if (row.scores.size() < width) row.scores.resize(width, 0);
-    if (row.columns.size() < width) row.columns.resize(width);
+    if (row.columns.size() < width) row.columns.resize(width + kernels::kHitPadding);
   }
   later_may_equal_ = ties == Ties::kEarlierIsHigher ? 1 : 0;
   maxima_ = &maxima;

@@ -41,7 +41,7 @@ class CornerMaxima {
   void keepMaxima(int y_px, const Row& above, const Row& row, const Row& below);
 
   std::array<Row, 3> rows_;
-  std::size_t next_ = 0;  ///< of rows_
+  std::size_t next_ = 0;     ///< of rows_
   int later_may_equal_ = 0;  ///< 1: a later neighbour's equal score does no harm
   std::vector<Corner>* maxima_ = nullptr;
 };

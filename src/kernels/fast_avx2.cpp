@@ -16,12 +16,16 @@ struct Avx2 {
   static Bytes load(const std::uint8_t* p) {
     return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
   }
+  /// For what two instructions use: GCC would load it for each of them.
+  static Bytes loadOnce(const std::uint8_t* p) {
+    Bytes a = load(p);
+    asm("" : "+x"(a));
+    return a;
+  }
   static void store(std::uint8_t* p, Bytes a) {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a);
   }
-  static Bytes broadcast(std::uint32_t four) {
-    return _mm256_set1_epi32(static_cast<int>(four));
-  }
+  static Bytes broadcast(std::uint32_t four) { return _mm256_set1_epi32(static_cast<int>(four)); }
   static Bytes add(Bytes a, Bytes b) { return _mm256_adds_epu8(a, b); }
   static Bytes subtract(Bytes a, Bytes b) { return _mm256_subs_epu8(a, b); }
   static Bytes min(Bytes a, Bytes b) { return _mm256_min_epu8(a, b); }
@@ -32,11 +36,18 @@ struct Avx2 {
   }
   static bool any(Bytes a) { return _mm256_testz_si256(a, a) == 0; }
 
-  template <class Function>
-  static void forNonZero(Bytes a, const Function& function) {
+  static int append(Bytes a, int x, std::uint16_t* columns, int count) {
     const Bytes zero = _mm256_cmpeq_epi8(a, _mm256_setzero_si256());
     auto lanes = ~static_cast<unsigned>(_mm256_movemask_epi8(zero));
-    for (; lanes != 0; lanes = _blsr_u32(lanes)) function(static_cast<int>(_tzcnt_u32(lanes)));
+    const int end = count + static_cast<int>(_mm_popcnt_u32(lanes));
+    do {
+      for (int i = 0; i < 4; ++i) {
+        columns[count + i] = static_cast<std::uint16_t>(x + static_cast<int>(_tzcnt_u32(lanes)));
+        lanes = _blsr_u32(lanes);
+      }
+      count += 4;
+    } while (lanes != 0);
+    return end;
   }
 };
 

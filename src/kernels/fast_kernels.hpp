@@ -19,11 +19,13 @@ struct FastRow {
   unsigned columns;  ///< bit k of 0..3: test the columns with x mod 4 == k
 };
 
+constexpr int kHitPadding = 4;  ///< entries that may be written after the last
+
 /// Where the corners of a row go.
 struct FastHits {
-  std::uint16_t* columns;  ///< of the corners, ascending; room for x_end - x_begin
-  std::uint8_t* scores;    ///< for each column of the row; receives those of the corners. The others
-                           ///< must be 0, and stay so
+  std::uint16_t* columns;  ///< of the corners, ascending; room for x_end - x_begin + kHitPadding
+  std::uint8_t* scores;  ///< for each column of the row; receives those of the corners. The others
+                         ///< must be 0, and stay so
 };
 
 /// @param arc_length_px  s of FAST-s, 9..12

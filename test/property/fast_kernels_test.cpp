@@ -146,7 +146,7 @@ void expectRowsEqualDefinition(const GreyImage& image, int arc, unsigned columns
     const int begin = uniformInt(random, 3, image.width() - 3);
     const int end = uniformInt(random, begin, image.width() - 3);
     const FastRow row{image.view().row(y), thresholds.data(), begin, end, columns};
-    hits.resize(static_cast<std::size_t>(image.width()));
+    hits.resize(static_cast<std::size_t>(image.width() + kHitPadding));
     std::vector<std::uint8_t> scores(thresholds.size(), 0);
     const int count = fastRowScalar(row, circle, {hits.data(), scores.data()});
     hits.resize(static_cast<std::size_t>(count));
