@@ -42,7 +42,10 @@ const CornerDetectorConfig& checked(const CornerDetectorConfig& config) {
 
 struct CornerDetector::State {
   State(const CornerDetectorConfig& checked_config, InstructionSet set)
-      : config(checked_config), kernels(kernels::kernelsFor(set)), climb(kernels) {}
+      : config(checked_config),
+        kernels(kernels::kernelsFor(set)),
+        maxima(kernels),
+        climb(kernels) {}
 
   const CornerDetectorConfig config;
   const kernels::Kernels kernels;
@@ -55,16 +58,17 @@ struct CornerDetector::State {
   CornerClimb climb;
   CornersByCell by_cell;
 
-  std::vector<std::uint16_t> row_columns;  ///< of one row's corners
-  std::vector<std::uint8_t> row_scores;    ///< 0 between two rows
-  std::vector<Corner> hits;                ///< all tested pixels that are corners, in raster order
-  std::vector<Corner> thinned;             ///< what suppression leaves of them
+  std::vector<std::uint16_t> row_groups;  ///< of one row
+  std::vector<std::uint8_t> row_scores;   ///< 0 between two rows
+  std::vector<Corner> hits;               ///< all tested pixels that are corners, in raster order
+  std::vector<Corner> thinned;            ///< what suppression leaves of them
 
   void reset(const ImageView& image);
   template <class NextHits, class EndRow>
   void scan(const ImageView& image, const NextHits& nextHits, const EndRow& endRow);
   void keepMaxima(const ImageView& image, CornerMaxima::Ties ties);
   void climbFromSamples(const ImageView& image);
+  void listHits(int y_px, int group_count);
   void dropBelowThreshold();
 };
 
@@ -104,8 +108,8 @@ void CornerDetector::State::reset(const ImageView& image) {
   height_px = image.height_px;
   cells.reset(width_px, height_px, config.cell_size_px);
   thresholds.reset(config, cells.count());
-  row_columns.resize(static_cast<std::size_t>(width_px + kernels::kHitPadding));
-  row_scores.assign(static_cast<std::size_t>(width_px), 0);
+  row_groups.resize(static_cast<std::size_t>(width_px));
+  row_scores.assign(static_cast<std::size_t>(width_px + kernels::kScorePadding), 0);
 }
 
 /// Tests the pixels of `sampling_passes`, row by row from the top.
@@ -135,17 +139,23 @@ void CornerDetector::State::climbFromSamples(const ImageView& image) {
   scan(
       image,
       [this] {
-        return kernels::FastHits{row_columns.data(), row_scores.data()};
+        return kernels::FastScores{row_scores.data(), row_groups.data()};
       },
-      [this](int y, int count) {
-        for (int i = 0; i < count; ++i) {
-          const std::uint16_t x = row_columns[static_cast<std::size_t>(i)];
-          std::uint8_t& score = row_scores[x];
-          hits.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), score});
-          score = 0;
-        }
-      });
+      [this](int y, int group_count) { listHits(y, group_count); });
   climb.climb(image, config.arc_length_px, hits, thinned);
+}
+
+/// Moves the corners of a row from `row_scores` to `hits`.
+void CornerDetector::State::listHits(int y_px, int group_count) {
+  for (int i = 0; i < group_count; ++i) {
+    const int begin = row_groups[static_cast<std::size_t>(i)];
+    for (int x = begin; x < begin + kernels.fast_group_px; ++x) {
+      std::uint8_t& score = row_scores[static_cast<std::size_t>(x)];
+      if (score == 0) continue;
+      hits.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y_px), score});
+      score = 0;
+    }
+  }
 }
 
 /// A climb may end in a neighbouring cell whose threshold is higher than the end's score.

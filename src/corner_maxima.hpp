@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "kernels/fast_kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace ardrone_vslam {
 
@@ -19,30 +19,32 @@ class CornerMaxima {
   /// by row from the top left), or neither, so that both are dropped.
   enum class Ties { kEarlierIsHigher, kBothDropped };
 
+  explicit CornerMaxima(const kernels::Kernels& kernels) : kernels_(kernels) {}
+
   /// Starts a new image.
   /// @param maxima  receives the corners kept, in raster order
   void begin(int width_px, Ties ties, std::vector<Corner>& maxima);
 
   /// Where the corners of the next row are to be put. No corner in the first and the last column.
-  kernels::FastHits nextRow();
+  kernels::FastScores nextRow();
 
   /// Ends that row, and with it the search in the row above. After the image's last row with
   /// corners one without any must follow.
-  /// @param count  of the row's corners
-  void endRow(int y_px, int count);
+  /// @param group_count  what the scan of the row returned
+  void endRow(int y_px, int group_count);
 
  private:
   struct Row {
-    std::vector<std::uint8_t> scores;    ///< 0 where there is no corner
-    std::vector<std::uint16_t> columns;  ///< of the corners
-    int count = 0;
+    std::vector<std::uint8_t> scores;   ///< 0 where there is no corner
+    std::vector<std::uint16_t> groups;  ///< columns
+    int group_count = 0;
   };
-  static void clear(Row& row);
-  void keepMaxima(int y_px, const Row& above, const Row& row, const Row& below);
 
+  const kernels::Kernels kernels_;
   std::array<Row, 3> rows_;
-  std::size_t next_ = 0;     ///< of rows_
-  int later_may_equal_ = 0;  ///< 1: a later neighbour's equal score does no harm
+  std::size_t next_ = 0;  ///< of rows_
+  bool later_may_equal_ = false;
+  std::vector<std::uint16_t> columns_;  ///< of one row's maxima
   std::vector<Corner>* maxima_ = nullptr;
 };
 

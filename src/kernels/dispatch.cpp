@@ -9,11 +9,15 @@ Kernels kernelsFor(InstructionSet set) {
 #ifdef ARDRONE_VSLAM_WITH_AVX2
   if (set == InstructionSet::kAvx2 || set == InstructionSet::kAvx512) {
     kernels.fast_row = fastRowAvx2;
+    kernels.fast_group_px = 32;
+    kernels.fast_maxima = fastMaximaAvx2;
   }
 #endif
 #ifdef ARDRONE_VSLAM_WITH_NEON
   if (set == InstructionSet::kNeon) {
     kernels.fast_row = fastRowNeon;
+    kernels.fast_group_px = 16;
+    kernels.fast_maxima = fastMaximaNeon;
   }
 #endif
   return kernels;

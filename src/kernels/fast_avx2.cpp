@@ -31,6 +31,7 @@ struct Avx2 {
   static Bytes min(Bytes a, Bytes b) { return _mm256_min_epu8(a, b); }
   static Bytes max(Bytes a, Bytes b) { return _mm256_max_epu8(a, b); }
   static Bytes bitOr(Bytes a, Bytes b) { return _mm256_or_si256(a, b); }
+  static Bytes bitXor(Bytes a, Bytes b) { return _mm256_xor_si256(a, b); }
   static Bytes where(Bytes condition, Bytes a) {
     return _mm256_andnot_si256(_mm256_cmpeq_epi8(condition, _mm256_setzero_si256()), a);
   }
@@ -53,8 +54,12 @@ struct Avx2 {
 
 }  // namespace
 
-int fastRowAvx2(const FastRow& row, const FastCircle& circle, const FastHits& hits) {
-  return fastRowLanes<Avx2>(row, circle, hits);
+int fastRowAvx2(const FastRow& row, const FastCircle& circle, const FastScores& out) {
+  return fastRowLanes<Avx2>(row, circle, out);
+}
+
+int fastMaximaAvx2(const FastNeighbours& rows, std::uint16_t* columns) {
+  return fastMaximaLanes<Avx2>(rows, columns);
 }
 
 }  // namespace ardrone_vslam::kernels

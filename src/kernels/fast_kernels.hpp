@@ -19,23 +19,46 @@ struct FastRow {
   unsigned columns;  ///< bit k of 0..3: test the columns with x mod 4 == k
 };
 
-constexpr int kHitPadding = 4;  ///< entries that may be written after the last
+constexpr int kScorePadding = 64;  ///< zeros that must follow each row of scores
 
-/// Where the corners of a row go.
-struct FastHits {
-  std::uint16_t* columns;  ///< of the corners, ascending; room for x_end - x_begin + kHitPadding
-  std::uint8_t* scores;  ///< for each column of the row; receives those of the corners. The others
-                         ///< must be 0, and stay so
+/// Where the corners of a row go. Groups are as many columns as a form of the kernels handles at a
+/// time, one in the scalar form.
+struct FastScores {
+  std::uint8_t* scores;   ///< for each column of the row; receives those of the corners. The others
+                          ///< must be 0, and stay so
+  std::uint16_t* groups;  ///< receives the first columns of groups that together hold all corners,
+                          ///< ascending; groups may overlap. Room for x_end - x_begin
 };
+
+/// The scores of three rows, and the groups of the middle one that hold corners.
+struct FastNeighbours {
+  const std::uint8_t* above;
+  const std::uint8_t* row;
+  const std::uint8_t* below;
+  const std::uint16_t* groups;
+  int group_count;
+  bool later_may_equal;  ///< of equal neighbours the one earlier in raster order is the higher;
+                         ///< else neither is
+};
+
+constexpr int kMaximaPadding = 4;  ///< entries that may be written after the last maximum
 
 /// @param arc_length_px  s of FAST-s, 9..12
 FastCircle fastCircle(std::ptrdiff_t stride_bytes, int arc_length_px);
 
 /// Tests a row's pixels and scores those that are corners.
-/// @return the number of corners
-int fastRowScalar(const FastRow& row, const FastCircle& circle, const FastHits& hits);
-int fastRowAvx2(const FastRow& row, const FastCircle& circle, const FastHits& hits);
-int fastRowNeon(const FastRow& row, const FastCircle& circle, const FastHits& hits);
+/// @return the number of groups
+int fastRowScalar(const FastRow& row, const FastCircle& circle, const FastScores& out);
+int fastRowAvx2(const FastRow& row, const FastCircle& circle, const FastScores& out);
+int fastRowNeon(const FastRow& row, const FastCircle& circle, const FastScores& out);
+
+/// Finds the corners whose score is higher than those of their 8 neighbours; pixels of score 0 are
+/// no corners.
+/// @param columns  receives their columns, ascending; room for all of them and kMaximaPadding
+/// @return their number
+int fastMaximaScalar(const FastNeighbours& rows, std::uint16_t* columns);
+int fastMaximaAvx2(const FastNeighbours& rows, std::uint16_t* columns);
+int fastMaximaNeon(const FastNeighbours& rows, std::uint16_t* columns);
 
 /// @param threshold  1..255
 /// @return whether s circle pixels in a row are all brighter than `centre` + threshold, or all

@@ -31,8 +31,6 @@ class LaneBlocks {
       lines_[y + kCircleRadiusPx] = row.pixels + y * stride_bytes;
     skipped_ = skippedColumns(xBegin_px(0));
     last_skipped_ = skippedColumns(xBegin_px(count_ - 1));
-    const int overlap = count_ * V::kLanes - (row.x_end_px - row.x_begin_px);
-    for (int i = 0; i < V::kLanes; ++i) last_new_[i] = i < overlap ? 0 : 255;
   }
 
   int count() const { return count_; }
@@ -48,11 +46,6 @@ class LaneBlocks {
   Bytes thresholds(int block, int x) const {
     return V::bitOr(V::load(row_.thresholds + x), block < count_ - 1 ? skipped_ : last_skipped_);
   }
-  /// The block's scores without those that belong to the block before.
-  Bytes ownScores(int block, const std::uint8_t* scores) const {
-    const Bytes all = V::load(scores + xBegin_px(block));
-    return block < count_ - 1 ? all : V::min(all, V::load(last_new_));
-  }
 
  private:
   Bytes skippedColumns(int x_begin) const {
@@ -67,7 +60,6 @@ class LaneBlocks {
   int count_;
   const std::uint8_t* lines_[2 * kCircleRadiusPx + 1];
   Bytes skipped_, last_skipped_;
-  std::uint8_t last_new_[V::kLanes];  ///< 255 in the last block where it does not overlap
 };
 
 /// What four circle pixels 90 degrees apart say of an arc through them: at a corner `bright` is
@@ -202,44 +194,63 @@ void scoreBlocks(const LaneBlocks<V>& blocks, const std::uint16_t* list, int cou
   }
 }
 
-template <class V>
-int listCorners(const LaneBlocks<V>& blocks, const std::uint16_t* list, int listed,
-                const FastHits& hits) {
-  int count = 0;
-  for (int i = 0; i < listed; ++i) {
-    const int x = blocks.xBegin_px(list[i]);
-    count = V::append(blocks.ownScores(list[i], hits.scores), x, hits.columns, count);
-  }
-  return count;
-}
-
 template <class V, int kArc>
-int scanRow(const FastRow& row, const FastCircle& circle, const FastHits& hits) {
+int scanRow(const FastRow& row, const FastCircle& circle, const FastScores& out) {
   constexpr bool kTwelve = kArc == 12;
   const LaneBlocks<V> blocks(row, circle.stride_bytes);
   LaneLists<V> lists;
   lists.either_count = listByCompass<V, kTwelve>(blocks, lists.either);
   keepByDiagonal<V, kTwelve>(blocks, lists);
-  scoreBlocks<V, kArc, true>(blocks, lists.brighter, lists.brighter_count, hits.scores);
-  scoreBlocks<V, kArc, false>(blocks, lists.darker, lists.darker_count, hits.scores);
-  return listCorners<V>(blocks, lists.either, lists.either_count, hits);
+  scoreBlocks<V, kArc, true>(blocks, lists.brighter, lists.brighter_count, out.scores);
+  scoreBlocks<V, kArc, false>(blocks, lists.darker, lists.darker_count, out.scores);
+  for (int i = 0; i < lists.either_count; ++i)
+    out.groups[i] = static_cast<std::uint16_t>(blocks.xBegin_px(lists.either[i]));
+  return lists.either_count;
 }
 
 /// See fastRowScalar.
 template <class V>
-int fastRowLanes(const FastRow& row, const FastCircle& circle, const FastHits& hits) {
+int fastRowLanes(const FastRow& row, const FastCircle& circle, const FastScores& out) {
   if (row.columns == 0) return 0;
-  if (row.x_end_px - row.x_begin_px < V::kLanes) return fastRowScalar(row, circle, hits);
+  if (row.x_end_px - row.x_begin_px < V::kLanes) return fastRowScalar(row, circle, out);
   switch (circle.arc_length_px) {
     case 9:
-      return scanRow<V, 9>(row, circle, hits);
+      return scanRow<V, 9>(row, circle, out);
     case 10:
-      return scanRow<V, 10>(row, circle, hits);
+      return scanRow<V, 10>(row, circle, out);
     case 11:
-      return scanRow<V, 11>(row, circle, hits);
+      return scanRow<V, 11>(row, circle, out);
     default:
-      return scanRow<V, 12>(row, circle, hits);
+      return scanRow<V, 12>(row, circle, out);
   }
+}
+
+/// See fastMaximaScalar. Groups of one column, from rows too short for a block, will do: what
+/// follows them is looked at too, and each column counts once.
+template <class V>
+int fastMaximaLanes(const FastNeighbours& rows, std::uint16_t* columns) {
+  const auto may_exceed = V::broadcast(rows.later_may_equal ? 0x01010101U : 0U);
+  std::uint8_t fresh[2 * V::kLanes];  // from kLanes - n on: all lanes but the first n
+  for (int i = 0; i < 2 * V::kLanes; ++i) fresh[i] = i < V::kLanes ? 0 : 255;
+  int count = 0;
+  int done_px = 0;
+  for (int i = 0; i < rows.group_count; ++i) {
+    const int x = rows.groups[i];
+    const std::uint8_t* a = rows.above + x;
+    const std::uint8_t* c = rows.row + x;
+    const std::uint8_t* b = rows.below + x;
+    const auto earlier =
+        V::max(V::max(V::load(a - 1), V::load(a)), V::max(V::load(a + 1), V::load(c - 1)));
+    const auto later =
+        V::max(V::max(V::load(c + 1), V::load(b - 1)), V::max(V::load(b), V::load(b + 1)));
+    const auto highest = V::max(earlier, V::subtract(later, may_exceed));
+    const int overlap = done_px > x ? done_px - x : 0;
+    const auto maxima =
+        V::min(V::subtract(V::load(c), highest), V::load(fresh + V::kLanes - overlap));
+    count = V::append(maxima, x, columns, count);
+    done_px = x + V::kLanes;
+  }
+  return count;
 }
 
 }  // namespace ardrone_vslam::kernels

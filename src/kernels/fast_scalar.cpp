@@ -81,16 +81,20 @@ int listByFirstPair(const FastRow& row, const FastCircle& circle, std::uint16_t*
 }
 
 template <bool kTwelve>
-int testRow(const FastRow& row, const FastCircle& circle, const FastHits& hits) {
-  const int candidates = listByFirstPair(row, circle, hits.columns);
+int testRow(const FastRow& row, const FastCircle& circle, const FastScores& out) {
+  const int candidates = listByFirstPair(row, circle, out.groups);
   int count = 0;
   for (int i = 0; i < candidates; ++i) {
-    const std::uint16_t x = hits.columns[i];
+    const std::uint16_t x = out.groups[i];
     if (!isCorner<kTwelve>(row.pixels + x, circle, row.thresholds[x])) continue;
-    hits.columns[count++] = x;
-    hits.scores[x] = static_cast<std::uint8_t>(fastScoreScalar(row.pixels + x, circle));
+    out.groups[count++] = x;
+    out.scores[x] = static_cast<std::uint8_t>(fastScoreScalar(row.pixels + x, circle));
   }
   return count;
+}
+
+int higherOf(int a, int b) {
+  return a > b ? a : b;
 }
 
 struct Smaller {
@@ -128,10 +132,27 @@ FastCircle fastCircle(std::ptrdiff_t stride_bytes, int arc_length_px) {
   return circle;
 }
 
-int fastRowScalar(const FastRow& row, const FastCircle& circle, const FastHits& hits) {
+int fastRowScalar(const FastRow& row, const FastCircle& circle, const FastScores& out) {
   if (row.columns == 0) return 0;
-  return circle.arc_length_px == 12 ? testRow<true>(row, circle, hits)
-                                    : testRow<false>(row, circle, hits);
+  return circle.arc_length_px == 12 ? testRow<true>(row, circle, out)
+                                    : testRow<false>(row, circle, out);
+}
+
+/// Without branches: which corners are maxima is hardly predictable.
+int fastMaximaScalar(const FastNeighbours& rows, std::uint16_t* columns) {
+  const int may_exceed = rows.later_may_equal ? 1 : 0;
+  int count = 0;
+  for (int i = 0; i < rows.group_count; ++i) {
+    const std::uint16_t x = rows.groups[i];
+    const std::uint8_t* a = rows.above + x;
+    const std::uint8_t* c = rows.row + x;
+    const std::uint8_t* b = rows.below + x;
+    const int earlier = higherOf(higherOf(a[-1], a[0]), higherOf(a[1], c[-1]));
+    const int later = higherOf(higherOf(c[1], b[-1]), higherOf(b[0], b[1]));
+    columns[count] = x;
+    count += static_cast<int>(c[0] > higherOf(earlier, later - may_exceed));
+  }
+  return count;
 }
 
 bool fastTestScalar(const std::uint8_t* centre, const FastCircle& circle, int threshold) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "support/fast_oracle.hpp"
+#include "support/fast_scan.hpp"
 #include "support/grey_images.hpp"
 
 namespace ardrone_vslam::test {
@@ -137,29 +138,22 @@ TEST(FastScore, EqualsTryingEveryThreshold) {
 /// Every pixel of every row, each column with a threshold of its own.
 void expectRowsEqualDefinition(const GreyImage& image, int arc, unsigned columns,
                                std::mt19937& random) {
-  const FastCircle circle = fastCircle(image.view().stride_bytes, arc);
   std::vector<std::uint8_t> thresholds(static_cast<std::size_t>(image.width()));
   for (auto& threshold : thresholds)
     threshold = static_cast<std::uint8_t>(uniformInt(random, 1, 120));
-  std::vector<std::uint16_t> hits(thresholds.size());
   for (int y = 3; y < image.height() - 3; ++y) {
     const int begin = uniformInt(random, 3, image.width() - 3);
     const int end = uniformInt(random, begin, image.width() - 3);
     const FastRow row{image.view().row(y), thresholds.data(), begin, end, columns};
-    hits.resize(static_cast<std::size_t>(image.width() + kHitPadding));
-    std::vector<std::uint8_t> scores(thresholds.size(), 0);
-    const int count = fastRowScalar(row, circle, {hits.data(), scores.data()});
-    hits.resize(static_cast<std::size_t>(count));
-
-    std::vector<std::uint16_t> expected;
+    std::vector<std::uint8_t> expected(thresholds.size(), 0);
     for (int x = begin; x < end; ++x) {
+      const auto i = static_cast<std::size_t>(x);
       const bool tested = ((columns >> (x % 4)) & 1U) != 0;
-      if (tested &&
-          isCornerByDefinition(image, {y, x}, arc, thresholds[static_cast<std::size_t>(x)])) {
-        expected.push_back(static_cast<std::uint16_t>(x));
-      }
+      if (tested && isCornerByDefinition(image, {y, x}, arc, thresholds[i]))
+        expected[i] = static_cast<std::uint8_t>(scoreByDefinition(image, {y, x}, arc));
     }
-    ASSERT_EQ(hits, expected) << "s " << arc << " columns " << columns << " row " << y;
+    ASSERT_EQ(scanned(kernelsFor(InstructionSet::kScalar), image, row, arc), expected)
+        << "s " << arc << " columns " << columns << " row " << y;
   }
 }
 
