@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "sampling_raster.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -39,26 +41,30 @@ void CornerClimb::reset(int width_px, int height_px) {
     rowAt(kRing)[x] = rowAt(height - 1 - kRing)[x] = kScored;
 }
 
-void CornerClimb::begin(const ImageView& image, int arc_length_px,
-                        const std::vector<Corner>& hits) {
+void CornerClimb::begin(const ImageView& image, int arc_length_px, const Start& start) {
   for (std::uint16_t* entry : written_) *entry = 0;
   written_.clear();
   if (image.width_px != map_width_px_ || image.height_px != map_height_px_)
     reset(image.width_px, image.height_px);
   image_ = image;
+  cells_ = start.cells;
+  thresholds_ = start.thresholds;
   circle_ = kernels::fastCircle(image.stride_bytes, arc_length_px);
-  for (const Corner& hit : hits) {
-    std::uint16_t* const entry = placeOf(hit).entry;
-    *entry = static_cast<std::uint16_t>(kScored | hit.score);
+  for (const Corner& corner : start.corners) {
+    std::uint16_t* const entry = placeOf(corner).entry;
+    *entry = static_cast<std::uint16_t>(kScored | corner.score);
     written_.push_back(entry);
   }
 }
 
-void CornerClimb::climb(const ImageView& image, int arc_length_px, const std::vector<Corner>& hits,
+void CornerClimb::climb(const ImageView& image, int arc_length_px, const Start& start,
                         std::vector<Corner>& ends) {
   ends.clear();
-  begin(image, arc_length_px, hits);
-  for (const Corner& hit : hits) {
+  begin(image, arc_length_px, start);
+  unsigned columns[4];
+  for (int y = 0; y < 4; ++y) columns[y] = sampledColumns(y, start.sampling_passes);
+  for (const Corner& hit : start.corners) {
+    if (((columns[hit.y_px & 3] >> (hit.x_px & 3)) & 1U) == 0) continue;
     Place place = placeOf(hit);
     // Climbing has no memory: from a pixel passed before it can only lead to the same end.
     bool at_end = false;
@@ -99,6 +105,8 @@ int CornerClimb::scoreAt(const Place& place) {
 /// cheaper than the score.
 bool CornerClimb::reaches(const Place& place, int score) const {
   if ((*place.entry & kScored) != 0) return (*place.entry & kScoreMask) >= score;
+  if (cells_ != nullptr && score >= thresholds_->at(cells_->cellAt(place.x_px, place.y_px)))
+    return false;
   return kernels_.fast_test(place.pixel, circle_, score);
 }
 

@@ -19,6 +19,9 @@ namespace {
 
 constexpr int kBorderPx = kernels::kCircleRadiusPx;
 constexpr int kAllPasses = 16;
+/// From so many passes on vector kernels test all pixels all the same: with all scores known the
+/// climbs cost next to nothing.
+constexpr int kDensePasses = 4;
 
 const CornerDetectorConfig& checked(const CornerDetectorConfig& config) {
   auto faults = rangeFaults(config);
@@ -65,7 +68,7 @@ struct CornerDetector::State {
 
   void reset(const ImageView& image);
   template <class NextHits, class EndRow>
-  void scan(const ImageView& image, const NextHits& nextHits, const EndRow& endRow);
+  void scan(const ImageView& image, int passes, const NextHits& nextHits, const EndRow& endRow);
   void keepMaxima(const ImageView& image, CornerMaxima::Ties ties);
   void climbFromSamples(const ImageView& image);
   void listHits(int y_px, int group_count);
@@ -112,16 +115,16 @@ void CornerDetector::State::reset(const ImageView& image) {
   row_scores.assign(static_cast<std::size_t>(width_px + kernels::kScorePadding), 0);
 }
 
-/// Tests the pixels of `sampling_passes`, row by row from the top.
+/// Tests the pixels of the first `passes` passes, row by row from the top.
 /// @param nextHits  gives the place for a row's corners
 /// @param endRow  takes the row and the number of its corners
 template <class NextHits, class EndRow>
-void CornerDetector::State::scan(const ImageView& image, const NextHits& nextHits,
+void CornerDetector::State::scan(const ImageView& image, int passes, const NextHits& nextHits,
                                  const EndRow& endRow) {
   const auto circle = kernels::fastCircle(image.stride_bytes, config.arc_length_px);
   for (int y = kBorderPx; y < height_px - kBorderPx; ++y) {
     const kernels::FastRow row{image.row(y), threshold_rows.at(y), kBorderPx, width_px - kBorderPx,
-                               sampledColumns(y, config.sampling_passes)};
+                               sampledColumns(y, passes)};
     endRow(y, kernels.fast_row(row, circle, nextHits()));
   }
 }
@@ -129,20 +132,22 @@ void CornerDetector::State::scan(const ImageView& image, const NextHits& nextHit
 void CornerDetector::State::keepMaxima(const ImageView& image, CornerMaxima::Ties ties) {
   maxima.begin(width_px, ties, thinned);
   scan(
-      image, [this] { return maxima.nextRow(); },
+      image, config.sampling_passes, [this] { return maxima.nextRow(); },
       [this](int y, int count) { maxima.endRow(y, count); });
   maxima.endRow(height_px - kBorderPx, 0);
 }
 
 void CornerDetector::State::climbFromSamples(const ImageView& image) {
   hits.clear();
+  const bool dense = kernels.fast_group_px > 1 && config.sampling_passes >= kDensePasses;
   scan(
-      image,
+      image, dense ? kAllPasses : config.sampling_passes,
       [this] {
         return kernels::FastScores{row_scores.data(), row_groups.data()};
       },
       [this](int y, int group_count) { listHits(y, group_count); });
-  climb.climb(image, config.arc_length_px, hits, thinned);
+  climb.climb(image, config.arc_length_px,
+              {hits, config.sampling_passes, dense ? &cells : nullptr, &thresholds}, thinned);
 }
 
 /// Moves the corners of a row from `row_scores` to `hits`.

@@ -31,10 +31,9 @@ void CornerMaxima::endRow(int y_px, int group_count) {
       kernels_.fast_maxima({above.scores.data(), row.scores.data(), below.scores.data(),
                             row.groups.data(), row.group_count, later_may_equal_},
                            columns_.data());
-  for (int i = 0; i < count; ++i) {
-    const std::uint16_t x = columns_[static_cast<std::size_t>(i)];
+  for (const auto* x = columns_.data(); x != columns_.data() + count; ++x) {
     maxima_->push_back(
-        {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y_px - 1), row.scores[x]});
+        {static_cast<std::int16_t>(*x), static_cast<std::int16_t>(y_px - 1), row.scores[*x]});
   }
   if (above.group_count != 0) std::fill(above.scores.begin(), above.scores.end(), std::uint8_t{0});
   above.group_count = 0;

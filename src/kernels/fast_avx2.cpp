@@ -37,6 +37,10 @@ struct Avx2 {
   }
   static bool any(Bytes a) { return _mm256_testz_si256(a, a) == 0; }
 
+  using Flag = std::uint8_t;
+  static constexpr bool kFlagsThroughMemory = false;
+  static void storeAny(Bytes a, Flag* flag) { *flag = any(a) ? 1 : 0; }
+
   static int append(Bytes a, int x, std::uint16_t* columns, int count) {
     const Bytes zero = _mm256_cmpeq_epi8(a, _mm256_setzero_si256());
     auto lanes = ~static_cast<unsigned>(_mm256_movemask_epi8(zero));

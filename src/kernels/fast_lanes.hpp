@@ -8,11 +8,12 @@
 // FAST-s on many neighbouring pixels at a time, one in each byte of a vector. Included by one file
 // for each instruction set, which gives its vectors as the type V, of internal linkage so that no
 // code made for one processor can be taken for another's:
-//   Bytes, kLanes (a multiple of 4), load, store, broadcast (4 bytes again and again, the low one
-//   first), add and subtract (both saturating), min, max, bitOr, any (whether a byte is not 0),
-//   forNonZero(bytes, f) (calls f(lane) for each byte that is not 0, ascending),
-//   kAnyThroughMemory, storeAny (see listByCompass).
-// Nothing but integer arithmetic; equal to the scalar form by its tests.
+//   Bytes, kLanes (a multiple of 4), load, loadOnce (for what several instructions use), store,
+//   broadcast (4 bytes again and again, the low one first), add and subtract (both saturating),
+//   min, max, bitOr, where (the second argument's bytes where the first one's are not 0, else 0),
+//   any (whether a byte is not 0),
+//   append (the columns x + i of the bytes i that are not 0; may write 4 entries too many),
+//   kFlagsThroughMemory, Flag, storeAny (a flag that is not 0 if any()).
 namespace ardrone_vslam::kernels {
 
 constexpr int kMostColumns = 32768;
@@ -49,11 +50,9 @@ class LaneBlocks {
 
  private:
   Bytes skippedColumns(int x_begin) const {
-    std::uint32_t skipped = 0;
-    for (int i = 0; i < 4; ++i) {
-      if (((row_.columns >> ((x_begin + i) & 3)) & 1U) == 0) skipped |= 0xFFU << (8 * i);
-    }
-    return V::broadcast(skipped);
+    const unsigned skipped = ~row_.columns & 0xFU;
+    const unsigned from_begin = ((skipped | (skipped << 4)) >> (x_begin & 3)) & 0xFU;
+    return V::broadcast(((from_begin * 0x00204081U) & 0x01010101U) * 0xFFU);  // a byte for each bit
   }
 
   FastRow row_;
@@ -99,19 +98,25 @@ inline typename V::Bytes leftByCompass(const LaneBlocks<V>& blocks, int block) {
 template <class V, bool kTwelve>
 int listByCompass(const LaneBlocks<V>& blocks, std::uint16_t* list) {
   int count = 0;
+  const auto append = [&](int block, bool any) {
+    list[count] = static_cast<std::uint16_t>(block);
+    count += static_cast<int>(any);
+  };
+  if (V::kFlagsThroughMemory) {
+    typename V::Flag flags[kMostColumns / V::kLanes];
+    for (int block = 0; block < blocks.count(); ++block)
+      V::storeAny(leftByCompass<V, kTwelve>(blocks, block), flags + block);
+    for (int block = 0; block < blocks.count(); ++block) append(block, flags[block] != 0);
+    return count;
+  }
   int block = 0;
   for (; block + 1 < blocks.count(); block += 2) {  // two at a time: a third faster
     const auto left = leftByCompass<V, kTwelve>(blocks, block);
     const auto next_left = leftByCompass<V, kTwelve>(blocks, block + 1);
-    list[count] = static_cast<std::uint16_t>(block);
-    count += static_cast<int>(V::any(left));
-    list[count] = static_cast<std::uint16_t>(block + 1);
-    count += static_cast<int>(V::any(next_left));
+    append(block, V::any(left));
+    append(block + 1, V::any(next_left));
   }
-  if (block < blocks.count()) {
-    list[count] = static_cast<std::uint16_t>(block);
-    count += static_cast<int>(V::any(leftByCompass<V, kTwelve>(blocks, block)));
-  }
+  if (block < blocks.count()) append(block, V::any(leftByCompass<V, kTwelve>(blocks, block)));
   return count;
 }
 
@@ -131,26 +136,30 @@ struct LaneLists {
 /// @param lists  its `either` holds the blocks left by the initial test
 template <class V, bool kTwelve>
 void keepByDiagonal(const LaneBlocks<V>& blocks, LaneLists<V>& lists) {
-  const int listed = lists.either_count;
-  lists.either_count = 0;
-  for (int i = 0; i < listed; ++i) {
+  int brighter_count = 0;
+  int darker_count = 0;
+  int either_count = 0;
+  for (int i = 0; i < lists.either_count; ++i) {
     const std::uint16_t block = lists.either[i];
     const int x = blocks.xBegin_px(block);
     const auto centre = blocks.centre(x);
     const auto threshold = blocks.thresholds(block, x);
     const auto compass = quadAt<V, kTwelve, 0>(blocks, x);
     const auto diagonal = quadAt<V, kTwelve, 2>(blocks, x);
-    const bool brighter =
-        V::any(V::subtract(V::min(compass.bright, diagonal.bright), V::add(centre, threshold)));
-    const bool darker =
-        V::any(V::subtract(V::subtract(centre, threshold), V::max(compass.dark, diagonal.dark)));
-    lists.brighter[lists.brighter_count] = block;
-    lists.brighter_count += static_cast<int>(brighter);
-    lists.darker[lists.darker_count] = block;
-    lists.darker_count += static_cast<int>(darker);
-    lists.either[lists.either_count] = block;
-    lists.either_count += static_cast<int>(brighter) | static_cast<int>(darker);
+    const int brighter = static_cast<int>(
+        V::any(V::subtract(V::min(compass.bright, diagonal.bright), V::add(centre, threshold))));
+    const int darker = static_cast<int>(
+        V::any(V::subtract(V::subtract(centre, threshold), V::max(compass.dark, diagonal.dark))));
+    lists.brighter[brighter_count] = block;
+    lists.darker[darker_count] = block;
+    lists.either[either_count] = block;
+    brighter_count += brighter;
+    darker_count += darker;
+    either_count += brighter | darker;
   }
+  lists.brighter_count = brighter_count;
+  lists.darker_count = darker_count;
+  lists.either_count = either_count;
 }
 
 /// The greatest, over all arcs of kArc, of the least difference in the arc: windows of 2, 4 and 8
@@ -203,9 +212,13 @@ int scanRow(const FastRow& row, const FastCircle& circle, const FastScores& out)
   keepByDiagonal<V, kTwelve>(blocks, lists);
   scoreBlocks<V, kArc, true>(blocks, lists.brighter, lists.brighter_count, out.scores);
   scoreBlocks<V, kArc, false>(blocks, lists.darker, lists.darker_count, out.scores);
-  for (int i = 0; i < lists.either_count; ++i)
-    out.groups[i] = static_cast<std::uint16_t>(blocks.xBegin_px(lists.either[i]));
-  return lists.either_count;
+  int count = 0;
+  for (int i = 0; i < lists.either_count; ++i) {
+    const int x = blocks.xBegin_px(lists.either[i]);
+    out.groups[count] = static_cast<std::uint16_t>(x);
+    count += static_cast<int>(V::any(V::load(out.scores + x)));
+  }
+  return count;
 }
 
 /// See fastRowScalar.

@@ -21,7 +21,7 @@ cv::Mat asMat(const ImageView& image) {
 }
 
 /// @return the number of corners that were compared
-std::size_t expectEqualToOpenCv(const ImageView& image, int threshold) {
+std::size_t expectEqualToOpenCv(const ImageView& image, int threshold, InstructionSet set) {
   CornerDetectorConfig config;
   config.arc_length_px = 9;
   config.threshold = threshold;
@@ -29,7 +29,7 @@ std::size_t expectEqualToOpenCv(const ImageView& image, int threshold) {
   config.suppression = Suppression::kStrict3x3;
   config.features_per_frame = kManyCorners;
   std::vector<Corner> corners;
-  CornerDetector(config).detect(image, corners);
+  CornerDetector(config, set).detect(image, corners);
 
   std::vector<cv::KeyPoint> expected;
   cv::FAST(asMat(image), expected, threshold, true, cv::FastFeatureDetector::TYPE_9_16);
@@ -49,19 +49,21 @@ std::size_t expectEqualToOpenCv(const ImageView& image, int threshold) {
   return expected.size();
 }
 
-TEST(FastAgainstOpenCv, RandomImages) {
+class FastAgainstOpenCv : public testing::TestWithParam<InstructionSet> {};
+
+TEST_P(FastAgainstOpenCv, RandomImages) {
   std::size_t compared = 0;
   for (const unsigned seed : testSeeds()) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     for (const GreyImage& image : variedImages(seed)) {
       for (const int threshold : {1, 8, 35, 90})
-        compared += expectEqualToOpenCv(image.view(), threshold);
+        compared += expectEqualToOpenCv(image.view(), threshold, GetParam());
     }
   }
   EXPECT_GT(compared, 1000U);
 }
 
-TEST(FastAgainstOpenCv, KittiFrames) {
+TEST_P(FastAgainstOpenCv, KittiFrames) {
   const char* data = std::getenv("ARDRONE_VSLAM_DATA");
   if (data == nullptr)
     GTEST_SKIP() << "set ARDRONE_VSLAM_DATA to the folder of real data to run this";
@@ -72,10 +74,14 @@ TEST(FastAgainstOpenCv, KittiFrames) {
     ASSERT_FALSE(image.empty()) << "cannot read " << file;
     const ImageView view{image.data, image.cols, image.rows,
                          static_cast<std::ptrdiff_t>(image.step)};
-    for (const int threshold : {10, 20, 35}) compared += expectEqualToOpenCv(view, threshold);
+    for (const int threshold : {10, 20, 35})
+      compared += expectEqualToOpenCv(view, threshold, GetParam());
   }
   EXPECT_GT(compared, 1000U);
 }
+
+INSTANTIATE_TEST_SUITE_P(InstructionSets, FastAgainstOpenCv,
+                         testing::ValuesIn(supportedInstructionSets()));
 
 }  // namespace
 }  // namespace ardrone_vslam::test

@@ -15,18 +15,6 @@ std::vector<InstructionSet> vectorSets() {
   return sets;
 }
 
-/// Images of one size: noise, few grey levels, one grey level, only 0 and 255, dots.
-std::vector<GreyImage> imagesOf(int width_px, int height_px, std::mt19937& random) {
-  const int padding = uniformInt(random, 0, 70);
-  std::vector<GreyImage> images(6, GreyImage(width_px, height_px, padding, 77));
-  fillBlocks(images[1], {1, 256, 255, 0}, random);
-  fillBlocks(images[2], {2, 3, 200, 0}, random);
-  fillBlocks(images[3], {1, 2, 255, 0}, random);
-  fillBlocks(images[4], {3, 2, 255, 3}, random);
-  fillDots(images[5], {9, 120, 2}, random, 0, width_px);
-  return images;
-}
-
 class FastForms : public testing::TestWithParam<int> {  // arc length
  protected:
   void SetUp() override {
@@ -56,7 +44,7 @@ class FastForms : public testing::TestWithParam<int> {  // arc length
 TEST_P(FastForms, RowsOfEveryWidth) {
   std::mt19937 random(11);
   for (int width = 7; width < 7 + 2 * 64 + 3; ++width) {
-    for (const GreyImage& image : imagesOf(width, 9, random)) {
+    for (const GreyImage& image : imagesOfSize(width, 9, random)) {
       std::vector<std::uint8_t> thresholds(static_cast<std::size_t>(width));
       for (auto& threshold : thresholds)
         threshold = static_cast<std::uint8_t>(uniformInt(random, 1, 90));
@@ -71,7 +59,7 @@ TEST_P(FastForms, RowsOfEveryWidth) {
 
 TEST_P(FastForms, EveryThreshold) {
   std::mt19937 random(12);
-  for (const GreyImage& image : imagesOf(101, 11, random)) {
+  for (const GreyImage& image : imagesOfSize(101, 11, random)) {
     for (int threshold = 1; threshold <= 254; ++threshold) {
       const std::vector<std::uint8_t> thresholds(101, static_cast<std::uint8_t>(threshold));
       expectRowsEqual(image, thresholds, 3, 0xFU);
@@ -85,7 +73,7 @@ TEST_P(FastForms, LargeRandomImages) {
   for (const unsigned seed : testSeeds()) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
-    for (const GreyImage& image : imagesOf(uniformInt(random, 150, 700), 15, random)) {
+    for (const GreyImage& image : imagesOfSize(uniformInt(random, 150, 700), 15, random)) {
       std::vector<std::uint8_t> thresholds(static_cast<std::size_t>(image.width()));
       for (auto& threshold : thresholds)
         threshold = static_cast<std::uint8_t>(uniformInt(random, 1, 254));
@@ -122,7 +110,7 @@ TEST(FastMaxima, EqualScalarForEveryWidth) {
   std::size_t maxima = 0;
   std::mt19937 random(13);
   for (int width = 7; width < 7 + 2 * 64 + 3; ++width) {
-    for (const GreyImage& image : imagesOf(width, 14, random)) {
+    for (const GreyImage& image : imagesOfSize(width, 14, random)) {
       for (int y = 4; y < image.height() - 4; ++y) {
         for (const bool later_may_equal : {false, true}) {
           const auto expected =

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ardrone_vslam/features.hpp"
 #include "kernels/kernels.hpp"
 #include "support/grey_images.hpp"
 
@@ -48,6 +49,17 @@ inline std::vector<std::uint8_t> scanned(const kernels::Kernels& kernels, const 
       << "corners outside of the groups";
   result.scores.resize(static_cast<std::size_t>(image.width()));
   return result.scores;
+}
+
+/// Place, order and score.
+inline void expectSameCorners(const std::vector<Corner>& corners,
+                              const std::vector<Corner>& expected, InstructionSet set) {
+  const bool same = std::equal(corners.begin(), corners.end(), expected.begin(), expected.end(),
+                               [](const Corner& a, const Corner& b) {
+                                 return a.x_px == b.x_px && a.y_px == b.y_px && a.score == b.score;
+                               });
+  EXPECT_TRUE(same) << nameOf(set) << " " << corners.size() << " corners, " << expected.size()
+                    << " expected";
 }
 
 }  // namespace ardrone_vslam::test

@@ -131,4 +131,16 @@ inline std::vector<GreyImage> variedImages(unsigned seed) {
   return images;
 }
 
+/// Images of one size: noise, few grey levels, one grey level, only 0 and 255, dots.
+inline std::vector<GreyImage> imagesOfSize(int width_px, int height_px, std::mt19937& random) {
+  const int padding = uniformInt(random, 0, 70);
+  std::vector<GreyImage> images(6, GreyImage(width_px, height_px, padding, 77));
+  fillBlocks(images[1], {1, 256, 255, 0}, random);
+  fillBlocks(images[2], {2, 3, 200, 0}, random);
+  fillBlocks(images[3], {1, 2, 255, 0}, random);
+  fillBlocks(images[4], {3, 2, 255, 3}, random);
+  fillDots(images[5], {9, 120, 2}, random, 0, width_px);
+  return images;
+}
+
 }  // namespace ardrone_vslam::test
