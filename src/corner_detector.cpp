@@ -62,9 +62,10 @@ struct CornerDetector::State {
   CornersByCell by_cell;
 
   std::vector<std::uint16_t> row_groups;  ///< of one row
-  std::vector<std::uint8_t> row_scores;   ///< 0 between two rows
-  std::vector<Corner> hits;               ///< all tested pixels that are corners, in raster order
-  std::vector<Corner> thinned;            ///< what suppression leaves of them
+  std::vector<std::uint16_t> row_columns;
+  std::vector<std::uint8_t> row_scores;  ///< 0 between two rows
+  std::vector<Corner> hits;              ///< all tested pixels that are corners, in raster order
+  std::vector<Corner> thinned;           ///< what suppression leaves of them
 
   void reset(const ImageView& image);
   template <class NextHits, class EndRow>
@@ -112,6 +113,7 @@ void CornerDetector::State::reset(const ImageView& image) {
   cells.reset(width_px, height_px, config.cell_size_px);
   thresholds.reset(config, cells.count());
   row_groups.resize(static_cast<std::size_t>(width_px));
+  row_columns.resize(static_cast<std::size_t>(width_px + kernels::kMaximaPadding));
   row_scores.assign(static_cast<std::size_t>(width_px + kernels::kScorePadding), 0);
 }
 
@@ -152,14 +154,12 @@ void CornerDetector::State::climbFromSamples(const ImageView& image) {
 
 /// Moves the corners of a row from `row_scores` to `hits`.
 void CornerDetector::State::listHits(int y_px, int group_count) {
-  for (int i = 0; i < group_count; ++i) {
-    const int begin = row_groups[static_cast<std::size_t>(i)];
-    for (int x = begin; x < begin + kernels.fast_group_px; ++x) {
-      std::uint8_t& score = row_scores[static_cast<std::size_t>(x)];
-      if (score == 0) continue;
-      hits.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y_px), score});
-      score = 0;
-    }
+  const int count =
+      kernels.fast_list(row_scores.data(), row_groups.data(), group_count, row_columns.data());
+  for (const std::uint16_t* x = row_columns.data(); x != row_columns.data() + count; ++x) {
+    hits.push_back(
+        {static_cast<std::int16_t>(*x), static_cast<std::int16_t>(y_px), row_scores[*x]});
+    row_scores[*x] = 0;
   }
 }
 

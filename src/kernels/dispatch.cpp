@@ -11,6 +11,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.fast_row = fastRowAvx2;
     kernels.fast_group_px = 32;
     kernels.fast_maxima = fastMaximaAvx2;
+    kernels.fast_list = fastListAvx2;
   }
 #endif
 #ifdef ARDRONE_VSLAM_WITH_NEON
@@ -18,6 +19,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.fast_row = fastRowNeon;
     kernels.fast_group_px = 16;
     kernels.fast_maxima = fastMaximaNeon;
+    kernels.fast_list = fastListNeon;
   }
 #endif
   return kernels;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "kernels/fast_lanes.hpp"
+#include "kernels/fast_score_lanes.hpp"
 
 namespace ardrone_vslam::kernels {
 namespace {
@@ -64,6 +65,11 @@ int fastRowAvx2(const FastRow& row, const FastCircle& circle, const FastScores& 
 
 int fastMaximaAvx2(const FastNeighbours& rows, std::uint16_t* columns) {
   return fastMaximaLanes<Avx2>(rows, columns);
+}
+
+int fastListAvx2(const std::uint8_t* scores, const std::uint16_t* groups, int group_count,
+                 std::uint16_t* columns) {
+  return fastListLanes<Avx2>(scores, groups, group_count, columns);
 }
 
 }  // namespace ardrone_vslam::kernels

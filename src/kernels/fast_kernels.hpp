@@ -60,6 +60,17 @@ int fastMaximaScalar(const FastNeighbours& rows, std::uint16_t* columns);
 int fastMaximaAvx2(const FastNeighbours& rows, std::uint16_t* columns);
 int fastMaximaNeon(const FastNeighbours& rows, std::uint16_t* columns);
 
+/// Lists the corners of a row: the columns of all scores that are not 0.
+/// @param groups  as fast_row left them
+/// @param columns  as for fastMaximaScalar
+/// @return their number
+int fastListScalar(const std::uint8_t* scores, const std::uint16_t* groups, int group_count,
+                   std::uint16_t* columns);
+int fastListAvx2(const std::uint8_t* scores, const std::uint16_t* groups, int group_count,
+                 std::uint16_t* columns);
+int fastListNeon(const std::uint8_t* scores, const std::uint16_t* groups, int group_count,
+                 std::uint16_t* columns);
+
 /// @param threshold  1..255
 /// @return whether s circle pixels in a row are all brighter than `centre` + threshold, or all
 ///   darker than `centre` - threshold (3.1): whether the score is at least `threshold`

@@ -238,32 +238,4 @@ int fastRowLanes(const FastRow& row, const FastCircle& circle, const FastScores&
   }
 }
 
-/// See fastMaximaScalar. Groups of one column, from rows too short for a block, will do: what
-/// follows them is looked at too, and each column counts once.
-template <class V>
-int fastMaximaLanes(const FastNeighbours& rows, std::uint16_t* columns) {
-  const auto may_exceed = V::broadcast(rows.later_may_equal ? 0x01010101U : 0U);
-  std::uint8_t fresh[2 * V::kLanes];  // from kLanes - n on: all lanes but the first n
-  for (int i = 0; i < 2 * V::kLanes; ++i) fresh[i] = i < V::kLanes ? 0 : 255;
-  int count = 0;
-  int done_px = 0;
-  for (int i = 0; i < rows.group_count; ++i) {
-    const int x = rows.groups[i];
-    const std::uint8_t* a = rows.above + x;
-    const std::uint8_t* c = rows.row + x;
-    const std::uint8_t* b = rows.below + x;
-    const auto earlier =
-        V::max(V::max(V::load(a - 1), V::load(a)), V::max(V::load(a + 1), V::load(c - 1)));
-    const auto later =
-        V::max(V::max(V::load(c + 1), V::load(b - 1)), V::max(V::load(b), V::load(b + 1)));
-    const auto highest = V::max(earlier, V::subtract(later, may_exceed));
-    const int overlap = done_px > x ? done_px - x : 0;
-    const auto maxima =
-        V::min(V::subtract(V::load(c), highest), V::load(fresh + V::kLanes - overlap));
-    count = V::append(maxima, x, columns, count);
-    done_px = x + V::kLanes;
-  }
-  return count;
-}
-
 }  // namespace ardrone_vslam::kernels

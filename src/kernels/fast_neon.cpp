@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "kernels/fast_lanes.hpp"
+#include "kernels/fast_score_lanes.hpp"
 
 namespace ardrone_vslam::kernels {
 namespace {
@@ -56,6 +57,11 @@ int fastRowNeon(const FastRow& row, const FastCircle& circle, const FastScores& 
 
 int fastMaximaNeon(const FastNeighbours& rows, std::uint16_t* columns) {
   return fastMaximaLanes<Neon>(rows, columns);
+}
+
+int fastListNeon(const std::uint8_t* scores, const std::uint16_t* groups, int group_count,
+                 std::uint16_t* columns) {
+  return fastListLanes<Neon>(scores, groups, group_count, columns);
 }
 
 }  // namespace ardrone_vslam::kernels

@@ -155,6 +155,12 @@ int fastMaximaScalar(const FastNeighbours& rows, std::uint16_t* columns) {
   return count;
 }
 
+int fastListScalar(const std::uint8_t*, const std::uint16_t* groups, int group_count,
+                   std::uint16_t* columns) {
+  for (int i = 0; i < group_count; ++i) columns[i] = groups[i];
+  return group_count;
+}
+
 bool fastTestScalar(const std::uint8_t* centre, const FastCircle& circle, int threshold) {
   return circle.arc_length_px == 12 ? isCorner<true>(centre, circle, threshold)
                                     : isCorner<false>(centre, circle, threshold);

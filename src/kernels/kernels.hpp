@@ -13,6 +13,7 @@ struct Kernels {
   decltype(&fastRowScalar) fast_row = fastRowScalar;
   int fast_group_px = 1;  ///< columns of a group that fast_row lists
   decltype(&fastMaximaScalar) fast_maxima = fastMaximaScalar;
+  decltype(&fastListScalar) fast_list = fastListScalar;
   decltype(&fastTestScalar) fast_test = fastTestScalar;
   decltype(&fastScoreScalar) fast_score = fastScoreScalar;
   decltype(&freakIntegral16Scalar) freak_integral16 = freakIntegral16Scalar;

@@ -49,6 +49,14 @@ std::vector<std::uint16_t> maxima(decltype(&fastMaximaScalar) fastMaxima,
   return columns;
 }
 
+std::vector<std::uint16_t> listed(decltype(&fastListScalar) fastList, const ScannedRow& row) {
+  std::vector<std::uint16_t> columns(row.scores.size());
+  const int count = fastList(row.scores.data(), row.groups.data(),
+                             static_cast<int>(row.groups.size()), columns.data());
+  columns.resize(static_cast<std::size_t>(count));
+  return columns;
+}
+
 /// Number of corners in an image; adds what differs to `faults`.
 int compare(const GreyImage& image, int arc, unsigned columns, std::mt19937& random, int& faults) {
   std::vector<std::uint8_t> thresholds(static_cast<std::size_t>(image.width()));
@@ -65,6 +73,11 @@ int compare(const GreyImage& image, int arc, unsigned columns, std::mt19937& ran
     if (found.back().scores == expected.back().scores && groupsHoldAll(found.back())) continue;
     std::printf("fastRowNeon differs: width %d, s %d, columns %u, row %d\n", image.width(), arc,
                 columns, y);
+    ++faults;
+  }
+  for (std::size_t y = 0; y < expected.size(); ++y) {
+    if (listed(fastListNeon, found[y]) == listed(fastListScalar, expected[y])) continue;
+    std::printf("fastListNeon differs: width %d, s %d\n", image.width(), arc);
     ++faults;
   }
   for (std::size_t y = 1; y + 1 < expected.size(); ++y) {

@@ -106,6 +106,17 @@ std::vector<std::uint16_t> maximaOf(const Kernels& kernels, const GreyImage& ima
   return columns;
 }
 
+std::vector<std::uint16_t> listOf(const Kernels& kernels, const GreyImage& image, int y) {
+  const std::vector<std::uint8_t> thresholds(static_cast<std::size_t>(image.width()), 10);
+  const ScannedRow row =
+      scan(kernels, image, {image.view().row(y), thresholds.data(), 3, image.width() - 3, 0xFU}, 9);
+  std::vector<std::uint16_t> columns(static_cast<std::size_t>(image.width() + kMaximaPadding));
+  const int count = kernels.fast_list(row.scores.data(), row.groups.data(),
+                                      static_cast<int>(row.groups.size()), columns.data());
+  columns.resize(static_cast<std::size_t>(count));
+  return columns;
+}
+
 TEST(FastMaxima, EqualScalarForEveryWidth) {
   std::size_t maxima = 0;
   std::mt19937 random(13);
@@ -117,6 +128,9 @@ TEST(FastMaxima, EqualScalarForEveryWidth) {
               maximaOf(kernelsFor(InstructionSet::kScalar), image, y, later_may_equal);
           maxima += expected.size();
           for (const InstructionSet set : supportedInstructionSets()) {
+            ASSERT_EQ(listOf(kernelsFor(set), image, y),
+                      listOf(kernelsFor(InstructionSet::kScalar), image, y))
+                << nameOf(set) << " width " << width << " row " << y;
             ASSERT_EQ(maximaOf(kernelsFor(set), image, y, later_may_equal), expected)
                 << nameOf(set) << " width " << width << " row " << y;
           }
