@@ -19,8 +19,8 @@ namespace {
 
 constexpr int kBorderPx = kernels::kCircleRadiusPx;
 constexpr int kAllPasses = 16;
-/// From so many passes on vector kernels test all pixels all the same: with all scores known the
-/// climbs cost next to nothing.
+/// From so many passes on vector kernels test all pixels all the same: that costs less than to
+/// score on demand those that the climbs ask for.
 constexpr int kDensePasses = 4;
 
 const CornerDetectorConfig& checked(const CornerDetectorConfig& config) {
