@@ -8,6 +8,7 @@ Kernels kernelsFor(InstructionSet set) {
   static_cast<void>(set);
 #ifdef ARDRONE_VSLAM_WITH_AVX2
   if (set == InstructionSet::kAvx2 || set == InstructionSet::kAvx512) {
+    // FAST with the 64 lanes of AVX-512 was measured: no faster on 1242x375 px, slower on 320x240.
     kernels.fast_row = fastRowAvx2;
     kernels.fast_group_px = 32;
     kernels.fast_maxima = fastMaximaAvx2;

@@ -32,7 +32,6 @@ struct Avx2 {
   static Bytes min(Bytes a, Bytes b) { return _mm256_min_epu8(a, b); }
   static Bytes max(Bytes a, Bytes b) { return _mm256_max_epu8(a, b); }
   static Bytes bitOr(Bytes a, Bytes b) { return _mm256_or_si256(a, b); }
-  static Bytes bitXor(Bytes a, Bytes b) { return _mm256_xor_si256(a, b); }
   static Bytes where(Bytes condition, Bytes a) {
     return _mm256_andnot_si256(_mm256_cmpeq_epi8(condition, _mm256_setzero_si256()), a);
   }

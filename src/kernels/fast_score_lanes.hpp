@@ -14,7 +14,8 @@ template <class V>
 class FreshLanes {
  public:
   FreshLanes() {
-    for (int i = 0; i < 2 * V::kLanes; ++i) window_[i] = i < V::kLanes ? 0 : 255;
+    V::store(window_, V::broadcast(0));
+    V::store(window_ + V::kLanes, V::broadcast(0xFFFFFFFFU));
   }
 
   /// @return 255 in the lanes that no group before had
