@@ -6,6 +6,14 @@ namespace ardrone_vslam::kernels {
 Kernels kernelsFor(InstructionSet set) {
   Kernels kernels;
   static_cast<void>(set);
+#ifdef ARDRONE_VSLAM_WITH_AVX2
+  if (set == InstructionSet::kAvx2 || set == InstructionSet::kAvx512) {
+    kernels.freak_integral16 = freakIntegral16Avx2;
+    kernels.freak_means = freakMeansAvx2;
+    kernels.freak_orientation = freakOrientationAvx2;
+    kernels.freak_bits = freakBitsAvx2;
+  }
+#endif
   return kernels;
 }
 
