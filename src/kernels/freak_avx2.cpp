@@ -37,51 +37,77 @@ void integrate32(__m256i pixels, const std::uint16_t* above, std::uint16_t* row,
                       _mm256_add_epi16(second, load(above + 16)));
 }
 
-/// Four fields' corners, each as the column and row of a box: (left, top, right, bottom) four
-/// times in words.
-/// @return the sums of their pixels as the sum of two neighbouring lanes, modulo 2^16
-__m256i fourSums(const int* at_keypoint, __m256i corners, __m256i one_and_stride) {
-  const __m256i crossed =
-      _mm256_shufflehi_epi16(_mm256_shufflelo_epi16(corners, 0xc6), 0xc6);  // right, top, left, ..
-  const __m256i plus = _mm256_madd_epi16(corners, one_and_stride);
-  const __m256i minus = _mm256_madd_epi16(crossed, one_and_stride);
-  return _mm256_sub_epi32(_mm256_i32gather_epi32(at_keypoint, plus, 2),
-                          _mm256_i32gather_epi32(at_keypoint, minus, 2));
+/// The corners of all boxes as places in the integral image, relative to the keypoint: two 32-bit
+/// numbers each.
+struct Corners {
+  alignas(32) std::int64_t plus[kFreakPaddedFields];   ///< left top and right bottom
+  alignas(32) std::int64_t minus[kFreakPaddedFields];  ///< right top and left bottom
+};
+
+/// Four boxes' borders (left, top, right, bottom) in words.
+__m256i fourBoxes(const FreakBox* boxes) {
+  return _mm256_cvtepi8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(boxes)));
 }
 
-/// Four boxes' areas in the low word of each 64-bit lane, above it is anything.
-__m256i fourAreas(__m256i corners) {
-  const __m256i sides = _mm256_sub_epi16(_mm256_srli_epi64(corners, 32), corners);
+void placeCorners(const FreakBox* boxes, std::ptrdiff_t stride, Corners& corners) {
+  const __m256i one_and_stride =
+      _mm256_set1_epi32(static_cast<int>((static_cast<std::uint32_t>(stride) << 16) | 1U));
+  for (int k = 0; k < kFreakPaddedFields; k += 4) {
+    const __m256i borders = fourBoxes(boxes + k);
+    const __m256i crossed =  // (right, top, left, bottom)
+        _mm256_shufflehi_epi16(_mm256_shufflelo_epi16(borders, 0xc6), 0xc6);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(corners.plus + k),
+                       _mm256_madd_epi16(borders, one_and_stride));
+    _mm256_store_si256(reinterpret_cast<__m256i*>(corners.minus + k),
+                       _mm256_madd_epi16(crossed, one_and_stride));
+  }
+}
+
+/// An entry of the integral image in the low half; above it is the one behind it.
+std::uint32_t entry(const std::uint16_t* at_keypoint, std::int64_t place) {
+  std::uint32_t value = 0;
+  __builtin_memcpy(&value, at_keypoint + place, sizeof value);
+  return value;
+}
+
+/// The boxes' pixel sums modulo 2^16; above them is anything. Plain loads: gathers are slower.
+void boxSums(const std::uint16_t* at_keypoint, const Corners& corners, std::uint32_t* sums) {
+#pragma GCC unroll 4
+  for (int k = 0; k < kFreakPaddedFields - 4; ++k) {
+    const std::int64_t plus = corners.plus[k];
+    const std::int64_t minus = corners.minus[k];
+    sums[k] = entry(at_keypoint, static_cast<std::int32_t>(plus)) -
+              entry(at_keypoint, static_cast<std::int32_t>(minus)) -
+              entry(at_keypoint, minus >> 32) + entry(at_keypoint, plus >> 32);
+  }
+}
+
+/// Four boxes' areas in the low word of each 64-bit lane; above it is anything.
+__m256i fourAreas(const FreakBox* boxes) {
+  const __m256i borders = fourBoxes(boxes);
+  const __m256i sides = _mm256_sub_epi16(_mm256_srli_epi64(borders, 32), borders);
   return _mm256_mullo_epi16(sides, _mm256_srli_epi32(sides, 16));
 }
 
-/// Eight fields' means in the order 0, 1, 4, 5, 2, 3, 6, 7.
-__m256i eightMeans(const int* at_keypoint, const FreakBox* boxes, __m256i one_and_stride) {
-  const __m256i bytes = load(boxes);
-  const __m256i a = _mm256_cvtepi8_epi16(_mm256_castsi256_si128(bytes));
-  const __m256i b = _mm256_cvtepi8_epi16(_mm256_extracti128_si256(bytes, 1));
+/// Eight fields' means.
+__m256i eightMeans(const FreakBox* boxes, const std::uint32_t* sums) {
   const __m256i low_words = _mm256_set1_epi32(0xffff);
-  const __m256i sums = _mm256_and_si256(_mm256_hadd_epi32(fourSums(at_keypoint, a, one_and_stride),
-                                                          fourSums(at_keypoint, b, one_and_stride)),
-                                        low_words);
-  const __m256i areas = _mm256_and_si256(
-      _mm256_castps_si256(_mm256_shuffle_ps(_mm256_castsi256_ps(fourAreas(a)),
-                                            _mm256_castsi256_ps(fourAreas(b)), 0x88)),
-      low_words);
+  const __m256 mixed = _mm256_shuffle_ps(_mm256_castsi256_ps(fourAreas(boxes)),
+                                         _mm256_castsi256_ps(fourAreas(boxes + 4)), 0x88);
+  const __m256i areas =
+      _mm256_and_si256(_mm256_permute4x64_epi64(_mm256_castps_si256(mixed), 0xd8), low_words);
   // (sum + area / 2 + 1 / 2) / area is at least 1 / 512 from every integer; floats err by less
   // than 2^-15 below 256: the integer part is exact.
-  const __m256i rounded = _mm256_add_epi32(sums, _mm256_srli_epi32(areas, 1));
+  const __m256i rounded =
+      _mm256_add_epi32(_mm256_and_si256(load(sums), low_words), _mm256_srli_epi32(areas, 1));
   const __m256 dividend = _mm256_add_ps(_mm256_cvtepi32_ps(rounded), _mm256_set1_ps(0.5F));
   return _mm256_cvttps_epi32(_mm256_div_ps(dividend, _mm256_cvtepi32_ps(areas)));
 }
 
-/// 32 fields' means from four of eightMeans(), in order.
-void store32(__m256i a, __m256i b, __m256i c, __m256i d, std::uint8_t* means) {
+/// Bytes of 32 numbers below 256.
+__m256i packBytes(__m256i a, __m256i b, __m256i c, __m256i d) {
   const __m256i bytes = _mm256_packus_epi16(_mm256_packs_epi32(a, b), _mm256_packs_epi32(c, d));
-  const __m128i low = _mm256_castsi256_si128(bytes);        // 0, 1, 4, 5 of each
-  const __m128i high = _mm256_extracti128_si256(bytes, 1);  // 2, 3, 6, 7 of each
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(means), _mm_unpacklo_epi16(low, high));
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(means + 16), _mm_unpackhi_epi16(low, high));
+  return _mm256_permutevar8x32_epi32(bytes, _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7));
 }
 
 /// The means, each third of them in both halves of a vector, where shuffles find them.
@@ -135,17 +161,17 @@ void freakIntegral16Avx2(const FreakImage& image, std::uint16_t* sums, std::ptrd
 
 void freakMeansAvx2(const std::uint16_t* at_keypoint, std::ptrdiff_t stride, const FreakBox* boxes,
                     std::uint8_t* means) {
-  // The gathers take 32 bits: an entry and the one behind it.
-  const int* entries = reinterpret_cast<const int*>(at_keypoint);
-  const __m256i one_and_stride =
-      _mm256_set1_epi32(static_cast<int>((static_cast<std::uint32_t>(stride) << 16) | 1U));
-  __m256i m[6];
-  for (int k = 0; k < 6; ++k) m[k] = eightMeans(entries, boxes + 8 * k, one_and_stride);
-  store32(m[0], m[1], m[2], m[3], means);
-  const __m256i bytes = _mm256_packus_epi16(_mm256_packs_epi32(m[4], m[5]), m[4]);
-  _mm_storeu_si128(
-      reinterpret_cast<__m128i*>(means + 32),
-      _mm_unpacklo_epi16(_mm256_castsi256_si128(bytes), _mm256_extracti128_si256(bytes, 1)));
+  Corners corners;
+  placeCorners(boxes, stride, corners);
+  alignas(32) std::uint32_t sums[kFreakPaddedFields];
+  boxSums(at_keypoint, corners, sums);
+  for (int k = kFreakPaddedFields - 4; k < kFreakPaddedFields; ++k) sums[k] = 0;
+  __m256i eight[6];
+  for (int k = 0; k < 6; ++k) eight[k] = eightMeans(boxes + 8 * k, sums + 8 * k);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(means),
+                      packBytes(eight[0], eight[1], eight[2], eight[3]));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(means + 32),
+                   _mm256_castsi256_si128(packBytes(eight[4], eight[5], eight[4], eight[5])));
 }
 
 void freakOrientationAvx2(const std::uint8_t* means, const FreakOrientationPairs& pairs,
