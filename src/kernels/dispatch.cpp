@@ -12,6 +12,12 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.freak_means = freakMeansAvx2;
     kernels.freak_orientation = freakOrientationAvx2;
     kernels.freak_bits = freakBitsAvx2;
+    kernels.hamming_nearest = hammingNearestAvx2;
+    kernels.hamming_mutual = hammingMutualAvx2;
+  }
+  if (set == InstructionSet::kAvx512) {
+    kernels.hamming_nearest = hammingNearestAvx512;
+    kernels.hamming_mutual = hammingMutualAvx512;
   }
 #endif
   return kernels;
