@@ -20,6 +20,16 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_mutual = hammingMutualAvx512;
   }
 #endif
+#ifdef ARDRONE_VSLAM_WITH_NEON
+  if (set == InstructionSet::kNeon) {
+    kernels.freak_integral16 = freakIntegral16Neon;
+    kernels.freak_means = freakMeansNeon;
+    kernels.freak_orientation = freakOrientationNeon;
+    kernels.freak_bits = freakBitsNeon;
+    kernels.hamming_nearest = hammingNearestNeon;
+    kernels.hamming_mutual = hammingMutualNeon;
+  }
+#endif
   return kernels;
 }
 

@@ -91,13 +91,18 @@ void freakOrientationScalar(const std::uint8_t* means, const FreakOrientationPai
 void freakBitsScalar(const std::uint8_t* means, const FreakComparisons& lists,
                      std::uint64_t* words);
 
-#ifdef ARDRONE_VSLAM_WITH_AVX2
+// The other forms; only the files of this machine's architecture define theirs.
 void freakIntegral16Avx2(const FreakImage& image, std::uint16_t* sums, std::ptrdiff_t stride);
 void freakMeansAvx2(const std::uint16_t* at_keypoint, std::ptrdiff_t stride, const FreakBox* boxes,
                     std::uint8_t* means);
 void freakOrientationAvx2(const std::uint8_t* means, const FreakOrientationPairs& pairs,
                           std::int32_t* sums);
 void freakBitsAvx2(const std::uint8_t* means, const FreakComparisons& lists, std::uint64_t* words);
-#endif
+void freakIntegral16Neon(const FreakImage& image, std::uint16_t* sums, std::ptrdiff_t stride);
+void freakMeansNeon(const std::uint16_t* at_keypoint, std::ptrdiff_t stride, const FreakBox* boxes,
+                    std::uint8_t* means);
+void freakOrientationNeon(const std::uint8_t* means, const FreakOrientationPairs& pairs,
+                          std::int32_t* sums);
+void freakBitsNeon(const std::uint8_t* means, const FreakComparisons& lists, std::uint64_t* words);
 
 }  // namespace ardrone_vslam::kernels

@@ -60,7 +60,7 @@ void hammingMutualScalar(const std::uint64_t* query, std::uint16_t query_number,
 /// @param words  room for whole groups; the last group's rest is filled with zeros
 void hammingTileWords(const std::uint64_t* descriptors, int count, std::uint64_t* words);
 
-#ifdef ARDRONE_VSLAM_WITH_AVX2
+// The other forms; only the files of this machine's architecture define theirs.
 void hammingNearestAvx2(const std::uint64_t* query, const HammingTile& tile,
                         HammingNearest& nearest);
 void hammingMutualAvx2(const std::uint64_t* query, std::uint16_t query_number,
@@ -71,13 +71,10 @@ void hammingNearestAvx512(const std::uint64_t* query, const HammingTile& tile,
 void hammingMutualAvx512(const std::uint64_t* query, std::uint16_t query_number,
                          const HammingTile& tile, HammingNearest& nearest,
                          const HammingMutual& mutual);
-#endif
-#ifdef ARDRONE_VSLAM_WITH_NEON
 void hammingNearestNeon(const std::uint64_t* query, const HammingTile& tile,
                         HammingNearest& nearest);
 void hammingMutualNeon(const std::uint64_t* query, std::uint16_t query_number,
                        const HammingTile& tile, HammingNearest& nearest,
                        const HammingMutual& mutual);
-#endif
 
 }  // namespace ardrone_vslam::kernels
