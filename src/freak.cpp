@@ -15,7 +15,17 @@ namespace {
 
 using kernels::kFreakFields;
 constexpr int kUnknown = -1;
+/// Keypoints described together, step by step: each step's results are waited for while the other
+/// keypoints' are computed. The pixels of four stay in the first-level cache.
+constexpr std::size_t kBlock = 4;
 using Means = std::array<std::uint8_t, kernels::kFreakPaddedFields>;
+
+/// A keypoint on its way to a descriptor.
+struct Patch {
+  int x_px, y_px, scale;
+  int orientation;
+  Means means;
+};
 
 /// Integral image whose buffer is kept from frame to frame. 16 bits are exact for the pattern's own
 /// scale and half the memory traffic; enlarged patterns need 32.
@@ -50,9 +60,10 @@ struct FreakDescriber::State {
   void select(const ImageView& image, const std::vector<FreakKeypoint>& keypoints,
               std::vector<int>& kept);
   void computeIntegrals(const ImageView& image);
-  void computeMeans(const FreakKeypoint& keypoint, int scale, int orientation, Means& means) const;
+  void computeMeans(Patch& patch) const;
   int orientationOf(const Means& means, float* angle_deg) const;
-  Descriptor describeOne(const FreakKeypoint& keypoint, int scale, float* angle_deg) const;
+  void describeBlock(Patch* patches, std::size_t count, Descriptor* descriptors,
+                     float* angles_deg) const;
 
   FreakConfig config;
   kernels::Kernels kernels;
@@ -95,23 +106,23 @@ void FreakDescriber::State::computeIntegrals(const ImageView& image) {
   boxes_hold = std::max(image.width_px, image.height_px) <= FreakPattern::kLargestSide_px;
 }
 
-void FreakDescriber::State::computeMeans(const FreakKeypoint& keypoint, int scale, int orientation,
-                                         Means& means) const {
-  const int x = keypoint.x_px;
-  const int y = keypoint.y_px;
-  if (scale == 0 && boxes_hold) {
-    kernels.freak_means(integral16.at(x, y), integral16.stride, pattern.boxes(orientation, x, y),
-                        means.data());
-    for (const auto& irregular : pattern.irregular(orientation)) {
-      means[static_cast<std::size_t>(irregular.index)] =
+void FreakDescriber::State::computeMeans(Patch& patch) const {
+  const int x = patch.x_px;
+  const int y = patch.y_px;
+  if (patch.scale == 0 && boxes_hold) {
+    kernels.freak_means(integral16.at(x, y), integral16.stride,
+                        pattern.boxes(patch.orientation, x, y), patch.means.data());
+    if (!pattern.isExceptional(x, y)) return;
+    for (const auto& irregular : pattern.irregular(patch.orientation)) {
+      patch.means[static_cast<std::size_t>(irregular.index)] =
           integral16.mean(boxAround(irregular.field, x, y));
     }
     return;
   }
   for (int index = 0; index < kFreakFields; ++index) {
-    const FreakPixelBox box = boxAround(pattern.field(scale, orientation, index), x, y);
-    means[static_cast<std::size_t>(index)] =
-        scale == 0 ? integral16.mean(box) : integral32.mean(box);
+    const FreakPixelBox box = boxAround(pattern.field(patch.scale, patch.orientation, index), x, y);
+    patch.means[static_cast<std::size_t>(index)] =
+        patch.scale == 0 ? integral16.mean(box) : integral32.mean(box);
   }
 }
 
@@ -123,19 +134,21 @@ int FreakDescriber::State::orientationOf(const Means& means, float* angle_deg) c
   return freakOrientation(*angle_deg);
 }
 
-Descriptor FreakDescriber::State::describeOne(const FreakKeypoint& keypoint, int scale,
-                                              float* angle_deg) const {
-  Means means{};
-  const bool estimate = config.oriented && known_orientation < 0;
-  int orientation = std::max(known_orientation, 0);
-  computeMeans(keypoint, scale, orientation, means);
-  if (estimate) {
-    orientation = orientationOf(means, angle_deg);
-    if (orientation != 0) computeMeans(keypoint, scale, orientation, means);
+void FreakDescriber::State::describeBlock(Patch* patches, std::size_t count,
+                                          Descriptor* descriptors, float* angles_deg) const {
+  for (std::size_t k = 0; k < count; ++k) computeMeans(patches[k]);
+  if (config.oriented && known_orientation == kUnknown) {
+    for (std::size_t k = 0; k < count; ++k) {
+      patches[k].orientation =
+          orientationOf(patches[k].means, angles_deg == nullptr ? nullptr : angles_deg + k);
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      if (patches[k].orientation != 0) computeMeans(patches[k]);
+    }
   }
-  Descriptor descriptor;
-  kernels.freak_bits(means.data(), pattern.comparisons(), descriptor.words.data());
-  return descriptor;
+  for (std::size_t k = 0; k < count; ++k) {
+    kernels.freak_bits(patches[k].means.data(), pattern.comparisons(), descriptors[k].words.data());
+  }
 }
 
 FreakDescriber::FreakDescriber(const FreakConfig& config, InstructionSet set)
@@ -153,10 +166,18 @@ void FreakDescriber::describe(const ImageView& image, const std::vector<FreakKey
   if (angles_deg != nullptr) angles_deg->assign(kept.size(), known_deg);
   if (kept.empty()) return;
   state_->computeIntegrals(image);
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    const FreakKeypoint& keypoint = keypoints[static_cast<std::size_t>(kept[k])];
-    descriptors[k] = state_->describeOne(keypoint, state_->scales[k],
-                                         angles_deg == nullptr ? nullptr : &(*angles_deg)[k]);
+  std::array<Patch, kBlock> patches{};
+  for (std::size_t first = 0; first < kept.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, kept.size() - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      const FreakKeypoint& keypoint = keypoints[static_cast<std::size_t>(kept[first + k])];
+      patches[k].x_px = keypoint.x_px;
+      patches[k].y_px = keypoint.y_px;
+      patches[k].scale = state_->scales[first + k];
+      patches[k].orientation = std::max(state_->known_orientation, 0);
+    }
+    state_->describeBlock(patches.data(), count, descriptors.data() + first,
+                          angles_deg == nullptr ? nullptr : angles_deg->data() + first);
   }
 }
 

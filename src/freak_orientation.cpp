@@ -2,7 +2,10 @@
 #include "freak_orientation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdlib>
 
 #include "freak_pattern.hpp"
 
@@ -37,15 +40,18 @@ int freakOrientation(std::int32_t sum_x, std::int32_t sum_y) {
   const auto x = static_cast<float>(std::abs(sum_x));
   const auto y = static_cast<float>(std::abs(sum_y));
   const float largest = std::max(std::max(x, y), 1.F);  // not 0 / 0
-  float index = roughArcTangent(std::min(x, y) / largest);
-  if (y > x) index = 64.F - index;
-  if (sum_x < 0) index = 128.F - index;
+  // In which eighth of the circle it lies cannot be predicted: a table instead of branches.
+  const auto eighth = static_cast<std::size_t>(y > x) + 2 * static_cast<std::size_t>(sum_x < 0) +
+                      4 * static_cast<std::size_t>(sum_y < 0);
+  constexpr std::array<float, 8> kStart{0.F, 64.F, 128.F, 64.F, 256.F, 192.F, 128.F, 192.F};
+  constexpr std::array<float, 8> kSense{1.F, -1.F, -1.F, 1.F, -1.F, 1.F, 1.F, -1.F};
+  const float index = kStart[eighth] + kSense[eighth] * roughArcTangent(std::min(x, y) / largest);
   const int nearest = static_cast<int>(index + 0.5F);
   // Close to the middle between two orientations only the exact angle tells them apart.
   constexpr float kDoubtful = 0.002F;
   if (std::abs(index - static_cast<float>(nearest)) > 0.5F - kDoubtful)
     return freakOrientation(freakAngle_deg(sum_x, sum_y));
-  return (sum_y < 0 ? -nearest : nearest) & (kFreakOrientations - 1);
+  return nearest & (kFreakOrientations - 1);
 }
 
 float degreesWithinHalfTurn(float angle_rad) {

@@ -73,18 +73,6 @@ bool equal(const kernels::FreakBox& a, const kernels::FreakBox& b) {
 
 constexpr int kFirst_px = 24;  ///< no keypoint is closer to the border, and it is even
 
-/// Whether the field's box is not even the same at all even and at all odd coordinates.
-bool isIrregular(const FreakField& f) {
-  if (!hasBorderNearHalf(f)) return false;
-  for (int c = kFirst_px; c < FreakPattern::kLargestSide_px - kFirst_px; ++c) {
-    const int first = kFirst_px + c % 2;
-    if (!equal(relative(boxAround(f, c, c), c, c),
-               relative(boxAround(f, first, first), first, first)))
-      return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 FreakPixelBox boxAround(const FreakField& field, int x_px, int y_px) {
@@ -141,7 +129,7 @@ void FreakPattern::computeBoxes(int orientation) {
   const auto o = static_cast<std::size_t>(orientation);
   for (int index = 0; index < kernels::kFreakFields; ++index) {
     const FreakField f = field(0, orientation, index);
-    if (isIrregular(f)) irregular_[o].push_back({index, f});
+    if (findExceptions(f)) irregular_[o].push_back({index, f});
   }
   const std::size_t first = rows_.size();
   for (int evenness = 0; evenness < 4; ++evenness) {
@@ -152,6 +140,21 @@ void FreakPattern::computeBoxes(int orientation) {
     if (place == rows_.size()) rows_.push_back(row);
     row_[o][static_cast<std::size_t>(evenness)] = static_cast<std::uint16_t>(place);
   }
+}
+
+/// Notes where the box differs from that at the first coordinate of the same evenness.
+bool FreakPattern::findExceptions(const FreakField& f) {
+  if (!hasBorderNearHalf(f)) return false;
+  bool found = false;
+  for (int c = kFirst_px; c <= kLargestSide_px - kFirst_px; ++c) {
+    const int first = kFirst_px + c % 2;
+    if (equal(relative(boxAround(f, c, c), c, c),
+              relative(boxAround(f, first, first), first, first)))
+      continue;
+    exceptional_.set(static_cast<std::size_t>(c));
+    found = true;
+  }
+  return found;
 }
 
 FreakPattern::Row FreakPattern::rowOf(int orientation, int x_px, int y_px) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <vector>
 
@@ -38,9 +39,10 @@ FreakPixelBox boxAround(const FreakField& field, int x_px, int y_px);
 class FreakPattern {
  public:
   /// A border that lies half way between two pixels is rounded to the even one, so it depends on
-  /// whether the keypoint's coordinates are even; for some even that is not enough, as floats round
-  /// coarser at large coordinates. Such a field is in this list; all other boxes are as the table
-  /// says everywhere in an image with sides of at most kLargestSide_px.
+  /// whether the keypoint's coordinates are even. Some lie so close to half way that the float
+  /// arithmetic decides, at few exceptional coordinates below 2000 px; these fields are in a list.
+  /// All other boxes are as the table says everywhere in an image with sides of at most
+  /// kLargestSide_px.
   struct IrregularField {
     int index;
     FreakField field;
@@ -49,14 +51,19 @@ class FreakPattern {
 
   FreakPattern();
 
-  /// @return the kFreakPaddedFields boxes of scale 0 for a keypoint there; those of irregular
-  /// fields hold for some keypoints only
+  /// @return the kFreakPaddedFields boxes of scale 0 for a keypoint there; at exceptional
+  /// coordinates those of irregular fields do not hold
   const kernels::FreakBox* boxes(int orientation, int x_px, int y_px) const {
     const std::uint16_t* rows = row_[static_cast<std::size_t>(orientation)].data();
     return rows_[rows[(x_px & 1) + 2 * (y_px & 1)]].data();
   }
   const std::vector<IrregularField>& irregular(int orientation) const {
     return irregular_[static_cast<std::size_t>(orientation)];
+  }
+  /// @return whether boxes of irregular fields must be recomputed for a keypoint there
+  bool isExceptional(int x_px, int y_px) const {
+    return exceptional_[static_cast<std::size_t>(x_px)] ||
+           exceptional_[static_cast<std::size_t>(y_px)];
   }
   FreakField field(int scale, int orientation, int index) const;
 
@@ -78,6 +85,7 @@ class FreakPattern {
   using Row = std::array<kernels::FreakBox, kernels::kFreakPaddedFields>;
 
   void computeBoxes(int orientation);
+  bool findExceptions(const FreakField& field);
   Row rowOf(int orientation, int x_px, int y_px) const;
   void computeOrientationPairs();
   void computeComparisons();
@@ -87,6 +95,7 @@ class FreakPattern {
   std::vector<Row> rows_;
   std::array<std::array<std::uint16_t, 4>, kFreakOrientations> row_{};  ///< by evenness of y, x
   std::array<std::vector<IrregularField>, kFreakOrientations> irregular_;
+  std::bitset<kLargestSide_px> exceptional_;
   kernels::FreakOrientationPairs orientation_pairs_{};
   kernels::FreakComparisons comparisons_{};
 };

@@ -17,24 +17,30 @@ __m256i runningSums(__m256i words) {
   return _mm256_add_epi16(words, _mm256_slli_si256(words, 8));
 }
 
+/// Entries of 8 pixels in the low half, and of 8 others 16 places further in the high one.
+void add16(__m256i sums, const std::uint16_t* above, std::uint16_t* row) {
+  const auto* first = reinterpret_cast<const __m128i*>(above);
+  const __m256i both = _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(first)),
+                                               _mm_loadu_si128(first + 2), 1);
+  sums = _mm256_add_epi16(sums, both);
+  auto* out = reinterpret_cast<__m128i*>(row);
+  _mm_storeu_si128(out, _mm256_castsi256_si128(sums));
+  _mm_storeu_si128(out + 2, _mm256_extracti128_si256(sums, 1));
+}
+
 /// 32 pixels of a row of the integral image.
 /// @param carry  sum of the row's pixels before them, in all words; advanced
 void integrate32(__m256i pixels, const std::uint16_t* above, std::uint16_t* row, __m256i& carry) {
   // Sums of pixel pairs halve the work; the sum up to a pair's first pixel lacks its second.
   __m256i odd = runningSums(_mm256_maddubs_epi16(pixels, _mm256_set1_epi8(1)));
   const __m256i total = _mm256_shuffle_epi8(odd, _mm256_set1_epi16(0x0f0e));  // of each half
-  const __m256i low_total = _mm256_permute2x128_si256(total, total, 0x08);    // (0, of the low)
-  const __m256i swapped = _mm256_permute2x128_si256(total, total, 0x01);
-  odd = _mm256_add_epi16(odd, _mm256_add_epi16(carry, low_total));
-  carry = _mm256_add_epi16(carry, _mm256_add_epi16(total, swapped));
+  const __m256i other = _mm256_permute2x128_si256(total, total, 0x01);
+  const __m256i high_half = _mm256_setr_epi64x(0, 0, -1, -1);
+  odd = _mm256_add_epi16(odd, _mm256_add_epi16(carry, _mm256_and_si256(other, high_half)));
+  carry = _mm256_add_epi16(carry, _mm256_add_epi16(total, other));
   const __m256i even = _mm256_sub_epi16(odd, _mm256_srli_epi16(pixels, 8));
-  const __m256i low = _mm256_unpacklo_epi16(even, odd);   // pixels 0..7, 16..23
-  const __m256i high = _mm256_unpackhi_epi16(even, odd);  // pixels 8..15, 24..31
-  const __m256i first = _mm256_permute2x128_si256(low, high, 0x20);
-  const __m256i second = _mm256_permute2x128_si256(low, high, 0x31);
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(row), _mm256_add_epi16(first, load(above)));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(row + 16),
-                      _mm256_add_epi16(second, load(above + 16)));
+  add16(_mm256_unpacklo_epi16(even, odd), above, row);
+  add16(_mm256_unpackhi_epi16(even, odd), above + 8, row + 8);
 }
 
 /// The corners of all boxes as places in the integral image, relative to the keypoint: two 32-bit

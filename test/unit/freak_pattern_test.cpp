@@ -20,14 +20,16 @@ bool isIrregular(const FreakPattern& pattern, int orientation, int index) {
                      [index](const auto& entry) { return entry.index == index; });
 }
 
-TEST(FreakPattern, RegularBoxesHoldAtEveryCoordinateOfTheLargestImage) {
+TEST(FreakPattern, BoxesHoldAtEveryCoordinateOfTheLargestImageButForTheExceptions) {
   const FreakPattern pattern;
   for (int orientation = 0; orientation < kFreakOrientations; ++orientation) {
     for (int index = 0; index < kFreakFields; ++index) {
-      if (isIrregular(pattern, orientation, index)) continue;
+      const bool irregular = isIrregular(pattern, orientation, index);
       const FreakField field = pattern.field(0, orientation, index);
       for (int c = 24; c < FreakPattern::kLargestSide_px - 23; ++c) {
         for (const int y : {c, c ^ 1}) {
+          if (y > FreakPattern::kLargestSide_px - 24) continue;
+          if (irregular && pattern.isExceptional(c, y)) continue;
           const FreakBox box = pattern.boxes(orientation, c, y)[index];
           const FreakPixelBox exact = boxAround(field, c, y);
           const bool equal = exact.left_px - c == box.left && exact.right_px - c == box.right &&
@@ -40,7 +42,8 @@ TEST(FreakPattern, RegularBoxesHoldAtEveryCoordinateOfTheLargestImage) {
   }
 }
 
-// They are recomputed at every keypoint; 48 boxes depend on whether the coordinates are even.
+// They are recomputed at exceptional coordinates; 48 boxes depend on whether the coordinates are
+// even.
 TEST(FreakPattern, FewBoxesAreIrregularAndOneOfThemUnturned) {
   const FreakPattern pattern;
   std::size_t count = 0;
@@ -52,6 +55,9 @@ TEST(FreakPattern, FewBoxesAreIrregularAndOneOfThemUnturned) {
   }
   EXPECT_EQ(count, 20U) << "of 11008";
   EXPECT_EQ(pattern.irregular(0).size(), 1U);
+  int exceptional = 0;
+  for (int c = 0; c < 2000; ++c) exceptional += pattern.isExceptional(c, c) ? 1 : 0;
+  EXPECT_LE(exceptional, 40) << "of the first 2000 coordinates";
   EXPECT_LE(rows.size(), 300U) << "the table would outgrow the cache";
 }
 
