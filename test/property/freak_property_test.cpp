@@ -65,6 +65,27 @@ TEST(FreakProperty, EqualsItsDefinitionOnEveryCoordinateParity) {
   }
 }
 
+// At a few coordinates a box differs from the table's.
+TEST(FreakProperty, EqualsItsDefinitionAtEveryColumnAndEveryRow) {
+  const TestImage wide = generatedImage(1100, 52, 5);
+  const TestImage tall = generatedImage(52, 1100, 6);
+  std::vector<FreakKeypoint> columns;
+  std::vector<FreakKeypoint> rows;
+  for (int c = 24; c < 1100 - 23; ++c) {
+    columns.push_back({c, 24 + c % 4});
+    rows.push_back({24 + c % 4, c});
+  }
+  const auto in_wide = describe(wide.view(), columns).descriptors;
+  const auto in_tall = describe(tall.view(), rows).descriptors;
+  ASSERT_EQ(in_wide.size(), columns.size());
+  ASSERT_EQ(in_tall.size(), rows.size());
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const int c = columns[k].x_px;
+    ASSERT_EQ(in_wide[k], FreakOracle(wide.view(), c, columns[k].y_px).oriented()) << c;
+    ASSERT_EQ(in_tall[k], FreakOracle(tall.view(), rows[k].x_px, c).oriented()) << c;
+  }
+}
+
 // Beyond 4096 px the table of boxes is not used; at the largest coordinates floats round borders
 // most coarsely.
 TEST(FreakProperty, EqualsItsDefinitionInVeryWideAndVeryTallImages) {
