@@ -46,10 +46,6 @@ int roundHalfEven(float value) {
   return static_cast<int>((value + kShift) - kShift);
 }
 
-std::int8_t offset(int value_px) {
-  return static_cast<std::int8_t>(value_px);
-}
-
 /// A border is a sum of at most three floats rounded at coordinates below kLargestSide_px = 2^12,
 /// where half a unit in the last place is 2^-13: further than 3 * 2^-13 from a half the rounding to
 /// an integer cannot be affected.
@@ -58,12 +54,24 @@ bool nearHalf(double border_px) {
   return std::abs(fraction - 0.5) <= 3.0 / 8192.0;
 }
 
-bool isIrregular(const FreakField& f) {
+bool hasBorderNearHalf(const FreakField& f) {
   const double x = f.x_px;
   const double y = f.y_px;
   const double sigma = f.sigma_px;
   return nearHalf(x - sigma) || nearHalf(x + sigma) || nearHalf(y - sigma) || nearHalf(y + sigma);
 }
+
+kernels::FreakBox relative(const FreakPixelBox& box, int x_px, int y_px) {
+  const auto offset = [](int value_px) { return static_cast<std::int8_t>(value_px); };
+  return {offset(box.left_px - x_px), offset(box.top_px - y_px), offset(box.right_px - x_px),
+          offset(box.bottom_px - y_px)};
+}
+
+bool equal(const kernels::FreakBox& a, const kernels::FreakBox& b) {
+  return a.left == b.left && a.top == b.top && a.right == b.right && a.bottom == b.bottom;
+}
+
+constexpr int kFirst_px = 24;  ///< no keypoint is closer to the border, and it is even
 
 }  // namespace
 
@@ -121,13 +129,42 @@ void FreakPattern::computeBoxes(int orientation) {
   const auto o = static_cast<std::size_t>(orientation);
   for (int index = 0; index < kernels::kFreakFields; ++index) {
     const FreakField f = field(0, orientation, index);
-    const FreakPixelBox box = boxAround(f, 0, 0);
-    boxes_[o][static_cast<std::size_t>(index)] = {offset(box.left_px), offset(box.top_px),
-                                                  offset(box.right_px), offset(box.bottom_px)};
-    if (isIrregular(f)) irregular_[o].push_back({index, f});
+    if (findExceptions(f)) irregular_[o].push_back({index, f});
   }
-  std::fill(boxes_[o].begin() + kernels::kFreakFields, boxes_[o].end(),
-            boxes_[o][kernels::kFreakFields - 1]);
+  const std::size_t first = rows_.size();
+  for (int evenness = 0; evenness < 4; ++evenness) {
+    const Row row = rowOf(orientation, kFirst_px + evenness % 2, kFirst_px + evenness / 2);
+    std::size_t place = first;
+    while (place < rows_.size() && !std::equal(row.begin(), row.end(), rows_[place].begin(), equal))
+      ++place;
+    if (place == rows_.size()) rows_.push_back(row);
+    row_[o][static_cast<std::size_t>(evenness)] = static_cast<std::uint16_t>(place);
+  }
+}
+
+/// Notes where the box differs from that at the first coordinate of the same evenness.
+bool FreakPattern::findExceptions(const FreakField& f) {
+  if (!hasBorderNearHalf(f)) return false;
+  bool found = false;
+  for (int c = kFirst_px; c <= kLargestSide_px - kFirst_px; ++c) {
+    const int first = kFirst_px + c % 2;
+    if (equal(relative(boxAround(f, c, c), c, c),
+              relative(boxAround(f, first, first), first, first)))
+      continue;
+    exceptional_.set(static_cast<std::size_t>(c));
+    found = true;
+  }
+  return found;
+}
+
+FreakPattern::Row FreakPattern::rowOf(int orientation, int x_px, int y_px) const {
+  Row row;
+  for (int index = 0; index < kernels::kFreakFields; ++index) {
+    const FreakPixelBox box = boxAround(field(0, orientation, index), x_px, y_px);
+    row[static_cast<std::size_t>(index)] = relative(box, x_px, y_px);
+  }
+  std::fill(row.begin() + kernels::kFreakFields, row.end(), row[kernels::kFreakFields - 1]);
+  return row;
 }
 
 void FreakPattern::computeOrientationPairs() {
@@ -136,7 +173,7 @@ void FreakPattern::computeOrientationPairs() {
   constexpr std::array<Pair, 9> kRingPairs{Pair{0, 3}, Pair{1, 4}, Pair{2, 5},
                                            Pair{0, 2}, Pair{1, 3}, Pair{2, 4},
                                            Pair{3, 5}, Pair{4, 0}, Pair{5, 1}};
-  std::size_t count = 0;
+  int count = 0;
   for (int ring = 0; ring < kVotingRings; ++ring) {
     const std::size_t pairs_of_ring = ring < kOuterRings ? 9 : 3;
     for (std::size_t k = 0; k < pairs_of_ring; ++k) {
@@ -150,25 +187,28 @@ void FreakPattern::computeOrientationPairs() {
       const auto weight = [norm_squared](float d) {
         return static_cast<std::int16_t>(std::lround(d / norm_squared * 4096.0));
       };
-      orientation_pairs_[count++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j),
-                                     weight(dx), weight(dy)};
+      orientation_pairs_.i.set(count, i);
+      orientation_pairs_.j.set(count, j);
+      orientation_pairs_.weight_x[count] = weight(dx);
+      orientation_pairs_.weight_y[count] = weight(dy);
+      ++count;
     }
   }
 }
 
 void FreakPattern::computeComparisons() {
-  std::vector<std::array<std::uint8_t, 2>> all_pairs;
+  std::vector<std::array<int, 2>> all_pairs;
   for (int i = 1; i < kernels::kFreakFields; ++i) {
-    for (int j = 0; j < i; ++j) {
-      all_pairs.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)});
-    }
+    for (int j = 0; j < i; ++j) all_pairs.push_back({i, j});
   }
-  for (std::size_t entry = 0; entry < kFreakBits; ++entry) {
-    // Within 16 bytes the published order runs from the last byte to the first.
-    const std::size_t selected = entry - entry % 16 + (15 - entry % 16);
-    const auto& pair = all_pairs[kFreakSelectedPairs[selected]];
-    first_[entry] = pair[0];
-    second_[entry] = pair[1];
+  for (int bit = 0; bit < 8; ++bit) {
+    for (int byte = 0; byte < kFreakBits / 8; ++byte) {
+      // Within 16 bytes the published order runs from the last byte to the first.
+      const int selected = 128 * (byte / 16) + 16 * bit + 15 - byte % 16;
+      const auto& pair = all_pairs[kFreakSelectedPairs[static_cast<std::size_t>(selected)]];
+      comparisons_.first.set(64 * bit + byte, pair[0]);
+      comparisons_.second.set(64 * bit + byte, pair[1]);
+    }
   }
 }
 

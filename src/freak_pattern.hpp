@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <vector>
 
@@ -32,13 +33,16 @@ FreakPixelBox boxAround(const FreakField& field, int x_px, int y_px);
 
 /// FREAK's sampling pattern: 43 fields in rings of 6, 6, 6, 6, 6, 6, 6, 1, turned to 256
 /// orientations and enlarged by 2^(k / 16) for the scales k = 0..63. Constant once constructed;
-/// about 100 KB: the boxes of scale 0 (48 KB), the directions of the ring points from which fields
-/// at other scales are computed on the fly (48 KB), the lists of pairs.
+/// about 110 KB, of which a keypoint of the pattern's own size needs 58: the boxes of scale 0 (53
+/// KB), the lists of pairs (5 KB). The others are the directions of the ring points (48 KB), from
+/// which fields at other scales are computed on the fly.
 class FreakPattern {
  public:
   /// A border that lies half way between two pixels is rounded to the even one, so it depends on
-  /// the keypoint's coordinates. Such a field is in this list; all other boxes are the same,
-  /// relative to the keypoint, everywhere in an image with sides of at most kLargestSide_px.
+  /// whether the keypoint's coordinates are even. Some lie so close to half way that the float
+  /// arithmetic decides, at few exceptional coordinates below 2000 px; these fields are in a list.
+  /// All other boxes are as the table says everywhere in an image with sides of at most
+  /// kLargestSide_px.
   struct IrregularField {
     int index;
     FreakField field;
@@ -47,13 +51,19 @@ class FreakPattern {
 
   FreakPattern();
 
-  /// @return the kFreakPaddedFields boxes of scale 0; those of irregular fields hold for some
-  /// keypoints only.
-  const kernels::FreakBox* boxes(int orientation) const {
-    return boxes_[static_cast<std::size_t>(orientation)].data();
+  /// @return the kFreakPaddedFields boxes of scale 0 for a keypoint there; at exceptional
+  /// coordinates those of irregular fields do not hold
+  const kernels::FreakBox* boxes(int orientation, int x_px, int y_px) const {
+    const std::uint16_t* rows = row_[static_cast<std::size_t>(orientation)].data();
+    return rows_[rows[(x_px & 1) + 2 * (y_px & 1)]].data();
   }
   const std::vector<IrregularField>& irregular(int orientation) const {
     return irregular_[static_cast<std::size_t>(orientation)];
+  }
+  /// @return whether boxes of irregular fields must be recomputed for a keypoint there
+  bool isExceptional(int x_px, int y_px) const {
+    return exceptional_[static_cast<std::size_t>(x_px)] ||
+           exceptional_[static_cast<std::size_t>(y_px)];
   }
   FreakField field(int scale, int orientation, int index) const;
 
@@ -62,11 +72,8 @@ class FreakPattern {
   /// @return keypoints at x <= border or x >= width - border do not fit; rows alike.
   int border_px(int scale) const;
 
-  const kernels::FreakOrientationPair* orientationPairs() const {
-    return orientation_pairs_.data();
-  }
-  const std::uint8_t* first() const { return first_.data(); }  ///< kernels::freakBitsScalar's lists
-  const std::uint8_t* second() const { return second_.data(); }
+  const kernels::FreakOrientationPairs& orientationPairs() const { return orientation_pairs_; }
+  const kernels::FreakComparisons& comparisons() const { return comparisons_; }
 
  private:
   struct Direction {
@@ -75,18 +82,22 @@ class FreakPattern {
   /// 6 points of the even rings, then 6 of the odd ones, which are turned by half a step.
   using Directions = std::array<Direction, 12>;
 
+  using Row = std::array<kernels::FreakBox, kernels::kFreakPaddedFields>;
+
   void computeBoxes(int orientation);
+  bool findExceptions(const FreakField& field);
+  Row rowOf(int orientation, int x_px, int y_px) const;
   void computeOrientationPairs();
   void computeComparisons();
 
   std::array<double, kFreakScales> enlargement_{};
   std::array<Directions, kFreakOrientations> directions_{};
-  std::array<std::array<kernels::FreakBox, kernels::kFreakPaddedFields>, kFreakOrientations>
-      boxes_{};
+  std::vector<Row> rows_;
+  std::array<std::array<std::uint16_t, 4>, kFreakOrientations> row_{};  ///< by evenness of y, x
   std::array<std::vector<IrregularField>, kFreakOrientations> irregular_;
-  std::array<kernels::FreakOrientationPair, kernels::kFreakOrientationPairs> orientation_pairs_{};
-  std::array<std::uint8_t, kFreakBits> first_{};
-  std::array<std::uint8_t, kFreakBits> second_{};
+  std::bitset<kLargestSide_px> exceptional_;
+  kernels::FreakOrientationPairs orientation_pairs_{};
+  kernels::FreakComparisons comparisons_{};
 };
 
 }  // namespace ardrone_vslam

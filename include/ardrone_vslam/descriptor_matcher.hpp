@@ -5,6 +5,7 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/hamming.hpp"
+#include "ardrone_vslam/instruction_set.hpp"
 #include "ardrone_vslam/match_acceptance.hpp"
 
 namespace ardrone_vslam {
@@ -24,8 +25,10 @@ struct DescriptorMatch {
 /// @param out  the matches by ascending query index; its capacity is used as working memory, so
 /// that a call with no
 ///     more queries than before does not allocate
+/// @param set  one of supportedInstructionSets(); the matches do not depend on it
 /// Cost: one Hamming distance for each pair.
 void matchExact(const std::vector<Descriptor>& query, const std::vector<Descriptor>& train,
-                const MatcherConfig& config, std::vector<DescriptorMatch>& out);
+                const MatcherConfig& config, std::vector<DescriptorMatch>& out,
+                InstructionSet set = instructionSetInUse().set);
 
 }  // namespace ardrone_vslam

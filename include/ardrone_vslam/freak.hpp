@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/image_view.hpp"
+#include "ardrone_vslam/instruction_set.hpp"
 #include "ardrone_vslam/parameters.hpp"
 
 namespace ardrone_vslam {
@@ -34,12 +36,15 @@ void visitParameters(FreakConfig& c, Visitor&& visit) {
 /// ch. 4. Bits run coarse to fine: the first 128 compare the outer fields. Random pairs of real
 /// images differ in a median of 215 bits.
 ///
-/// About 106 KB of tables, computed at construction, plus one integral image of the frame: 2 bytes
+/// About 110 KB of tables, computed at construction (58 KB of them are used at the pattern's own
+/// size), plus one integral image of the frame: 2 bytes
 /// a pixel for keypoints of the pattern's own size, 4 for larger ones. Its buffer is kept, so later
 /// frames of the same size do not allocate. An object is not for use from two threads at once.
 class FreakDescriber {
  public:
-  explicit FreakDescriber(const FreakConfig& config);
+  /// @param set  one of supportedInstructionSets(); the descriptors do not depend on it
+  explicit FreakDescriber(const FreakConfig& config,
+                          InstructionSet set = instructionSetInUse().set);
   ~FreakDescriber();
 
   /// Describes the keypoints whose pattern fits into the image; at size 7 those at least 24 px from
@@ -52,9 +57,14 @@ class FreakDescriber {
   /// @param descriptors  descriptor k belongs to keypoints[kept[k]]
   /// @param angles_deg  when not null: the estimated orientation of each described keypoint,
   /// -180..180, from the image's x axis towards its y axis (clockwise as seen); 0 when upright
+  /// @param orientation_rad  when given, the orientation of all keypoints, in the same sense and in
+  /// place of the estimate: by how much the scene appears turned clockwise, which is minus the
+  /// camera's roll about its viewing direction. Cheaper and steadier than the estimate; must be
+  /// finite. Rounded to 1 / 256 of a turn
   void describe(const ImageView& image, const std::vector<FreakKeypoint>& keypoints,
                 std::vector<int>& kept, std::vector<Descriptor>& descriptors,
-                std::vector<float>* angles_deg = nullptr);
+                std::vector<float>* angles_deg = nullptr,
+                std::optional<float> orientation_rad = std::nullopt);
 
  private:
   struct State;

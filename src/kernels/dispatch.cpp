@@ -13,6 +13,16 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.fast_group_px = 32;
     kernels.fast_maxima = fastMaximaAvx2;
     kernels.fast_list = fastListAvx2;
+    kernels.freak_integral16 = freakIntegral16Avx2;
+    kernels.freak_means = freakMeansAvx2;
+    kernels.freak_orientation = freakOrientationAvx2;
+    kernels.freak_bits = freakBitsAvx2;
+    kernels.hamming_nearest = hammingNearestAvx2;
+    kernels.hamming_mutual = hammingMutualAvx2;
+  }
+  if (set == InstructionSet::kAvx512) {
+    kernels.hamming_nearest = hammingNearestAvx512;
+    kernels.hamming_mutual = hammingMutualAvx512;
   }
 #endif
 #ifdef ARDRONE_VSLAM_WITH_NEON
@@ -21,6 +31,12 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.fast_group_px = 16;
     kernels.fast_maxima = fastMaximaNeon;
     kernels.fast_list = fastListNeon;
+    kernels.freak_integral16 = freakIntegral16Neon;
+    kernels.freak_means = freakMeansNeon;
+    kernels.freak_orientation = freakOrientationNeon;
+    kernels.freak_bits = freakBitsNeon;
+    kernels.hamming_nearest = hammingNearestNeon;
+    kernels.hamming_mutual = hammingMutualNeon;
   }
 #endif
   return kernels;

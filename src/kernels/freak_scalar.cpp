@@ -60,30 +60,28 @@ void freakMeansScalar(const std::uint16_t* at_keypoint, std::ptrdiff_t stride,
   }
 }
 
-void freakOrientationScalar(const std::uint8_t* means, const FreakOrientationPair* pairs,
+void freakOrientationScalar(const std::uint8_t* means, const FreakOrientationPairs& pairs,
                             std::int32_t* sums) {
   std::int32_t sum_x = 0;
   std::int32_t sum_y = 0;
   for (int k = 0; k < kFreakOrientationPairs; ++k) {
-    const FreakOrientationPair& pair = pairs[k];
-    const int difference = means[pair.i] - means[pair.j];
-    sum_x += difference * pair.weight_x / 2048;
-    sum_y += difference * pair.weight_y / 2048;
+    const int difference = means[pairs.i.index[k]] - means[pairs.j.index[k]];
+    sum_x += difference * pairs.weight_x[k] / 2048;
+    sum_y += difference * pairs.weight_y[k] / 2048;
   }
   sums[0] = sum_x;
   sums[1] = sum_y;
 }
 
-void freakBitsScalar(const std::uint8_t* means, const std::uint8_t* first,
-                     const std::uint8_t* second, std::uint64_t* words) {
+void freakBitsScalar(const std::uint8_t* means, const FreakComparisons& lists,
+                     std::uint64_t* words) {
   for (int w = 0; w < kFreakComparisons / 64; ++w) {
-    const int start = 128 * (w / 2) + 8 * (w % 2);
     std::uint64_t word = 0;
     for (int q = 0; q < 8; ++q) {
       for (int b = 0; b < 8; ++b) {
-        const int entry = start + 16 * q + b;
-        const std::uint64_t bit = means[first[entry]] >= means[second[entry]] ? 1 : 0;
-        word |= bit << (8 * b + q);
+        const int entry = 64 * q + 8 * w + b;
+        const bool bit = means[lists.first.index[entry]] >= means[lists.second.index[entry]];
+        word |= static_cast<std::uint64_t>(bit) << (8 * b + q);
       }
     }
     words[w] = word;

@@ -22,6 +22,8 @@ struct Kernels {
   decltype(&freakOrientationScalar) freak_orientation = freakOrientationScalar;
   decltype(&freakBitsScalar) freak_bits = freakBitsScalar;
   decltype(&hammingDistancesScalar) hamming_distances = hammingDistancesScalar;
+  decltype(&hammingNearestScalar) hamming_nearest = hammingNearestScalar;
+  decltype(&hammingMutualScalar) hamming_mutual = hammingMutualScalar;
 };
 
 /// The fastest form of each kernel that needs no more than `set`, which must be supported here.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "ardrone_vslam/freak.hpp"
@@ -20,10 +21,19 @@ struct Described {
 };
 
 Described describe(const ImageView& image, const std::vector<FreakKeypoint>& keypoints,
-                   bool oriented = true) {
+                   bool oriented = true, std::optional<float> orientation_rad = std::nullopt) {
   Described result;
-  FreakDescriber describer(FreakConfig{oriented});
-  describer.describe(image, keypoints, result.kept, result.descriptors, &result.angles_deg);
+  FreakDescriber scalar(FreakConfig{oriented}, InstructionSet::kScalar);
+  scalar.describe(image, keypoints, result.kept, result.descriptors, &result.angles_deg,
+                  orientation_rad);
+  for (const InstructionSet set : supportedInstructionSets()) {
+    std::vector<int> kept;
+    std::vector<Descriptor> descriptors;  // without angles: the orientation is found another way
+    FreakDescriber(FreakConfig{oriented}, set)
+        .describe(image, keypoints, kept, descriptors, nullptr, orientation_rad);
+    EXPECT_EQ(kept, result.kept) << nameOf(set);
+    EXPECT_EQ(descriptors, result.descriptors) << nameOf(set);
+  }
   return result;
 }
 
@@ -52,6 +62,27 @@ TEST(FreakProperty, EqualsItsDefinitionOnEveryCoordinateParity) {
     ASSERT_EQ(upright.descriptors[k], oracle.upright())
         << keypoints[k].x_px << ", " << keypoints[k].y_px;
     ASSERT_EQ(upright.angles_deg[k], 0.F);
+  }
+}
+
+// At a few coordinates a box differs from the table's.
+TEST(FreakProperty, EqualsItsDefinitionAtEveryColumnAndEveryRow) {
+  const TestImage wide = generatedImage(1100, 52, 5);
+  const TestImage tall = generatedImage(52, 1100, 6);
+  std::vector<FreakKeypoint> columns;
+  std::vector<FreakKeypoint> rows;
+  for (int c = 24; c < 1100 - 23; ++c) {
+    columns.push_back({c, 24 + c % 4});
+    rows.push_back({24 + c % 4, c});
+  }
+  const auto in_wide = describe(wide.view(), columns).descriptors;
+  const auto in_tall = describe(tall.view(), rows).descriptors;
+  ASSERT_EQ(in_wide.size(), columns.size());
+  ASSERT_EQ(in_tall.size(), rows.size());
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const int c = columns[k].x_px;
+    ASSERT_EQ(in_wide[k], FreakOracle(wide.view(), c, columns[k].y_px).oriented()) << c;
+    ASSERT_EQ(in_tall[k], FreakOracle(tall.view(), rows[k].x_px, c).oriented()) << c;
   }
 }
 
@@ -250,6 +281,76 @@ TEST(FreakProperty, HalfTurnTurnsTheAngleAndHardlyTouchesTheOrientedDescriptor) 
   EXPECT_GT(result.share_turned_alike, 0.98);
   EXPECT_LT(result.oriented_bits, 5.0);
   EXPECT_GT(result.upright_bits, 180.0);
+}
+
+/// A smooth scene as it appears turned clockwise by `angle_rad` about the image's centre.
+TestImage turnedScene(double angle_rad) {
+  TestImage image(241, 241);
+  for (int y = 0; y < 241; ++y) {
+    for (int x = 0; x < 241; ++x) {
+      const double u = std::cos(angle_rad) * (x - 120) + std::sin(angle_rad) * (y - 120);
+      const double v = std::cos(angle_rad) * (y - 120) - std::sin(angle_rad) * (x - 120);
+      const double waves = std::sin(0.31 * u + 0.13 * v) + std::sin(0.23 * v - 0.17 * u + 1.0) +
+                           std::sin(0.011 * u * v) + std::sin(0.05 * u + 0.41 * v + 2.0);
+      image.at(x, y) = static_cast<std::uint8_t>(std::lround(127.0 + 31.0 * waves));
+    }
+  }
+  return image;
+}
+
+/// Where the points of a grid about the centre appear when the scene is turned so.
+std::vector<FreakKeypoint> turnedGrid(double angle_rad) {
+  std::vector<FreakKeypoint> keypoints;
+  for (int v = -48; v <= 48; v += 8) {
+    for (int u = -48; u <= 48; u += 8) {
+      keypoints.push_back(
+          {120 + static_cast<int>(std::lround(std::cos(angle_rad) * u - std::sin(angle_rad) * v)),
+           120 + static_cast<int>(std::lround(std::sin(angle_rad) * u + std::cos(angle_rad) * v))});
+    }
+  }
+  return keypoints;
+}
+
+double meanDistance_bits(const Described& a, const Described& b) {
+  double bits = 0.0;
+  for (std::size_t k = 0; k < a.descriptors.size(); ++k)
+    bits += hammingDistance(a.descriptors[k], b.descriptors[k]);
+  return bits / static_cast<double>(a.descriptors.size());
+}
+
+TEST(FreakProperty, KnownOrientationUndoesATurnOfTheScene) {
+  const Described level = describe(turnedScene(0.0).view(), turnedGrid(0.0), false);
+  for (const double angle_rad : {0.4, -0.9, 1.7, 3.0, -2.5}) {
+    const TestImage image = turnedScene(angle_rad);
+    const auto keypoints = turnedGrid(angle_rad);
+    const auto known = describe(image.view(), keypoints, false, static_cast<float>(angle_rad));
+    const auto unturned = describe(image.view(), keypoints, false);
+    const auto wrong = describe(image.view(), keypoints, false, static_cast<float>(-angle_rad));
+    ASSERT_EQ(known.descriptors.size(), level.descriptors.size());
+    EXPECT_LT(meanDistance_bits(level, known), 40.0) << angle_rad;
+    EXPECT_GT(meanDistance_bits(level, unturned), 80.0) << angle_rad;
+    if (std::abs(angle_rad) < 2.9) {  // minus half a turn is half a turn
+      EXPECT_GT(meanDistance_bits(level, wrong), 80.0) << angle_rad;
+    }
+  }
+}
+
+TEST(FreakProperty, KnownOrientationReplacesTheEstimateAndIsRoundedToTheNearest) {
+  constexpr double kTurn_rad = 2.0 * 3.14159265358979323846;
+  const TestImage image = generatedImage(120, 110);
+  const auto keypoints = gridOfKeypoints(120, 110, 9, 7);
+  const auto at = [&](double orientation, bool oriented) {
+    return describe(image.view(), keypoints, oriented,
+                    static_cast<float>(orientation * kTurn_rad / 256.0));
+  };
+  const Described third = at(3.0, true);
+  EXPECT_EQ(at(3.0, false).descriptors, third.descriptors);
+  EXPECT_EQ(at(2.6, true).descriptors, third.descriptors);
+  EXPECT_EQ(at(3.4 - 256.0, true).descriptors, third.descriptors);
+  EXPECT_NE(at(4.0, true).descriptors, third.descriptors);
+  EXPECT_EQ(at(0.0, true).descriptors, describe(image.view(), keypoints, false).descriptors);
+  for (const float angle_deg : third.angles_deg)
+    EXPECT_NEAR(angle_deg, 3.0F * 360.F / 256.F, 1e-4F);
 }
 
 }  // namespace

@@ -61,12 +61,13 @@ inline std::string printedAngle(float angle_deg) {
 }
 
 /// Describes the keypoints of the rows of one image and one mode in a single call.
+/// @param set  the kernels to be used
 /// @return one sentence for each row whose descriptor or angle is not exactly the row's
 inline std::vector<std::string> differencesFrom(const std::vector<FreakRow>& rows,
-                                                const ImageView& image) {
+                                                const ImageView& image, InstructionSet set) {
   std::vector<std::string> differences;
   if (rows.empty()) return differences;
-  FreakDescriber describer(FreakConfig{rows.front().mode != "upright"});
+  FreakDescriber describer(FreakConfig{rows.front().mode != "upright"}, set);
   std::vector<FreakKeypoint> keypoints;
   for (const FreakRow& row : rows) keypoints.push_back(row.keypoint);
   std::vector<int> kept;
@@ -79,10 +80,11 @@ inline std::vector<std::string> differencesFrom(const std::vector<FreakRow>& row
     const FreakRow& row = rows[static_cast<std::size_t>(kept[k])];
     if (hexOf(descriptors[k]) == row.descriptor_hex && printedAngle(angles_deg[k]) == row.angle_deg)
       continue;
-    differences.push_back(
-        row.image + " " + row.mode + " keypoint (" + std::to_string(row.keypoint.x_px) + ", " +
-        std::to_string(row.keypoint.y_px) + "): angle " + printedAngle(angles_deg[k]) + " for " +
-        row.angle_deg + ", descriptor " + hexOf(descriptors[k]) + " for " + row.descriptor_hex);
+    differences.push_back(row.image + " " + row.mode + " " + nameOf(set) + " keypoint (" +
+                          std::to_string(row.keypoint.x_px) + ", " +
+                          std::to_string(row.keypoint.y_px) + "): angle " +
+                          printedAngle(angles_deg[k]) + " for " + row.angle_deg + ", descriptor " +
+                          hexOf(descriptors[k]) + " for " + row.descriptor_hex);
   }
   return differences;
 }

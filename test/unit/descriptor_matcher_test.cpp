@@ -39,9 +39,15 @@ Descriptors allWithBits(const std::vector<int>& numbers) {
   return descriptors;
 }
 
+/// The matches, which every instruction set must find.
 Matches match(const Descriptors& query, const Descriptors& train, const MatcherConfig& config) {
   Matches matches;
-  matchExact(query, train, config, matches);
+  matchExact(query, train, config, matches, InstructionSet::kScalar);
+  for (const InstructionSet set : supportedInstructionSets()) {
+    Matches again;
+    matchExact(query, train, config, again, set);
+    EXPECT_EQ(again, matches) << nameOf(set);
+  }
   return matches;
 }
 
@@ -163,6 +169,17 @@ TEST(MatchExact, BestMayLieInAnyTile) {
     const auto matches = match(allWithBits({300, 50}), train, MatcherConfig{512, 0.99, true});
     ASSERT_EQ(matches, (Matches{{1, static_cast<int>(place), 1, 350}})) << place;
   }
+}
+
+// The kernels number queries with 16 bits.
+TEST(MatchExact, CrossCheckHoldsAmongMoreThan65536Queries) {
+  Descriptors query(65536 + 40, withBits(400));
+  query[30] = withBits(100);
+  query[65536 + 7] = withBits(201);
+  query[65536 + 30] = withBits(100);  // as near as 30, which comes first
+  const auto train = allWithBits({200, 101});
+  EXPECT_EQ(match(query, train, MatcherConfig{100, 1.0, true}),
+            (Matches{{30, 1, 1, 100}, {65536 + 7, 0, 1, 100}}));
 }
 
 }  // namespace
