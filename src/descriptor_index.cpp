@@ -31,9 +31,10 @@ std::size_t listsFor(std::size_t entries) {
   return lists;
 }
 
-std::uint16_t smallest(const std::uint16_t* distances_bits, std::size_t count) {
-  std::uint16_t least = kNoDistance_bits;
-  for (std::size_t k = 0; k < count; ++k) least = std::min(least, distances_bits[k]);
+int smallest(const std::uint16_t* distances_bits, std::size_t count) {
+  std::int16_t least = kNoDistance_bits;  // signed: every x86-64 has its minimum as a vector
+  for (std::size_t k = 0; k < count; ++k)
+    least = std::min(least, static_cast<std::int16_t>(distances_bits[k]));
   return least;
 }
 
@@ -50,7 +51,7 @@ int DescriptorIndex::nearestList(const Descriptor& descriptor) {
   distances_bits_.resize(centres_.size());
   kernels::kernelsInUse().hamming_distances(descriptor.words.data(), centres_[0].words.data(),
                                             centres_.size(), distances_bits_.data());
-  const std::uint16_t least = smallest(distances_bits_.data(), distances_bits_.size());
+  const int least = smallest(distances_bits_.data(), distances_bits_.size());
   const auto nearest = std::find(distances_bits_.begin(), distances_bits_.end(), least);
   return static_cast<int>(nearest - distances_bits_.begin());
 }
@@ -132,25 +133,27 @@ void DescriptorIndex::chooseLists(const Descriptor& query, std::size_t probes, i
   std::size_t limit = 0;
   std::size_t below = 0;
   while (below + at_distance[limit] < probes) below += at_distance[limit++];
-  std::size_t at_limit = probes - below;
+  // Without a branch on the distance, which could not be predicted: a place is written to until
+  // what it holds counts.
   std::size_t taken = 0;
-  for (std::size_t k = 0; k < count && taken < probes; ++k) {
-    if (distances_bits_[k] > limit) continue;
-    if (distances_bits_[k] == limit) {
-      if (at_limit == 0) continue;
-      --at_limit;
-    }
-    chosen[taken++] = static_cast<int>(k);
+  for (std::size_t k = 0; k < count; ++k) {
+    chosen[taken] = static_cast<int>(k);
+    taken += distances_bits_[k] < limit ? 1U : 0U;
+  }
+  for (std::size_t k = 0; taken < probes; ++k) {
+    if (distances_bits_[k] == limit) chosen[taken++] = static_cast<int>(k);
   }
 }
 
 void DescriptorIndex::sortByList(std::size_t query_count, std::size_t probes) {
   first_of_list_.assign(lists_.size() + 1, 0);
-  for (const int list : chosen_lists_) ++first_of_list_[static_cast<std::size_t>(list) + 1];
+  const std::size_t pairs = query_count * probes;
+  for (std::size_t pair = 0; pair < pairs; ++pair)
+    ++first_of_list_[static_cast<std::size_t>(chosen_lists_[pair]) + 1];
   for (std::size_t l = 1; l < first_of_list_.size(); ++l)
     first_of_list_[l] += first_of_list_[l - 1];
   fill_of_list_.assign(first_of_list_.begin(), first_of_list_.end() - 1);
-  query_of_pair_.resize(chosen_lists_.size());
+  query_of_pair_.resize(pairs);
   for (std::size_t q = 0; q < query_count; ++q) {
     for (std::size_t p = 0; p < probes; ++p) {
       const auto list = static_cast<std::size_t>(chosen_lists_[q * probes + p]);
@@ -168,12 +171,14 @@ void DescriptorIndex::searchList(const List& list, const std::vector<Descriptor>
     kernels::kernelsInUse().hamming_distances(
         queries[q].words.data(), list.descriptors[0].words.data(), count, distances_bits_.data());
     // Most lists hold nothing that matters; an equally near entry may have a lower id.
+    BestTwo found = best[q];
     const int least = smallest(distances_bits_.data(), count);
-    if (least >= best[q].second_distance_bits && least != best[q].distance_bits) continue;
+    if (least >= found.second_distance_bits && least != found.distance_bits) continue;
     for (std::size_t k = 0; k < count; ++k) {
-      if (distances_bits_[k] <= best[q].second_distance_bits)
-        best[q].offer(list.ids[k], distances_bits_[k]);
+      if (distances_bits_[k] <= found.second_distance_bits)
+        found.offer(list.ids[k], distances_bits_[k]);
     }
+    best[q] = found;
   }
 }
 
@@ -185,7 +190,8 @@ void DescriptorIndex::search(const std::vector<Descriptor>& queries, int probes,
   for (const List& list : lists_) longest = std::max(longest, list.ids.size());
   distances_bits_.resize(longest);
   best.assign(queries.size(), BestTwo{});
-  chosen_lists_.resize(queries.size() * probed);
+  // One place more, which choosing writes to (see there).
+  chosen_lists_.resize(queries.size() * probed + 1);
   for (std::size_t q = 0; q < queries.size(); ++q)
     chooseLists(queries[q], probed, chosen_lists_.data() + q * probed);
   sortByList(queries.size(), probed);

@@ -19,6 +19,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.freak_bits = freakBitsAvx2;
     kernels.hamming_nearest = hammingNearestAvx2;
     kernels.hamming_mutual = hammingMutualAvx2;
+    kernels.project = projectAvx2;
   }
   if (set == InstructionSet::kAvx512) {
     kernels.hamming_nearest = hammingNearestAvx512;
@@ -37,6 +38,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.freak_bits = freakBitsNeon;
     kernels.hamming_nearest = hammingNearestNeon;
     kernels.hamming_mutual = hammingMutualNeon;
+    kernels.project = projectNeon;
   }
 #endif
   return kernels;

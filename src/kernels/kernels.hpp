@@ -5,6 +5,7 @@
 #include "kernels/fast_kernels.hpp"
 #include "kernels/freak_kernels.hpp"
 #include "kernels/hamming_kernels.hpp"
+#include "kernels/project_kernels.hpp"
 
 namespace ardrone_vslam::kernels {
 
@@ -24,6 +25,7 @@ struct Kernels {
   decltype(&hammingDistancesScalar) hamming_distances = hammingDistancesScalar;
   decltype(&hammingNearestScalar) hamming_nearest = hammingNearestScalar;
   decltype(&hammingMutualScalar) hamming_mutual = hammingMutualScalar;
+  decltype(&projectScalar) project = projectScalar;
 };
 
 /// The fastest form of each kernel that needs no more than `set`, which must be supported here.
