@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "kernels/hamming_distances.hpp"
 #include "kernels/kernels.hpp"
 
 namespace ardrone_vslam::kernels {
@@ -19,11 +20,13 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.freak_bits = freakBitsAvx2;
     kernels.hamming_nearest = hammingNearestAvx2;
     kernels.hamming_mutual = hammingMutualAvx2;
+    kernels.hamming_distances = hammingDistancesAvx2;
     kernels.project = projectAvx2;
   }
   if (set == InstructionSet::kAvx512) {
     kernels.hamming_nearest = hammingNearestAvx512;
     kernels.hamming_mutual = hammingMutualAvx512;
+    kernels.hamming_distances = hammingDistancesAvx512;
   }
 #endif
 #ifdef ARDRONE_VSLAM_WITH_NEON
@@ -38,6 +41,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.freak_bits = freakBitsNeon;
     kernels.hamming_nearest = hammingNearestNeon;
     kernels.hamming_mutual = hammingMutualNeon;
+    kernels.hamming_distances = hammingDistancesNeon;
     kernels.project = projectNeon;
   }
 #endif
