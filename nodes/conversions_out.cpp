@@ -163,6 +163,7 @@ void toStatus(const FrameResult& result, const std::string& map_frame, Status& s
         status.reason;
   }
   status.features = count(result.features);
+  status.match_method = nameOf(result.match_method);
   status.landmarks_in_view = count(result.landmarks_in_view);
   status.landmark_candidates = count(result.landmark_candidates);
   status.landmark_matches = count(result.landmark_matches);

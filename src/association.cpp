@@ -3,20 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr int kNobody = -1;
-constexpr double kSmallestDistance_m = 1e-3;
-
-double radians(double degrees) {
-  return degrees * M_PI / 180.0;
-}
+/// So many landmarks tell how far away the map is.
+constexpr std::size_t kDistanceSample = 1000;
 
 }  // namespace
 
-Associator::Associator(const AssociationConfig& config) : config_(config) {
+Associator::Associator(const AssociationConfig& config)
+    : config_(config), global_matcher_(config.matcher, config.index_probes) {
   validate(config);
 }
 
@@ -26,13 +25,17 @@ void Associator::begin(const FrameView& view, std::size_t target_count) {
   feature_taken_.assign(view.size(), false);
   targets_in_view_.clear();
   feature_of_track_.clear();
+  oldest_track_ = std::numeric_limits<std::uint32_t>::max();
   for (std::size_t i = 0; i < view.size(); ++i) {
     const std::uint32_t track_id = view.features().track_id[i];
-    if (track_id != kNoTrack) feature_of_track_[track_id] = static_cast<int>(i);
+    if (track_id == kNoTrack) continue;
+    feature_of_track_[track_id] = static_cast<int>(i);
+    oldest_track_ = std::min(oldest_track_, track_id);
   }
 }
 
 int Associator::featureOfTrack(std::uint32_t track_id) const {
+  if (track_id < oldest_track_) return kNobody;  // most landmarks of a large map
   const auto entry = feature_of_track_.find(track_id);
   return entry == feature_of_track_.end() ? kNobody : entry->second;
 }
@@ -57,23 +60,10 @@ int Associator::bestFeature(int target) const {
   return best.index;
 }
 
-double Associator::margin_px(const FrameView& view, const Landmark& landmark) const {
-  const double distance_m = (landmark.position_map - view.origin_map()).norm();
+double Associator::margin_px(const FrameView& view, double position_variance_m2,
+                             double distance_m) const {
   return config_.threshold_deviations * view.focalLength_px() *
-         view.deviationSince_m(landmark.position_variance_m2) / distance_m;
-}
-
-bool Associator::landmarkWindow(const FrameView& view, const Landmark& landmark,
-                                Window& window) const {
-  const Eigen::Vector3d offset = landmark.position_map - view.origin_map();
-  const double distance = offset.norm();
-  const double smallest_cosine = std::cos(radians(config_.max_view_angle_deg));
-  if (distance < kSmallestDistance_m ||
-      landmark.view_direction_map.dot(offset) < smallest_cosine * distance)
-    return false;
-  if (!view.idealPixel(offset, landmark.height_m / distance, window.centre_px)) return false;
-  window.radius_px = static_cast<float>(config_.search_radius_px + margin_px(view, landmark));
-  return true;
+         view.deviationSince_m(position_variance_m2) / distance_m;
 }
 
 bool Associator::decideLandmark(const FrameView& view, const LandmarkMap& map,
@@ -89,42 +79,98 @@ bool Associator::decideLandmark(const FrameView& view, const LandmarkMap& map,
   return true;
 }
 
-void Associator::matchLandmarks(const FrameView& view, const LandmarkMap& map,
+void Associator::matchLandmarks(const FrameView& view, LandmarkMap& map,
                                 AssociationResult& result) {
   result = {};
-  begin(view, map.size());
-  // Tracks first: they need no search, and their features are not offered to other landmarks.
-  window_of_target_.clear();
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    const Landmark& landmark = map.all()[i];
-    Window window;
-    if (!landmarkWindow(view, landmark, window)) continue;
-    ++result.in_view;
-    const int target = static_cast<int>(i);
-    const int feature = featureOfTrack(landmark.track_id);
-    const bool free = feature != kNobody && !feature_taken_[static_cast<std::size_t>(feature)];
-    if (free && decideLandmark(view, map, {target, feature}, result)) continue;
-    targets_in_view_.push_back(target);
-    window_of_target_.push_back(window);
+  const LandmarkColumns& columns = map.columns(view.origin_map());
+  columns.project(view, {config_.max_view_angle_deg, config_.max_distance_ratio}, visible_);
+  result.in_view = static_cast<int>(visible_.count);
+  begin(view, visible_.count);
+  result.method = chooseMethod(view, columns);
+  if (result.method == MatchMethod::kGuided) {
+    matchGuided(view, map, columns, result);
+  } else {
+    matchGlobally(view, map, columns, result);
   }
-  for (std::size_t k = 0; k < targets_in_view_.size(); ++k) {
-    const int target = targets_in_view_[k];
-    search(view, map.all()[static_cast<std::size_t>(target)].descriptor, window_of_target_[k],
-           target);
+}
+
+MatchMethod Associator::chooseMethod(const FrameView& view, const LandmarkColumns& columns) {
+  const auto radiusOf = [&](std::size_t landmark, float distance_m) {
+    const double margin = margin_px(view, columns.positionVariance_m2(landmark), distance_m);
+    return static_cast<float>(config_.search_radius_px + margin);
+  };
+  radius_px_.resize(visible_.count);
+  for (std::size_t k = 0; k < visible_.count; ++k)
+    radius_px_[k] = radiusOf(static_cast<std::size_t>(visible_.index[k]), visible_.distance_m[k]);
+  sorted_radii_px_ = radius_px_;
+  if (sorted_radii_px_.empty()) {
+    // Nothing is where the camera is thought to be: wide or not is a matter of the whole map.
+    const std::size_t step = 1 + columns.size() / kDistanceSample;
+    for (std::size_t i = 0; i < columns.size(); i += step) {
+      const float distance_m = columns.seenDistance_m(i);
+      if (distance_m > 0) sorted_radii_px_.push_back(radiusOf(i, distance_m));
+    }
+  }
+  if (sorted_radii_px_.empty()) return MatchMethod::kGuided;
+  const auto median =
+      sorted_radii_px_.begin() + static_cast<std::ptrdiff_t>(sorted_radii_px_.size() / 2);
+  std::nth_element(sorted_radii_px_.begin(), median, sorted_radii_px_.end());
+  if (*median <= config_.max_window_share * view.features().width_px) return MatchMethod::kGuided;
+  const bool is_large = columns.size() >= static_cast<std::size_t>(config_.index_from_landmarks);
+  return is_large ? MatchMethod::kIndexed : MatchMethod::kExact;
+}
+
+void Associator::matchGuided(const FrameView& view, const LandmarkMap& map,
+                             const LandmarkColumns& columns, AssociationResult& result) {
+  // Tracks first: they need no search, and their features are not offered to other landmarks.
+  for (std::size_t k = 0; k < visible_.count; ++k) {
+    const int landmark = visible_.index[k];
+    const int feature = featureOfTrack(columns.trackId(static_cast<std::size_t>(landmark)));
+    const bool free = feature != kNobody && !feature_taken_[static_cast<std::size_t>(feature)];
+    if (free && decideLandmark(view, map, {landmark, feature}, result)) continue;
+    targets_in_view_.push_back(static_cast<int>(k));
   }
   for (const int target : targets_in_view_) {
+    const auto k = static_cast<std::size_t>(target);
+    search(view, map.all()[static_cast<std::size_t>(visible_.index[k])].descriptor,
+           {visible_.pixel_px(k), radius_px_[k]}, target);
+  }
+  for (const int target : targets_in_view_) {
+    const int landmark = visible_.index[static_cast<std::size_t>(target)];
     const int feature = bestFeature(target);
-    if (feature == kNobody || !decideLandmark(view, map, {target, feature}, result))
-      result.missed.push_back(target);
+    if (feature == kNobody || !decideLandmark(view, map, {landmark, feature}, result))
+      result.missed.push_back(landmark);
+  }
+}
+
+void Associator::matchGlobally(const FrameView& view, LandmarkMap& map,
+                               const LandmarkColumns& columns, AssociationResult& result) {
+  landmark_taken_.assign(columns.size(), false);
+  const auto decide = [&](const Association& candidate) {
+    const auto landmark = static_cast<std::size_t>(candidate.target);
+    if (landmark_taken_[landmark] || feature_taken_[static_cast<std::size_t>(candidate.feature)])
+      return;
+    landmark_taken_[landmark] = decideLandmark(view, map, candidate, result);
+  };
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const int feature = featureOfTrack(columns.trackId(i));
+    if (feature != kNobody) decide({static_cast<int>(i), feature});
+  }
+  for (const DescriptorMatch& match :
+       global_matcher_.match(view.features(), feature_taken_, map, result.method)) {
+    decide({match.train, match.query});
   }
 }
 
 bool Associator::isLandmarkMismatch(const FrameView& view, const Landmark& landmark,
                                     int feature) const {
   const Ray ray = view.ray(static_cast<std::size_t>(feature));
-  const Eigen::Vector3d predicted = (landmark.position_map - ray.origin_map).normalized();
+  const Eigen::Vector3d offset = landmark.position_map - ray.origin_map;
+  const double distance_m = offset.norm();
+  const Eigen::Vector3d predicted = offset / distance_m;
   const double angle =
-      (config_.landmark_threshold_px + margin_px(view, landmark)) / view.focalLength_px();
+      (config_.landmark_threshold_px + margin_px(view, landmark.position_variance_m2, distance_m)) /
+      view.focalLength_px();
   return !(predicted.dot(ray.direction_map) > std::cos(std::min(angle, M_PI)));  // (5.36)
 }
 

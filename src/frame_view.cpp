@@ -6,9 +6,6 @@
 namespace ardrone_vslam {
 namespace {
 
-/// Cosine of 87 degrees off the axis: no ideal pixel is computed beyond, as they go to infinity.
-constexpr float kFlattest = 0.05F;
-
 /// Cells of the grid along one side, at most; keeps its cost bounded for very wide lenses.
 constexpr float kMostCells = 256.F;
 
@@ -32,7 +29,7 @@ void FrameView::reset(const ImageFeatures& features, const Eigen::Isometry3d& T_
     }
     rays_map_.push_back(ray.normalized());
     ideal_px_.push_back(features.focal_length_px * bearing.head<2>() /
-                        std::max(kFlattest, bearing.z()));
+                        std::max(kFlattestCosine, bearing.z()));
     lower_px_ = lower_px_.cwiseMin(ideal_px_.back());
     upper_px_ = upper_px_.cwiseMax(ideal_px_.back());
   }
@@ -48,7 +45,7 @@ bool FrameView::idealPixel(const Eigen::Vector3d& direction_map, double elevatio
   Eigen::Vector3d direction = direction_map;
   if (planar_) direction.z() = elevation * direction.head<2>().norm();
   const Eigen::Vector3d direction_cam = R_cam_map_ * direction;
-  if (!(direction_cam.z() > kFlattest * direction_cam.norm())) return false;
+  if (!(direction_cam.z() > kFlattestCosine * direction_cam.norm())) return false;
   const Eigen::Vector2d plane = direction_cam.head<2>() / direction_cam.z();
   pixel_px = features_->focal_length_px * plane.cast<float>();
   return (pixel_px.array() >= lower_px_.array()).all() &&

@@ -14,6 +14,8 @@ std::uint32_t LandmarkMap::add(const Landmark& landmark) {
   index_of_id_.emplace(id, landmarks_.size());
   landmarks_.push_back(landmark);
   landmarks_.back().id = id;
+  stale_.push_back(0);
+  markStale(landmarks_.size() - 1);
   return id;
 }
 
@@ -22,11 +24,68 @@ void LandmarkMap::remove(std::uint32_t id) {
   if (entry == index_of_id_.end()) return;
   const std::size_t hole = entry->second;
   index_of_id_.erase(entry);
+  if (index_is_built_) index_.remove(static_cast<int>(id));
   if (hole + 1 != landmarks_.size()) {
     landmarks_[hole] = landmarks_.back();
     index_of_id_[landmarks_[hole].id] = hole;
+    stale_[hole] = static_cast<std::uint8_t>(stale_.back() & kStaleIndex);
+    markStale(hole);
   }
   landmarks_.pop_back();
+  stale_.pop_back();
+}
+
+Landmark& LandmarkMap::at(std::size_t index) {
+  markStale(index);
+  return landmarks_[index];
+}
+
+void LandmarkMap::markStale(std::size_t index) {
+  std::uint8_t& stale = stale_[index];
+  if ((stale & kStaleColumns) == 0) stale_for_columns_.push_back(index);
+  stale |= kStaleColumns;
+  if (!index_is_built_) return;
+  if ((stale & kStaleIndex) == 0) stale_for_index_.push_back(landmarks_[index].id);
+  stale |= kStaleIndex;
+}
+
+const LandmarkColumns& LandmarkMap::columns(const Eigen::Vector3d& camera_map) {
+  columns_.resize(landmarks_.size());
+  if (columns_.follow(camera_map)) {
+    for (std::size_t i = 0; i < landmarks_.size(); ++i) columns_.set(i, landmarks_[i]);
+  }
+  for (const std::size_t i : stale_for_columns_) {
+    if (i >= landmarks_.size()) continue;
+    columns_.set(i, landmarks_[i]);
+    stale_[i] = static_cast<std::uint8_t>(stale_[i] & ~kStaleColumns);
+  }
+  stale_for_columns_.clear();
+  return columns_;
+}
+
+DescriptorIndex& LandmarkMap::index() {
+  if (!index_is_built_) {
+    std::vector<IndexEntry> entries;
+    entries.reserve(landmarks_.size());
+    for (const Landmark& landmark : landmarks_)
+      entries.push_back({static_cast<int>(landmark.id), landmark.descriptor});
+    index_.insert(entries);
+    index_is_built_ = true;
+    return index_;
+  }
+  for (const std::uint32_t id : stale_for_index_) {
+    const auto entry = index_of_id_.find(id);
+    if (entry == index_of_id_.end()) continue;
+    const Landmark& landmark = landmarks_[entry->second];
+    std::uint8_t& stale = stale_[entry->second];
+    stale = static_cast<std::uint8_t>(stale & ~kStaleIndex);
+    const Descriptor* known = index_.find(static_cast<int>(id));
+    if (known != nullptr && *known == landmark.descriptor) continue;
+    index_.remove(static_cast<int>(id));
+    index_.insert({static_cast<int>(id), landmark.descriptor});
+  }
+  stale_for_index_.clear();
+  return index_;
 }
 
 int LandmarkMap::enforceCap() {

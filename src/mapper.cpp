@@ -11,7 +11,8 @@ void rememberSighting(const FrameView& view, std::size_t feature, Landmark& land
   landmark.track_id = view.features().track_id[feature];
   landmark.descriptor = view.features().descriptor[feature];
   landmark.view_direction_map = view.ray(feature).direction_map;
-  landmark.height_m = view.elevation(feature) * (landmark.position_map - view.origin_map()).norm();
+  landmark.seen_distance_m = (landmark.position_map - view.origin_map()).norm();
+  landmark.height_m = view.elevation(feature) * landmark.seen_distance_m;
   landmark.last_seen_ns = view.features().stamp_ns;
   landmark.times_missed = 0;
   ++landmark.times_seen;
@@ -69,9 +70,9 @@ void Mapper::widenBaseline(const FrameView& view, std::size_t feature, Landmark&
 int Mapper::countMissed(const std::vector<int>& missed, LandmarkMap& map) const {
   std::vector<std::uint32_t> dropped;
   for (const int index : missed) {
-    Landmark& landmark = map.at(static_cast<std::size_t>(index));
-    ++landmark.times_missed;
-    if (landmark.times_seen <= 2 && landmark.times_missed >= config_.drop_unconfirmed_after)
+    const int times_missed = map.addMiss(static_cast<std::size_t>(index));
+    const Landmark& landmark = map.all()[static_cast<std::size_t>(index)];
+    if (landmark.times_seen <= 2 && times_missed >= config_.drop_unconfirmed_after)
       dropped.push_back(landmark.id);
   }
   for (const std::uint32_t id : dropped) map.remove(id);

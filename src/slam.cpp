@@ -171,6 +171,7 @@ void Slam::State::report(const ObserverState& observer) {
       attitude_rad * attitude_rad * Eigen::Matrix3d::Identity();
   result.deviation_m = filter.deviation_m();
   if (config.estimator != Estimator::kObserver) {
+    result.match_method = landmark_matches.method;
     result.landmarks_in_view = landmark_matches.in_view;
     result.landmark_candidates = landmark_matches.candidates;
     result.landmark_matches = static_cast<int>(landmark_matches.matches.size());

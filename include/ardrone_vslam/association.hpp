@@ -7,6 +7,7 @@
 #include "ardrone_vslam/descriptor_matcher.hpp"
 #include "ardrone_vslam/feature_map.hpp"
 #include "ardrone_vslam/frame_view.hpp"
+#include "ardrone_vslam/global_matcher.hpp"
 #include "ardrone_vslam/landmark_map.hpp"
 #include "ardrone_vslam/parameters.hpp"
 
@@ -18,6 +19,10 @@ struct AssociationConfig {
   double epipolar_threshold_px = 2.0;
   double threshold_deviations = 3.0;
   double max_view_angle_deg = 60.0;
+  double max_distance_ratio = 10.0;
+  double max_window_share = 0.5;
+  int index_from_landmarks = 10000;
+  int index_probes = 32;
   MatcherConfig matcher;
 };
 
@@ -39,6 +44,20 @@ void visitParameters(AssociationConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"max_view_angle_deg", "deg", 1, 180,
                       "landmarks last seen from a direction further off are not searched"},
         c.max_view_angle_deg);
+  visit(ParameterInfo{"max_distance_ratio", "-", 1, 1e6,
+                      "landmarks are not searched from so many times nearer or further away than "
+                      "they were last seen"},
+        c.max_distance_ratio);
+  visit(ParameterInfo{"max_window_share", "-", 0, 1e6,
+                      "when the windows' radius (median) exceeds this share of the image width, "
+                      "features are compared with all landmarks, wherever they should be"},
+        c.max_window_share);
+  visit(ParameterInfo{"index_from_landmarks", "landmarks", 0, 10000000,
+                      "maps of so many are then searched by an index, smaller ones exactly"},
+        c.index_from_landmarks);
+  visit(ParameterInfo{"index_probes", "lists", 1, 1000000,
+                      "lists of the index compared with each feature: more find more, slower"},
+        c.index_probes);
   visitParameters(c.matcher, visit);
 }
 
@@ -51,10 +70,11 @@ struct Association {
 /// What one search found, before and after the removal of mismatches.
 struct AssociationResult {
   std::vector<Association> matches;
+  MatchMethod method = MatchMethod::kGuided;
   int in_view = 0;          ///< targets that the prediction puts into the image
   int candidates = 0;       ///< descriptor or track matches
   int mismatches = 0;       ///< removed of them
-  std::vector<int> missed;  ///< targets in view without a match
+  std::vector<int> missed;  ///< targets in view without a match; none unless guided
 };
 
 /// Finds the landmarks and map features that a frame shows, and removes mismatches (algorithm.md 8,
@@ -63,11 +83,15 @@ class Associator {
  public:
   explicit Associator(const AssociationConfig& config);
 
-  /// Landmarks seen by the frame: those that the predicted pose puts into the image, by track or by
-  /// the best descriptor within a window; a match whose ray is off the prediction by more than the
-  /// threshold is a mismatch (5.36). Each landmark and each feature at most once. O(landmarks +
-  /// pairs inside windows).
-  void matchLandmarks(const FrameView& view, const LandmarkMap& map, AssociationResult& result);
+  /// Landmarks seen by the frame. Each landmark and each feature at most once.
+  /// - The prior is narrow: those that the predicted pose puts into the image and that were last
+  ///   seen from a like direction and distance, by track or by the best descriptor within a window
+  ///   that grows with the prior's deviation.
+  /// - The windows would hold most of the image (max_window_share): by track, or by the best
+  ///   descriptor among all landmarks, found exactly or by the map's index.
+  /// A match whose ray is off the prediction by more than the threshold is a mismatch (5.36).
+  /// O(landmarks + pairs inside windows), or as matchExact or DescriptorIndex::search.
+  void matchLandmarks(const FrameView& view, LandmarkMap& map, AssociationResult& result);
 
   /// Map features seen again by those of the frame's features that `taken` does not mark: by track,
   /// else by descriptor around where rotation alone would put them; matches off the epipolar plane
@@ -86,20 +110,30 @@ class Associator {
   void search(const FrameView& view, const Descriptor& descriptor, const Window& window,
               int target);
   int bestFeature(int target) const;
-  double margin_px(const FrameView& view, const Landmark& landmark) const;
-  bool landmarkWindow(const FrameView& view, const Landmark& landmark, Window& window) const;
+  double margin_px(const FrameView& view, double position_variance_m2, double distance_m) const;
+  MatchMethod chooseMethod(const FrameView& view, const LandmarkColumns& columns);
+  void matchGuided(const FrameView& view, const LandmarkMap& map, const LandmarkColumns& columns,
+                   AssociationResult& result);
+  void matchGlobally(const FrameView& view, LandmarkMap& map, const LandmarkColumns& columns,
+                     AssociationResult& result);
   bool decideLandmark(const FrameView& view, const LandmarkMap& map, const Association& candidate,
                       AssociationResult& result);
   bool isLandmarkMismatch(const FrameView& view, const Landmark& landmark, int feature) const;
   bool isEpipolarMismatch(const FrameView& view, const MapFeature& first, int feature) const;
 
   AssociationConfig config_;
+  GlobalMatcher global_matcher_;
+  VisibleLandmarks visible_;
+  std::vector<float> radius_px_;  // window of each visible landmark
+  std::vector<float> sorted_radii_px_;
+  // Targets are numbered as they are visited: visible landmarks, or the map's features.
   std::vector<BestTwo> best_of_target_;
   std::vector<BestTwo> best_of_feature_;
   std::vector<bool> feature_taken_;
+  std::vector<bool> landmark_taken_;
   std::vector<int> targets_in_view_;
-  std::vector<Window> window_of_target_;
   std::unordered_map<std::uint32_t, int> feature_of_track_;
+  std::uint32_t oldest_track_ = kNoTrack;  // of the frame's
 };
 
 }  // namespace ardrone_vslam

@@ -17,6 +17,9 @@ namespace ardrone_vslam {
 /// pixels", the origin is the optical axis).
 class FrameView {
  public:
+  /// Of 87 degrees off the axis: no ideal pixel is computed beyond, as they go to infinity.
+  static constexpr float kFlattestCosine = 0.05F;
+
   /// @param planar  2-D mode: the rays lose their z component and are normalised again (thesis 7.2)
   /// Bearings more than 87 degrees off the optical axis are found only by their tracks.
   /// @pre features outlives the view; its bearings are finite unit vectors
@@ -45,6 +48,11 @@ class FrameView {
   void setOrigin(const Eigen::Vector3d& origin_map) { origin_map_ = origin_map; }
   double focalLength_px() const { return features_->focal_length_px; }
   bool planar() const { return planar_; }
+  /// Takes directions in map to the camera's optical frame.
+  const Eigen::Matrix3d& R_cam_map() const { return R_cam_map_; }
+  /// Corners of the box of all ideal pixels that the camera has shown so far.
+  const Eigen::Vector2f& lower_px() const { return lower_px_; }
+  const Eigen::Vector2f& upper_px() const { return upper_px_; }
 
   /// Ideal pixel of a direction in the map frame.
   /// @param elevation  tangent of the elevation, used in 2-D mode only, where directions are

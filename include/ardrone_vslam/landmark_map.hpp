@@ -6,7 +6,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "ardrone_vslam/descriptor_index.hpp"
 #include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/landmark_columns.hpp"
 #include "ardrone_vslam/parameters.hpp"
 #include "ardrone_vslam/triangulation.hpp"
 
@@ -19,6 +21,7 @@ struct Landmark {
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
   Eigen::Vector3d view_direction_map =
       Eigen::Vector3d::Zero();   ///< unit ray camera -> landmark when last described
+  double seen_distance_m = 0;    ///< from the camera that saw it last; 0: not known
   double deviation_m = 0;        ///< sigma_l (5.19, 5.34)
   double depth_deviation_m = 0;  ///< along the ray of its last triangulation
   Ray first_ray;                 ///< of the first view, by which it was triangulated
@@ -60,16 +63,37 @@ class LandmarkMap {
   /// All landmarks, dense; order changes only by remove (the last one takes the place).
   const std::vector<Landmark>& all() const { return landmarks_; }
   std::size_t size() const { return landmarks_.size(); }
+  /// For changes; they must be made before columns() or index() is called next.
   /// @param index  into all()
-  Landmark& at(std::size_t index) { return landmarks_[index]; }
+  Landmark& at(std::size_t index);
+  /// One more view in which the landmark should have been seen and was not. @return times_missed
+  int addMiss(std::size_t index) { return ++landmarks_[index].times_missed; }
   /// @return nullptr when there is none of this id
   const Landmark* find(std::uint32_t id) const;
 
+  /// All landmarks as arrays for the projection near a camera, up to date; entry i belongs to
+  /// all()[i]. O(changes since the last call); once in 256 m of flight O(size).
+  const LandmarkColumns& columns(const Eigen::Vector3d& camera_map);
+  /// All descriptors, to be searched by nearness; its ids are the landmarks'. Built at the first
+  /// call, as most flights never need it; later calls catch up with the changes since.
+  DescriptorIndex& index();
+
  private:
+  /// Which of the copies below a landmark has yet to be copied to.
+  enum Stale : std::uint8_t { kStaleColumns = 1, kStaleIndex = 2 };
+  void markStale(std::size_t index);
+
   LandmarkMapConfig config_;
   std::vector<Landmark> landmarks_;
   std::unordered_map<std::uint32_t, std::size_t> index_of_id_;
   std::uint32_t next_id_ = 1;
+
+  LandmarkColumns columns_;
+  DescriptorIndex index_;
+  bool index_is_built_ = false;
+  std::vector<std::uint8_t> stale_;             // of each landmark, bits of Stale
+  std::vector<std::size_t> stale_for_columns_;  // indices into landmarks_, or beyond its end
+  std::vector<std::uint32_t> stale_for_index_;  // ids, also of landmarks removed since
 };
 
 }  // namespace ardrone_vslam

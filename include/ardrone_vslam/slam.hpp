@@ -38,6 +38,7 @@ struct FrameResult {
   std::optional<Eigen::Vector3d> camera_position_map;
   double camera_deviation_m = 0;  ///< of camera_position_map, per axis
 
+  MatchMethod match_method = MatchMethod::kGuided;  ///< how landmarks were looked for
   int features = 0;
   int landmarks_in_view = 0;    ///< landmarks that the prediction puts into the image
   int landmark_candidates = 0;  ///< landmark matches before the removal of mismatches

@@ -22,6 +22,7 @@ FrameResult someResult() {
   }
   result.deviation_m = 0.25;
   result.features = 100;
+  result.match_method = MatchMethod::kIndexed;
   result.landmark_candidates = 30;
   result.landmark_matches = 20;
   result.feature_candidates = 40;
@@ -93,6 +94,7 @@ TEST(ResultConversion, StatusCountsWhatWasRemoved) {
   EXPECT_EQ(status.reason, "");
   EXPECT_EQ(status.landmark_mismatches, 10U);
   EXPECT_EQ(status.feature_mismatches, 5U);
+  EXPECT_EQ(status.match_method, "indexed");
   EXPECT_EQ(status.images, 77U);
 }
 

@@ -116,7 +116,8 @@ void addCost(const RunResult& run, Json& summary) {
 }
 
 void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e) {
-  out << "index,stamp_ns,state,features,landmarks_in_view,landmark_candidates,landmark_matches,"
+  out << "index,stamp_ns,state,match_method,features,landmarks_in_view,landmark_candidates,"
+         "landmark_matches,"
          "landmark_mismatches,"
          "feature_candidates,feature_matches,feature_mismatches,new_landmarks,removed_landmarks,"
          "landmarks,map_features,"
@@ -133,7 +134,8 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
   };
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     const FrameResult& r = run.frames[i].result;
-    out << i << ',' << r.stamp_ns << ',' << kSlamStateNames[static_cast<std::size_t>(r.state)];
+    out << i << ',' << r.stamp_ns << ',' << kSlamStateNames[static_cast<std::size_t>(r.state)]
+        << ',' << nameOf(r.match_method);
     for (const int count :
          {r.features, r.landmarks_in_view, r.landmark_candidates, r.landmark_matches,
           r.landmark_candidates - r.landmark_matches, r.feature_candidates, r.feature_matches,

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/global_matcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/view_builder.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+class GlobalMatcherTest : public ::testing::Test {
+ protected:
+  GlobalMatcherTest() {
+    builder_.lookFrom({0, 0, 0});
+    for (int i = 0; i < 400; ++i) addLandmark(builder_.randomDescriptor());
+  }
+  std::uint32_t addLandmark(const Descriptor& descriptor) {
+    Landmark landmark;
+    landmark.descriptor = descriptor;
+    return map_.add(landmark);
+  }
+  void addFeature(const Descriptor& descriptor) { builder_.addPixel(0, 0, 0, descriptor); }
+
+  std::vector<DescriptorMatch> match(MatchMethod method, const std::vector<bool>& taken = {}) {
+    std::vector<bool> marks = taken;
+    marks.resize(builder_.features().size(), false);
+    return GlobalMatcher(config_, 1000).match(builder_.features(), marks, map_, method);
+  }
+  /// Both methods, which must agree when all lists are probed.
+  std::vector<DescriptorMatch> matchBoth(const std::vector<bool>& taken = {}) {
+    const auto exact = match(MatchMethod::kExact, taken);
+    const auto indexed = match(MatchMethod::kIndexed, taken);
+    EXPECT_EQ(indexed.size(), exact.size());
+    for (std::size_t i = 0; i < std::min(exact.size(), indexed.size()); ++i) {
+      EXPECT_EQ(indexed[i].query, exact[i].query);
+      EXPECT_EQ(indexed[i].train, exact[i].train);
+      EXPECT_EQ(indexed[i].distance_bits, exact[i].distance_bits);
+      EXPECT_EQ(indexed[i].second_distance_bits, exact[i].second_distance_bits);
+    }
+    return exact;
+  }
+
+  MatcherConfig config_;
+  test::ViewBuilder builder_;
+  LandmarkMap map_{LandmarkMapConfig{}};
+};
+
+TEST_F(GlobalMatcherTest, FindsEachFeaturesLandmarkByEitherMethod) {
+  for (const std::size_t i : {3U, 77U, 250U, 399U})
+    addFeature(builder_.flipped(map_.all()[i].descriptor, 40));
+  addFeature(builder_.randomDescriptor());
+  const auto matches = matchBoth();
+  ASSERT_EQ(matches.size(), 4U);
+  EXPECT_EQ(matches[1].query, 1);
+  EXPECT_EQ(matches[1].train, 77);
+  EXPECT_EQ(matches[1].distance_bits, 40);
+}
+
+TEST_F(GlobalMatcherTest, TakenFeaturesAreLeftOut) {
+  addFeature(map_.all()[5].descriptor);
+  addFeature(map_.all()[6].descriptor);
+  const auto matches = matchBoth({true, false});
+  ASSERT_EQ(matches.size(), 1U);
+  EXPECT_EQ(matches[0].query, 1);
+  EXPECT_EQ(matches[0].train, 6);
+  EXPECT_TRUE(matchBoth({true, true}).empty());
+}
+
+TEST_F(GlobalMatcherTest, AmbiguousAndFarOnesAreNotMatches) {
+  addFeature(builder_.flipped(map_.all()[5].descriptor, config_.max_hamming_bits + 1));
+  addFeature(map_.all()[6].descriptor);
+  addLandmark(map_.all()[6].descriptor);  // a twin
+  EXPECT_TRUE(matchBoth().empty());
+}
+
+TEST_F(GlobalMatcherTest, CrossCheckKeepsTheNearestFeature) {
+  addFeature(builder_.flipped(map_.all()[5].descriptor, 30));
+  addFeature(builder_.flipped(map_.all()[5].descriptor, 20));
+  const auto checked = matchBoth();
+  ASSERT_EQ(checked.size(), 1U);
+  EXPECT_EQ(checked[0].query, 1);
+  config_.cross_check = false;
+  EXPECT_EQ(matchBoth().size(), 2U);
+}
+
+TEST_F(GlobalMatcherTest, FollowsTheMapAsItChanges) {
+  addFeature(map_.all()[5].descriptor);
+  addFeature(builder_.randomDescriptor());
+  EXPECT_EQ(matchBoth().size(), 1U);
+  map_.at(7).descriptor = builder_.features().descriptor[1];  // seen anew
+  EXPECT_EQ(matchBoth().size(), 2U);
+  map_.remove(map_.all()[5].id);
+  const auto matches = matchBoth();
+  ASSERT_EQ(matches.size(), 1U);
+  EXPECT_EQ(matches[0].train, 7);
+  for (int round = 0; round < 3; ++round) {  // the last ones take the holes
+    for (int i = 0; i < 100; ++i) map_.remove(map_.all()[20 + static_cast<std::size_t>(i)].id);
+    for (int i = 0; i < 100; ++i) addLandmark(builder_.randomDescriptor());
+    map_.at(390).descriptor = builder_.flipped(builder_.features().descriptor[0], round);
+    EXPECT_EQ(matchBoth().size(), 2U) << round;
+  }
+}
+
+TEST_F(GlobalMatcherTest, EmptyMapsAndFramesMatchNothing) {
+  EXPECT_TRUE(matchBoth().empty());
+  map_ = LandmarkMap({});
+  addFeature(builder_.randomDescriptor());
+  EXPECT_TRUE(matchBoth().empty());
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
