@@ -39,7 +39,7 @@ class DescriptorIndex {
   /// eighth.
   void remove(int id);
   /// Draws new centres from the present entries, which alone decide the result.
-  /// Cost: entries x lists distances, 0.1 to 0.3 s for 100,000 entries.
+  /// Cost: entries x lists distances, 0.1 to 0.2 s for 100,000 entries (0.5 s without vectors).
   void rebuild();
 
   std::size_t size() const { return place_of_id_.size(); }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 
+#include "ardrone_vslam/association.hpp"
 #include "ardrone_vslam/corner_detector.hpp"
 #include "ardrone_vslam/descriptor_index.hpp"
 #include "ardrone_vslam/freak.hpp"
@@ -65,7 +66,7 @@ TEST(DescriptorIndexRecall, FindsTheExactNeighbourOf97PercentAmong100000RealDesc
   DescriptorIndex index;
   index.insert(entries);
   std::vector<BestTwo> found;
-  index.search(queries, 32, found);
+  index.search(queries, AssociationConfig{}.index_probes, found);
   int hits = 0;
   for (std::size_t q = 0; q < queries.size(); ++q) {
     int nearest_bits = kNoDistance_bits;

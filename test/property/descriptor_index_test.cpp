@@ -23,7 +23,8 @@ Descriptor randomDescriptor(std::mt19937_64& random) {
   return descriptor;
 }
 
-Descriptor flipped(Descriptor descriptor, int bits, std::mt19937_64& random) {
+Descriptor flipped(const Descriptor& original, int bits, std::mt19937_64& random) {
+  Descriptor descriptor = original;
   for (int i = 0; i < bits; ++i)
     descriptor.words[random() % 8] ^= std::uint64_t{1} << (random() % 64);
   return descriptor;
