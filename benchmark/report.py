@@ -1,0 +1,193 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Turns what front_end_benchmark measured into rows (ours beside a peer), a page and plots."""
+
+import argparse
+import json
+import os
+import statistics
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+OURS = "ours"
+PASSES = (1, 2, 4, 8, 16)
+ABOUT = {
+    "fast9_kitti": "FAST-9, t = 35, 3x3 suppression: the same corners in the same order as cv::FAST",
+    "fast9_320x240": "the same, 320x240",
+    "fast12_kitti": "FAST-12, t = 35",
+    "fast12_320x240": "the same, 320x240",
+    "fast9_agast_kitti": "FAST-9 beside AGAST",
+    "fast9_agast_320x240": "the same, 320x240",
+    "detector_kitti": "FAST-12 as the tracker runs it: 1000 corners spread over cells, adapting thresholds",
+    "detector_320x240": "the same, 320x240",
+    "freak_kitti": "FREAK with its integral image, about 600 keypoints",
+    "freak_brisk_kitti": "FREAK beside BRISK's descriptor, the same keypoints",
+    "freak_orb_kitti": "FREAK beside ORB's descriptor (256 bits), the same keypoints",
+    "freak_upright_kitti": "FREAK without the 45 orientation pairs",
+    "exact_100k": "best and second best of 1000 queries among 100,000",
+    "index_100k": "the same by the index; the peer is FLANN's hierarchical clustering (4 trees)",
+    "index_lsh_100k": "the same; the peer is FLANN's LSH",
+    "project_100k": "100,000 landmarks projected and culled",
+    "tracker_kitti": "image to features with tracks, 600 features",
+    "tracker_320x240": "the same, 320x240, 200 features",
+}
+
+
+def read_sides(path):
+    """{row: {who: {time_ns, items, share}}} of medians over the repetitions, and the context."""
+    with open(path) as file:
+        data = json.load(file)
+    runs = {}
+    for run in data["benchmarks"]:
+        if run.get("run_type") != "aggregate":
+            runs.setdefault(tuple(run["run_name"].split("/", 1)), []).append(run)
+    sides = {}
+    for (row, who), repetitions in runs.items():
+        time_ns = statistics.median(r["cpu_time"] for r in repetitions)
+        per_second = statistics.median(r.get("items_per_second", 0) for r in repetitions)
+        sides.setdefault(row, {})[who] = {
+            "time_ns": time_ns, "items": per_second * time_ns * 1e-9, "share": repetitions[0].get("share")}
+    return sides, data["context"]
+
+
+def pair(sides):
+    """{row: {ours_ns, peer, peer_ns, ratio, ...}} of the rows that have both sides."""
+    rows = {}
+    for row, both in sides.items():
+        peer = next((who for who in both if who != OURS), None)
+        if peer is None or OURS not in both:
+            continue
+        ours, other = both[OURS], both[peer]
+        rows[row] = {"ours_ns": ours["time_ns"], "peer": peer, "peer_ns": other["time_ns"],
+                     "ratio": other["time_ns"] / ours["time_ns"],
+                     "ours_items": ours["items"], "peer_items": other["items"]}
+        for name, side in (("ours", ours), ("peer", other)):
+            if side["share"] is not None:
+                rows[row][f"{name}_share"] = side["share"]
+    return rows
+
+
+def machine(context):
+    with open("/proc/cpuinfo") as file:
+        model = next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown")
+    return (f"{model}, {context['num_cpus']} cores, one thread; kernels: {context['instruction_set']}; "
+            f"{context['compiler']}; OpenCV {context['opencv']}; frames: {context['frames']}.")
+
+
+def time_text(ns):
+    return f"{ns / 1e6:.3g} ms" if ns >= 1e6 else f"{ns / 1e3:.3g} us"
+
+
+def table(rows):
+    lines = ["| row | what | ours | peer | its time | peer / ours | a thing: ours, peer | share: ours, peer |",
+             "|---|---|---|---|---|---|---|---|"]
+    for name, r in rows.items():
+        each = ", ".join(f"{r[side + '_ns'] / r[side + '_items']:.0f} ns" if r[side + "_items"] else "-"
+                         for side in ("ours", "peer"))
+        shares = ", ".join(f"{r[side]:.3f}" if side in r else "-" for side in ("ours_share", "peer_share"))
+        lines.append(f"| {name} | {ABOUT.get(name, '')} | {time_text(r['ours_ns'])} | {r['peer']} | "
+                     f"{time_text(r['peer_ns'])} | **{r['ratio']:.1f}** | {each} | "
+                     f"{shares if shares != '-, -' else ''} |")
+    return "\n".join(lines)
+
+
+def draw_passes(rows, path):
+    found = [p for p in PASSES if f"passes{p}_kitti" in rows]
+    if not found:
+        return False
+    figure, (speed, share) = plt.subplots(1, 2, figsize=(10, 4))
+    for side, label in (("ours", "vector"), ("peer", "scalar")):
+        speed.plot(found, [rows[f"passes{p}_kitti"][f"{side}_items"] / rows[f"passes{p}_kitti"][f"{side}_ns"] * 1e3
+                           for p in found], "o-", label=label)
+    speed.set(xlabel="sampling passes", ylabel="corners / us", xscale="log", yscale="log",
+              title="corners per microsecond")
+    speed.legend()
+    all_corners = rows[f"passes{found[-1]}_kitti"]["ours_items"]
+    share.plot(found, [100 * rows[f"passes{p}_kitti"]["ours_items"] / all_corners for p in found], "o-")
+    share.set(xlabel="sampling passes", ylabel="%", xscale="log", ylim=(0, 105), title="share of the corners found")
+    for axes in (speed, share):
+        axes.set_xticks(found, [str(p) for p in found])
+        axes.grid(alpha=0.3)
+    figure.tight_layout()
+    figure.savefig(path, dpi=110)
+    return True
+
+
+def size_of(row):
+    return int(row.rsplit("_", 1)[1].rstrip("k")) * 1000
+
+
+def draw_map_sizes(rows, path):
+    figure, (time, recall) = plt.subplots(1, 2, figsize=(10, 4))
+    drawn = False
+    for kind, side, label in (("exact", "ours", "exact, ours"), ("exact", "peer", "cv::BFMatcher"),
+                              ("index", "ours", "index, ours"), ("index", "peer", "FLANN hierarchical")):
+        names = sorted((r for r in rows if r.startswith(kind + "_") and r.rsplit("_", 1)[1].endswith("k")
+                        and r.count("_") == 1), key=size_of)
+        if not names:
+            continue
+        drawn = True
+        sizes = [size_of(r) for r in names]
+        time.plot(sizes, [rows[r][f"{side}_ns"] / rows[r][f"{side}_items"] / 1e3 for r in names], "o-", label=label)
+        if f"{side}_share" in rows[names[0]]:
+            recall.plot(sizes, [100 * rows[r][f"{side}_share"] for r in names], "o-", label=label)
+    time.set(xlabel="descriptors in the map", ylabel="us / query", xscale="log", yscale="log", title="matching time")
+    recall.set(xlabel="descriptors in the map", ylabel="%", xscale="log", title="recall of the exact neighbour")
+    for axes in (time, recall):
+        axes.grid(alpha=0.3)
+        if axes.lines:
+            axes.legend()
+    figure.tight_layout()
+    figure.savefig(path, dpi=110)
+    return drawn
+
+
+def page(rows, context, pictures, quality):
+    parts = ["# Front end: measured beside its peers", "",
+             "Made by `scripts/benchmark`; do not edit. Medians of repetitions that alternate at random between all "
+             "rows; frames rotate. Ratios hold for one run; absolute times are a rough scale.", "",
+             machine(context), "", table({r: v for r, v in rows.items() if not r.startswith("passes")}), ""]
+    passes = {r: v for r, v in rows.items() if r.startswith("passes")}
+    if passes:
+        parts += ["## Sampling passes", "", "FAST-12, t = 35, climbing; every pixel of a 4x4 block is a pass.", "",
+                  table(passes), ""]
+    for title, file in pictures:
+        parts += [f"![{title}]({file})", ""]
+    if quality:
+        parts += [quality]
+    return "\n".join(parts)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("measured", help="front_end_benchmark's --benchmark_out")
+    parser.add_argument("--json", help="where to write the rows")
+    parser.add_argument("--page", help="where to write the page; plots go beside it")
+    parser.add_argument("--quality", help="a page part to append")
+    options = parser.parse_args()
+    sides, context = read_sides(options.measured)
+    rows = pair(sides)
+    for name, r in rows.items():
+        print(f"{name:24} {time_text(r['ours_ns']):>9}  {r['peer']:26} {time_text(r['peer_ns']):>9}  "
+              f"{r['ratio']:6.2f} x")
+    if options.json:
+        with open(options.json, "w") as file:
+            json.dump(rows, file, indent=2)
+    if options.page:
+        folder = os.path.dirname(os.path.abspath(options.page))
+        os.makedirs(os.path.join(folder, "plots"), exist_ok=True)
+        pictures = []
+        for title, name, draw in (("corners against sampling passes", "passes.png", draw_passes),
+                                  ("matching time and recall against map size", "map_size.png", draw_map_sizes)):
+            if draw(rows, os.path.join(folder, "plots", name)):
+                pictures.append((title, f"plots/{name}"))
+        quality = open(options.quality).read() if options.quality else ""
+        with open(options.page, "w") as file:
+            file.write(page(rows, context, pictures, quality))
+
+
+if __name__ == "__main__":
+    main()

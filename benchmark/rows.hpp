@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace ardrone_vslam::bench {
+
+void addCornerRows();
+void addDescriptorRows();
+void addMatchingRows();
+void addProjectionRows();
+void addTrackerRows();
+
+}  // namespace ardrone_vslam::bench
