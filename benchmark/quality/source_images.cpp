@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "source_images.hpp"
+
+#include <cstdlib>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "world_views.hpp"
+
+namespace ardrone_vslam::quality {
+namespace {
+
+constexpr int kSide_px = 512;
+
+SourceImages renderImages() {
+  CameraIntrinsics camera;
+  camera.width_px = camera.height_px = kSide_px;
+  camera.fx_px = camera.fy_px = 450;
+  camera.cx_px = camera.cy_px = (kSide_px - 1) / 2.0;
+  const WorldViews world(camera);
+  SourceImages source;
+  source.what = "three rendered views of the synthetic room (512x512)";
+  for (const double yaw_rad : {0.3, 2.2, 4.4}) {
+    const auto seed = static_cast<std::uint64_t>(source.images.size());
+    source.images.push_back(world.render(lookAlong(yaw_rad, {0, 0, 1.5}), seed));
+  }
+  return source;
+}
+
+}  // namespace
+
+std::optional<std::string> dataFolder() {
+  const char* folder = std::getenv("ARDRONE_VSLAM_DATA");
+  if (folder == nullptr || *folder == '\0') return std::nullopt;
+  return folder;
+}
+
+cv::Mat readGrey(const std::string& path) {
+  cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  if (image.empty()) {
+    throw std::runtime_error("cannot read the image " + path +
+                             "; let ARDRONE_VSLAM_DATA name a complete data folder, or unset it");
+  }
+  return image;
+}
+
+SourceImages sweepImages() {
+  const auto folder = dataFolder();
+  if (!folder) return renderImages();
+  SourceImages source;
+  source.what = "mandrill, peppers and lena (512x512)";
+  for (const char* name : {"mandrill", "peppers", "lena"}) {
+    source.images.push_back(readGrey(*folder + "/images_512/" + name + ".png"));
+  }
+  return source;
+}
+
+}  // namespace ardrone_vslam::quality

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ardrone_vslam::quality {
+
+/// The folder that the environment variable ARDRONE_VSLAM_DATA names; nothing where it is unset.
+std::optional<std::string> dataFolder();
+
+/// An 8-bit grey picture. @throws std::runtime_error naming the file that cannot be read and the
+/// remedy
+cv::Mat readGrey(const std::string& path);
+
+/// Pictures that the sweeps turn, scale and blur.
+struct SourceImages {
+  std::vector<cv::Mat> images;
+  std::string what;  ///< for the report
+};
+
+/// mandrill, peppers and lena of the data folder; without it three views of the synthetic room.
+SourceImages sweepImages();
+
+}  // namespace ardrone_vslam::quality
