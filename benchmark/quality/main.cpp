@@ -35,7 +35,7 @@ QualityResults measure(bool quick) {
   QualityResults results;
   results.budget = kBudget;
   results.motion_frames = quick ? kQuickFrames : kFrames;
-  const SourceImages source = sweepImages();
+  SourceImages source = sweepImages();
   results.sweep_images = source.what;
   std::cout << "sweeps over " << source.what << " ..." << std::endl;
   results.sweeps = runSweeps(source, kBudget, quick);
