@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <numeric>
+#include <optional>
 
 #include "ardrone_vslam/corner_detector.hpp"
 #include "ardrone_vslam/freak.hpp"
@@ -22,19 +22,14 @@ CornerDetectorConfig cornerConfig(const FastFreakSettings& settings) {
   return config;
 }
 
-FreakConfig freakConfig(const FastFreakSettings& settings) {
-  FreakConfig config;
-  config.oriented = settings.oriented;
-  return config;
-}
-
 class FastFreak : public FeatureMethod {
  public:
   FastFreak(const FastFreakSettings& settings, std::string name)
       : name_(std::move(name)),
         budget_(static_cast<std::size_t>(settings.budget)),
+        roll_known_(settings.roll_known),
         detector_(cornerConfig(settings)),
-        describer_(freakConfig(settings)) {}
+        describer_(FreakConfig()) {}
 
   std::string name() const override { return name_; }
 
@@ -50,7 +45,9 @@ class FastFreak : public FeatureMethod {
     }
     keypoints_.clear();
     for (const Corner& corner : corners_) keypoints_.push_back({corner.x_px, corner.y_px});
-    describer_.describe(image, keypoints_, described_, descriptors_);
+    std::optional<float> orientation_rad;
+    if (roll_known_) orientation_rad = static_cast<float>(view.turn_rad);
+    describer_.describe(image, keypoints_, described_, descriptors_, nullptr, orientation_rad);
     return strongest();
   }
 
@@ -78,6 +75,7 @@ class FastFreak : public FeatureMethod {
 
   std::string name_;
   std::size_t budget_;
+  bool roll_known_;
   CornerDetector detector_;
   FreakDescriber describer_;
   std::vector<Corner> corners_;
@@ -93,15 +91,18 @@ std::unique_ptr<FeatureMethod> makeFastFreak(const FastFreakSettings& settings,
   return std::make_unique<FastFreak>(settings, name);
 }
 
-std::vector<std::unique_ptr<FeatureMethod>> makeAllMethods(int budget) {
+std::vector<std::unique_ptr<FeatureMethod>> makeAllMethods(int budget, Roll roll) {
   std::vector<std::unique_ptr<FeatureMethod>> methods;
   FastFreakSettings settings;
   settings.budget = budget;
-  for (const int arc_length_px : {12, 9}) {
-    settings.arc_length_px = arc_length_px;
-    methods.push_back(
-        makeFastFreak(settings, "FAST-" + std::to_string(arc_length_px) + " + FREAK"));
+  methods.push_back(makeFastFreak(settings, "FAST-12 + FREAK"));
+  if (roll == Roll::kKnown) {
+    settings.roll_known = true;
+    methods.push_back(makeFastFreak(settings, "FAST-12 + FREAK, roll known"));
+    settings.roll_known = false;
   }
+  settings.arc_length_px = 9;
+  methods.push_back(makeFastFreak(settings, "FAST-9 + FREAK"));
   for (auto& peer : makePeers(budget)) methods.push_back(std::move(peer));
   return methods;
 }

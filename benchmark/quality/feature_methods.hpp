@@ -19,8 +19,9 @@ struct FeatureSet {
 
 /// An image as a method gets it.
 struct View {
-  cv::Mat image;  ///< 8-bit grey
-  cv::Mat mask;   ///< features lie where it is not 0; empty: everywhere
+  cv::Mat image;        ///< 8-bit grey
+  cv::Mat mask;         ///< features lie where it is not 0; empty: everywhere
+  double turn_rad = 0;  ///< by how much the scene is turned clockwise; for methods that are told
 };
 
 /// A detector with its descriptor.
@@ -38,8 +39,8 @@ struct FastFreakSettings {
   int arc_length_px = 12;
   int threshold = 8;  ///< the lowest that the tracker's adaptation may choose
   int sampling_passes = 16;
-  bool oriented = true;
-  int budget = 500;  ///< features of an image, the strongest
+  bool roll_known = false;  ///< describe by the view's turn, not by each corner's own orientation
+  int budget = 500;         ///< features of an image, the strongest
 };
 std::unique_ptr<FeatureMethod> makeFastFreak(const FastFreakSettings& settings,
                                              const std::string& name);
@@ -47,8 +48,11 @@ std::unique_ptr<FeatureMethod> makeFastFreak(const FastFreakSettings& settings,
 /// cv::ORB, cv::BRISK and cv::AKAZE, with thresholds so low that they fill the budget.
 std::vector<std::unique_ptr<FeatureMethod>> makePeers(int budget);
 
+enum class Roll { kUnknown, kKnown };
+
 /// FAST-12 and FAST-9 with FREAK, then the peers.
-std::vector<std::unique_ptr<FeatureMethod>> makeAllMethods(int budget);
+/// @param roll  kKnown: also FAST-12 with FREAK that is told the turn of the views
+std::vector<std::unique_ptr<FeatureMethod>> makeAllMethods(int budget, Roll roll);
 
 /// Nearest descriptors with the tracker's ratio test and cross check, and without its limit of the
 /// distance: how large distances are is different for each descriptor.

@@ -39,7 +39,7 @@ Chart runGraf(const std::string& folder, int budget) {
     chart.x.push_back(number);
   }
   const auto sizeOf = [](const cv::Mat& image) { return Eigen::Vector2d(image.cols, image.rows); };
-  for (const auto& method : makeAllMethods(budget)) {
+  for (const auto& method : makeAllMethods(budget, Roll::kUnknown)) {
     Curve curve{method->name(), {}};
     const FeatureSet first = method->extract(unchanged(images[0]).view);
     for (std::size_t i = 1; i < images.size(); ++i) {

@@ -35,7 +35,7 @@ QualityResults measure(bool quick) {
   QualityResults results;
   results.budget = kBudget;
   results.motion_frames = quick ? kQuickFrames : kFrames;
-  SourceImages source = sweepImages();
+  const SourceImages source = sweepImages(quick);
   results.sweep_images = source.what;
   std::cout << "sweeps over " << source.what << " ..." << std::endl;
   results.sweeps = runSweeps(source, kBudget, quick);
@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   std::string out;
   bool quick = false;
   app.add_option("--out", out, "folder for quality.json and quality.md")->required();
-  app.add_flag("--quick", quick, "fewer steps and frames");
+  app.add_flag("--quick", quick, "one picture, fewer steps and frames: a rough look");
   return runTool(app, argc, argv, [&] {
     std::filesystem::create_directories(out);
     const QualityResults results = measure(quick);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace ardrone_vslam::quality {
 namespace {
@@ -23,6 +22,41 @@ PixelMap mapBy(const Eigen::Matrix3d& H) {
     return mapped.hnormalized();
   };
 }
+
+/// Pairs each of one set with at most one of the other, as many as can be: augmenting paths. Taking
+/// the nearest first would give fewer where a detector finds a point at several scales, and so
+/// fewer than a matcher finds.
+class Pairing {
+ public:
+  /// @param partners  who may be paired with each of the first set
+  Pairing(std::vector<std::vector<std::size_t>> partners, std::size_t others)
+      : partners_(std::move(partners)), paired_with_(others, kNobody), asked_(others, kNobody) {}
+
+  int count() {
+    int count = 0;
+    for (std::size_t i = 0; i < partners_.size(); ++i) count += findPartner(i, i) ? 1 : 0;
+    return count;
+  }
+
+ private:
+  static constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
+
+  /// @param round  in which each of the others is asked once
+  bool findPartner(std::size_t i, std::size_t round) {
+    for (const std::size_t j : partners_[i]) {
+      if (asked_[j] == round) continue;
+      asked_[j] = round;
+      if (paired_with_[j] != kNobody && !findPartner(paired_with_[j], round)) continue;
+      paired_with_[j] = i;
+      return true;
+    }
+    return false;
+  }
+
+  std::vector<std::vector<std::size_t>> partners_;
+  std::vector<std::size_t> paired_with_;
+  std::vector<std::size_t> asked_;
+};
 
 double ratio(int part, int whole) {
   return whole > 0 ? static_cast<double>(part) / whole : 0;
@@ -61,35 +95,26 @@ std::vector<PairTruth::Feature> PairTruth::place(const std::vector<Eigen::Vector
   return features;
 }
 
-double PairTruth::squaredDistance(const Feature& a, const Feature& b) const {
-  if (!a.other_px || !b.other_px) return std::numeric_limits<double>::infinity();
-  return std::min((*a.other_px - b.own_px).squaredNorm(), (*b.other_px - a.own_px).squaredNorm());
+bool PairTruth::isSame(const Feature& a, const Feature& b) {
+  if (!a.other_px || !b.other_px) return false;
+  const double in_b = (*a.other_px - b.own_px).squaredNorm();
+  const double in_a = (*b.other_px - a.own_px).squaredNorm();
+  return std::min(in_a, in_b) <= kSamePoint_px * kSamePoint_px;
 }
 
 bool PairTruth::isSamePoint(int a, int b) const {
-  return squaredDistance(a_[static_cast<std::size_t>(a)], b_[static_cast<std::size_t>(b)]) <=
-         kSamePoint_px * kSamePoint_px;
+  return isSame(a_[static_cast<std::size_t>(a)], b_[static_cast<std::size_t>(b)]);
 }
 
 int PairTruth::countRepeated() const {
-  std::vector<std::tuple<double, std::size_t, std::size_t>> near;  // equal distances: by index
+  std::vector<std::vector<std::size_t>> partners(a_.size());
   for (std::size_t i = 0; i < a_.size(); ++i) {
     if (!a_[i].is_common) continue;
     for (std::size_t j = 0; j < b_.size(); ++j) {
-      if (!b_[j].is_common) continue;
-      const double squared = squaredDistance(a_[i], b_[j]);
-      if (squared <= kSamePoint_px * kSamePoint_px) near.emplace_back(squared, i, j);
+      if (b_[j].is_common && isSame(a_[i], b_[j])) partners[i].push_back(j);
     }
   }
-  std::sort(near.begin(), near.end());
-  std::vector<bool> a_taken(a_.size()), b_taken(b_.size());
-  int count = 0;
-  for (const auto& [squared, i, j] : near) {
-    if (a_taken[i] || b_taken[j]) continue;
-    a_taken[i] = b_taken[j] = true;
-    ++count;
-  }
-  return count;
+  return Pairing(std::move(partners), b_.size()).count();
 }
 
 PairMetrics PairTruth::measure(const std::vector<IndexPair>& matches) const {

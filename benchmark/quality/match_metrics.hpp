@@ -56,7 +56,7 @@ class PairTruth {
             const PairGeometry& geometry);
 
   bool isSamePoint(int a, int b) const;
-  /// The greatest number of pairs that can be had by taking the nearest first, each feature once.
+  /// The greatest number of pairs that show the same point in the common region, each feature once.
   int countRepeated() const;
   PairMetrics measure(const std::vector<IndexPair>& matches) const;
 
@@ -69,7 +69,7 @@ class PairTruth {
   static std::vector<Feature> place(const std::vector<Eigen::Vector2d>& pixels_px,
                                     const PixelMap& map, const Eigen::Vector2d& own_size_px,
                                     const Eigen::Vector2d& other_size_px);
-  double squaredDistance(const Feature& a, const Feature& b) const;
+  static bool isSame(const Feature& a, const Feature& b);
 
   std::vector<Feature> a_;
   std::vector<Feature> b_;

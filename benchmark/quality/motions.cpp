@@ -94,7 +94,7 @@ PairMetrics comparePairs(const WorldViews& world, const Video& video,
 Chart compareMethods(const WorldViews& world, const Video& video, const std::string& name,
                      int budget) {
   Chart chart{name, "frames apart", {std::begin(kGaps), std::end(kGaps)}, {}};
-  for (const auto& method : makeAllMethods(budget)) {
+  for (const auto& method : makeAllMethods(budget, Roll::kKnown)) {
     const auto features = extractAll(*method, video);
     Curve curve{method->name(), {}};
     for (const int gap : kGaps) curve.points.push_back(comparePairs(world, video, features, gap));

@@ -12,15 +12,19 @@ namespace {
 
 constexpr int kSide_px = 512;
 
-SourceImages renderImages() {
+using Yaws = std::vector<double>;
+using Names = std::vector<std::string>;
+
+SourceImages renderImages(bool quick) {
   CameraIntrinsics camera;
   camera.width_px = camera.height_px = kSide_px;
   camera.fx_px = camera.fy_px = 450;
   camera.cx_px = camera.cy_px = (kSide_px - 1) / 2.0;
   const WorldViews world(camera);
   SourceImages source;
-  source.what = "three rendered views of the synthetic room (512x512)";
-  for (const double yaw_rad : {0.3, 2.2, 4.4}) {
+  source.what = quick ? "a rendered view of the synthetic room (512x512)"
+                      : "three rendered views of the synthetic room (512x512)";
+  for (const double yaw_rad : quick ? Yaws{0.3} : Yaws{0.3, 2.2, 4.4}) {
     const auto seed = static_cast<std::uint64_t>(source.images.size());
     source.images.push_back(world.render(lookAlong(yaw_rad, {0, 0, 1.5}), seed));
   }
@@ -44,12 +48,12 @@ cv::Mat readGrey(const std::string& path) {
   return image;
 }
 
-SourceImages sweepImages() {
+SourceImages sweepImages(bool quick) {
   const auto folder = dataFolder();
-  if (!folder) return renderImages();
+  if (!folder) return renderImages(quick);
   SourceImages source;
-  source.what = "mandrill, peppers and lena (512x512)";
-  for (const char* name : {"mandrill", "peppers", "lena"}) {
+  source.what = quick ? "lena (512x512)" : "mandrill, peppers and lena (512x512)";
+  for (const auto& name : quick ? Names{"lena"} : Names{"mandrill", "peppers", "lena"}) {
     source.images.push_back(readGrey(*folder + "/images_512/" + name + ".png"));
   }
   return source;

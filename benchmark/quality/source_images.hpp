@@ -22,6 +22,7 @@ struct SourceImages {
 };
 
 /// mandrill, peppers and lena of the data folder; without it three views of the synthetic room.
-SourceImages sweepImages();
+/// @param quick  one of them
+SourceImages sweepImages(bool quick);
 
 }  // namespace ardrone_vslam::quality

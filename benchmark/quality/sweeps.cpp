@@ -72,7 +72,7 @@ Curve meanCurve(const std::string& method, const std::vector<std::vector<PairMet
 
 Chart runSweep(const Sweep& sweep, const SourceImages& source, int budget) {
   Chart chart{sweep.name, sweep.axis, sweep.steps, {}};
-  for (const auto& method : makeAllMethods(budget)) {
+  for (const auto& method : makeAllMethods(budget, Roll::kKnown)) {
     std::vector<std::vector<PairMetrics>> pictures;
     for (const auto& picture : source.images) {
       pictures.push_back(sweepPicture(*method, picture, sweep));

@@ -110,11 +110,24 @@ TEST(MatchMetrics, EachFeatureRepeatsOnce) {
   EXPECT_DOUBLE_EQ(truth.measure({}).repeatability, 1);  // of the image with fewer features
 }
 
-TEST(MatchMetrics, NearestPairsComeFirst) {
-  // By index the first would take the feature that only the second can have.
+TEST(MatchMetrics, AsManyPairsAsPossible) {
+  // The first two of a and b are the nearest pair, but each other pair needs one of them.
   const Pixels a = {{100, 100}, {103, 100}};
-  const Pixels b = {{101.9, 100}, {99, 100}};
+  const Pixels b = {{101.4, 100}, {98.5, 100}};
   EXPECT_EQ(PairTruth(a, b, sameView()).countRepeated(), 2);
+  EXPECT_EQ(PairTruth(b, a, sameView()).countRepeated(), 2);
+  const Pixels chain_a = {{100, 100}, {103, 100}, {106, 100}, {109, 100}};
+  const Pixels chain_b = {{101.5, 100}, {104.5, 100}, {107.5, 100}};
+  EXPECT_EQ(PairTruth(chain_a, chain_b, sameView()).countRepeated(), 3);
+}
+
+TEST(MatchMetrics, NoFewerRepeatThanMatchCorrectly) {
+  // Features of several scales upon each other, matched crosswise.
+  const Pixels a = {{100, 100}, {101.5, 100}, {103, 100}};
+  const Pixels b = {{101.6, 100}, {100, 100}, {104.9, 100}};
+  const PairMetrics metrics = PairTruth(a, b, sameView()).measure(eachWithItself(3));
+  EXPECT_EQ(metrics.correct, 3);
+  EXPECT_DOUBLE_EQ(metrics.repeatability, 1);
 }
 
 TEST(MatchMetrics, OnlyTheCommonRegionCounts) {
