@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kProbes = 32;
 constexpr int kTrees = 4;
-constexpr int kChecks = 2048;  // recall of about 95 % at 100,000
+constexpr int kChecks = 1200;  // recall of about 95 % at 100,000
 
 cv::Mat asMat(const std::vector<Descriptor>& descriptors) {
   cv::Mat rows(static_cast<int>(descriptors.size()), sizeof(Descriptor), CV_8U);

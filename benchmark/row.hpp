@@ -9,7 +9,7 @@
 
 namespace ardrone_vslam::bench {
 
-constexpr std::size_t kWarmUpSteps = 3;
+constexpr std::size_t kWarmUpSteps = 1;
 
 /// One side of a row: `row`/`who`, where `who` is "ours" or the peer's name; the report pairs the
 /// two sides.
