@@ -110,11 +110,12 @@ def draw_passes(passes, motions, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", help="where quality.json is; the plots go to its folder plots/")
-    folder = parser.parse_args().folder
-    with open(os.path.join(folder, "quality.json")) as file:
+    parser.add_argument("folder", help="where quality.json is")
+    parser.add_argument("--plots", help="where to write the plots; else to the folder's plots/")
+    options = parser.parse_args()
+    with open(os.path.join(options.folder, "quality.json")) as file:
         results = json.load(file)
-    plots = os.path.join(folder, "plots")
+    plots = options.plots or os.path.join(options.folder, "plots")
     os.makedirs(plots, exist_ok=True)
     draw_sweeps(results["sweeps"], os.path.join(plots, "quality_sweeps.png"))
     for chart in results["graf"]:
