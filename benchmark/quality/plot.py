@@ -12,6 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 MEASURES = (("matching_score", "matching score"), ("repeatability", "repeatability"), ("precision", "precision"))
+FEW_FEATURES = 20
 LOOKS = {  # ours in strong colours and solid, the peers' thinner
     "FAST-12 + FREAK": dict(color="#d62728", marker="o", linewidth=2),
     "FAST-12 + FREAK, roll known": dict(color="#e377c2", marker="o", linewidth=2),
@@ -33,10 +34,12 @@ def finish(axes, title=None):
         axes.set_title(title)
 
 
-def draw_chart(axes, chart, measure, x=None):
+def draw_chart(axes, chart, measure):
+    """Without the points where a method finds hardly any features: a handful's shares say nothing."""
     for curve in chart["curves"]:
-        axes.plot(x or chart["x"], percent(curve[measure]), markersize=3.5, label=curve["method"],
-                  **LOOKS[curve["method"]])
+        values = [100 * value if count >= FEW_FEATURES else float("nan")
+                  for value, count in zip(curve[measure], curve["features"])]
+        axes.plot(chart["x"], values, markersize=3.5, label=curve["method"], **LOOKS[curve["method"]])
 
 
 def save(figure, lines_from, path):
