@@ -12,7 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 MEASURES = (("matching_score", "matching score"), ("repeatability", "repeatability"), ("precision", "precision"))
-FEW_FEATURES = 20
+FEW_FEATURES = 50  # as on the page
 LOOKS = {  # ours in strong colours and solid, the peers' thinner
     "FAST-12 + FREAK": dict(color="#d62728", marker="o", linewidth=2),
     "FAST-12 + FREAK, roll known": dict(color="#e377c2", marker="o", linewidth=2),
