@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 #include <optional>
 
@@ -63,12 +62,10 @@ class FastFreak : public FeatureMethod {
     order.resize(std::min(order.size(), budget_));
 
     FeatureSet features;
-    features.descriptors.create(static_cast<int>(order.size()), sizeof(Descriptor), CV_8UC1);
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      const auto& keypoint = keypoints_[static_cast<std::size_t>(described_[order[k]])];
+    for (const std::size_t i : order) {
+      const auto& keypoint = keypoints_[static_cast<std::size_t>(described_[i])];
       features.pixel_px.emplace_back(keypoint.x_px, keypoint.y_px);
-      std::memcpy(features.descriptors.ptr(static_cast<int>(k)), &descriptors_[order[k]],
-                  sizeof(Descriptor));
+      features.descriptors.push_back(descriptors_[i]);
     }
     return features;
   }

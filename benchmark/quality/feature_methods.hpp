@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ardrone_vslam/features.hpp"
 #include "match_metrics.hpp"
 
 namespace ardrone_vslam::quality {
@@ -14,7 +15,7 @@ namespace ardrone_vslam::quality {
 /// The features of one image, the strongest first.
 struct FeatureSet {
   std::vector<Eigen::Vector2d> pixel_px;
-  cv::Mat descriptors;  ///< row i belongs to feature i; 8-bit, compared by Hamming distance
+  std::vector<Descriptor> descriptors;  ///< shorter ones end in zeros, which changes no distance
 };
 
 /// An image as a method gets it.

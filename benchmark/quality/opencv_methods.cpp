@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cassert>
+#include <cstring>
 #include <numeric>
 #include <opencv2/features2d.hpp>
 
@@ -11,6 +13,14 @@ namespace {
 constexpr int kFastThreshold = 8;  // as for our corners
 constexpr int kBriskThreshold = 15;
 constexpr float kAkazeThreshold = 1e-4F;
+
+Descriptor padded(const cv::Mat& descriptors, int row) {
+  Descriptor descriptor;
+  const auto bytes = std::min(sizeof(descriptor.words), static_cast<std::size_t>(descriptors.cols));
+  assert(static_cast<std::size_t>(descriptors.cols) == bytes && "a descriptor of at most 512 bits");
+  std::memcpy(descriptor.words.data(), descriptors.ptr(row), bytes);
+  return descriptor;
+}
 
 class OpenCvMethod : public FeatureMethod {
  public:
@@ -34,7 +44,7 @@ class OpenCvMethod : public FeatureMethod {
     FeatureSet features;
     for (const std::size_t i : order) {
       features.pixel_px.emplace_back(keypoints[i].pt.x, keypoints[i].pt.y);
-      features.descriptors.push_back(descriptors.row(static_cast<int>(i)));
+      features.descriptors.push_back(padded(descriptors, static_cast<int>(i)));
     }
     return features;
   }

@@ -12,6 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 MEASURES = (("matching_score", "matching score"), ("repeatability", "repeatability"), ("precision", "precision"))
+FEW_FEATURES = 50  # as on the page
 LOOKS = {  # ours in strong colours and solid, the peers' thinner
     "FAST-12 + FREAK": dict(color="#d62728", marker="o", linewidth=2),
     "FAST-12 + FREAK, roll known": dict(color="#e377c2", marker="o", linewidth=2),
@@ -33,10 +34,12 @@ def finish(axes, title=None):
         axes.set_title(title)
 
 
-def draw_chart(axes, chart, measure, x=None):
+def draw_chart(axes, chart, measure):
+    """Without the points where a method finds hardly any features: a handful's shares say nothing."""
     for curve in chart["curves"]:
-        axes.plot(x or chart["x"], percent(curve[measure]), markersize=3.5, label=curve["method"],
-                  **LOOKS[curve["method"]])
+        values = [100 * value if count >= FEW_FEATURES else float("nan")
+                  for value, count in zip(curve[measure], curve["features"])]
+        axes.plot(chart["x"], values, markersize=3.5, label=curve["method"], **LOOKS[curve["method"]])
 
 
 def save(figure, lines_from, path):
@@ -110,11 +113,12 @@ def draw_passes(passes, motions, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", help="where quality.json is; the plots go to its folder plots/")
-    folder = parser.parse_args().folder
-    with open(os.path.join(folder, "quality.json")) as file:
+    parser.add_argument("folder", help="where quality.json is")
+    parser.add_argument("--plots", help="where to write the plots; else to the folder's plots/")
+    options = parser.parse_args()
+    with open(os.path.join(options.folder, "quality.json")) as file:
         results = json.load(file)
-    plots = os.path.join(folder, "plots")
+    plots = options.plots or os.path.join(options.folder, "plots")
     os.makedirs(plots, exist_ok=True)
     draw_sweeps(results["sweeps"], os.path.join(plots, "quality_sweeps.png"))
     for chart in results["graf"]:

@@ -10,6 +10,7 @@ namespace {
 
 /// Steps of a sweep that the page shows; the plots show all.
 const std::vector<double> kShownSteps = {0.5, 0.7, 0.8, 1, 1.25, 1.6, 2, 3, 4, 30, 45, 90, 180};
+constexpr int kFewFeatures = 50;                     // fewer are named: their shares say little
 constexpr std::size_t kOneApart = 0, kTenApart = 1;  // in the motions' charts
 
 std::string percent(double share) {
@@ -23,8 +24,10 @@ std::string number(double value) {
 }
 
 std::string cell(const PairMetrics& m) {
+  const std::string few =
+      m.features < kFewFeatures ? " (" + std::to_string(m.features) + " features)" : "";
   return percent(m.repeatability) + " / " + percent(m.matching_score) + " / " +
-         percent(m.precision);
+         percent(m.precision) + few;
 }
 
 void writeRow(std::ostream& page, const std::vector<std::string>& cells) {
