@@ -90,6 +90,7 @@ Checked<CameraIntrinsics> toIntrinsics(const sensor_msgs::CameraInfo& info, bool
   std::string fault = faultOf(camera, rectified ? "P" : "K");
   if (fault.empty()) fault = croppingFault(info);
   if (fault.empty() && !rectified) fault = readDistortion(info, camera);
+  if (fault.empty()) fault = calibrationFault(camera);
   if (!fault.empty()) return {std::nullopt, fault};
   return {camera, {}};
 }

@@ -28,8 +28,8 @@ ros::Time toRosTime(std::int64_t stamp_ns);
 
 // --- in -----------------------------------------------------------------------------------------
 
-/// Pose of base in odom with a normalised quaternion. The covariance is row-major, axes of odom, as
-/// in the message.
+/// Pose of base in odom with a normalised quaternion, within rangeFault's bounds. The covariance is
+/// the message's, also one that counts as not given (covarianceFault).
 Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry);
 
 /// @return what is wrong with the message (sizes, values not finite, bearings not of unit length),

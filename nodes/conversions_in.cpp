@@ -76,15 +76,8 @@ Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
   // The map has no use for the twist, but the fused odometry passes it on to controllers.
   const std::string twist_fault = faultOf(odometry.twist);
   if (!twist_fault.empty()) return {std::nullopt, twist_fault};
-  ObserverState state;
-  for (int i = 0; i < 6; ++i) {
-    if (covariance[static_cast<std::size_t>(7 * i)] < 0) {
-      return {std::nullopt, text("its pose covariance has the negative variance ",
-                                 covariance[static_cast<std::size_t>(7 * i)], " at row ", i,
-                                 "; all zeros stand for 'unknown'")};
-    }
-  }
   if (odometry.header.stamp.isZero()) return {std::nullopt, "its stamp is zero; set header.stamp"};
+  ObserverState state;
   state.stamp_ns = toNanoseconds(odometry.header.stamp);
   state.T_odom_base.translation() = p;
   state.T_odom_base.linear() = q.normalized().toRotationMatrix();
@@ -93,6 +86,8 @@ Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
   state.twist_base << twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.x,
       twist.angular.y, twist.angular.z;
   state.twist_covariance = toMatrix(odometry.twist.covariance);
+  const std::string range_fault = rangeFault(state);
+  if (!range_fault.empty()) return {std::nullopt, range_fault};
   return {state, {}};
 }
 
@@ -100,8 +95,10 @@ std::string faultOf(const Features& m) {
   if (m.header.stamp.isZero()) return "its stamp is zero; set header.stamp to the image's";
   if (m.header.frame_id.empty()) return "it names no frame_id; give the camera's optical frame";
   if (m.width == 0 || m.height == 0) return "its image size is zero; set width and height";
-  if (!(std::isfinite(m.focal_length) && m.focal_length > 0)) {
-    return text("its focal_length is ", m.focal_length, " px; it must be above zero");
+  const double focal_widths = static_cast<double>(m.focal_length) / m.width;
+  if (!(focal_widths >= kShortestFocal && focal_widths <= kLongestFocal)) {
+    return text("its focal_length is ", m.focal_length, " px; it must be within ", kShortestFocal,
+                " and ", kLongestFocal, " times the image width");
   }
   std::string fault = sizesFault(m);
   if (!fault.empty()) return fault;

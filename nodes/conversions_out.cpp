@@ -45,6 +45,8 @@ std::uint8_t stateOf(SlamState state) {
       return Status::FIX_REJECTED;
     case SlamState::kObserverOnly:
       return Status::OBSERVER_ONLY;
+    case SlamState::kNotFinite:
+      return Status::NOT_FINITE;
   }
   assert(false && "a SlamState that Status.msg does not know");
   return Status::OBSERVER_ONLY;
@@ -173,7 +175,7 @@ void toStatus(const FrameResult& result, const std::string& map_frame, Status& s
   status.feature_mismatches = count(result.feature_candidates - result.feature_matches);
   status.landmarks = count(result.landmarks);
   status.map_features = count(result.map_features);
-  status.deviation = result.deviation_m;
+  status.deviation = result.state == SlamState::kNotFinite ? 0 : result.deviation_m;
 }
 
 sensor_msgs::PointCloud2 toCloud(const LandmarkMap& map, const std::string& map_frame,

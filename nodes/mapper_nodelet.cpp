@@ -119,9 +119,13 @@ void MapperNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
     switch (matcher_->addObserver(*checked.value)) {
       case ObserverBuffer::Push::kAccepted:
         takeFrameNames(*odometry);
+        noteCovariance(*checked.value);
         return processReady();
       case ObserverBuffer::Push::kNotFinite:
         fault = "it is not finite";
+        break;
+      case ObserverBuffer::Push::kOutOfRange:
+        fault = rangeFault(*checked.value);
         break;
       case ObserverBuffer::Push::kDuplicateStamp:
         fault = "its stamp is that of the message before";
@@ -174,9 +178,10 @@ bool MapperNodelet::prepareSlam() {
 void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   toFeatures(*frame.features, features_);
   const FrameResult& result = slam_->process(features_, frame.observer, stage_clock_.hook());
+  has_answer_ = true;
+  if (result.state == SlamState::kNotFinite) return refuseResult(result, *frame.features);
   answered_ns_ = result.stamp_ns;
   ++totals_.images;
-  has_answer_ = true;
   if (result.state == SlamState::kBuildingMap) {
     standstill_.see(features_, frame.observer.T_odom_base * T_base_cam_);
   } else {
@@ -184,6 +189,12 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   }
   outputs_->publishFrame(result, slam_->T_map_odom(), frames_, frame.observer);
   publishStatus(result, *frame.features);
+}
+
+void MapperNodelet::refuseResult(const FrameResult& result, const Features& features) {
+  ++totals_.results_not_finite;
+  publishStatus(result, features);
+  beginMapAnew(explain(result.state));  // last: it ends the life of the result
 }
 
 void MapperNodelet::restartAt(std::int64_t stamp_ns, const std::string& topic) {

@@ -32,10 +32,14 @@ class MapperNodelet : public nodelet::Nodelet {
   void onSecond();
 
   bool acceptFeatures(const Features& features);
+  /// Says once that the odometry's covariance counts as not given, and why.
+  void noteCovariance(const ObserverState& state);
   void takeFrameNames(const nav_msgs::Odometry& odometry);
   /// Works on every image whose odometry has come.
   void processReady();
   void processFrame(const FrameMatcher::Frame& frame);
+  /// Answers an image whose pose is not finite: by its status alone.
+  void refuseResult(const FrameResult& result, const Features& features);
   /// Makes the Slam once the camera's mounting is known. @return false while it is not
   bool prepareSlam();
   /// Time began again at this stamp: forgets what belongs to the run before.
@@ -79,6 +83,7 @@ class MapperNodelet : public nodelet::Nodelet {
   Status totals_;  // its counters only
   Status latest_;  // as published last
   WarningLimiter limiter_;
+  std::string covariance_fault_;  // of the odometry, since the first such message
   int seconds_waiting_ = 0;
   bool has_features_ = false;  // within this second
   bool has_answer_ = false;

@@ -14,6 +14,13 @@ void MapperNodelet::warn(const std::string& topic, const std::string& fault) {
   if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
 }
 
+void MapperNodelet::noteCovariance(const ObserverState& state) {
+  if (!covariance_fault_.empty()) return;
+  covariance_fault_ = covarianceFault(state);
+  if (covariance_fault_.empty()) return;
+  NODELET_WARN_STREAM(odometry_sub_.getTopic() << ": " << covariance_fault_);
+}
+
 void MapperNodelet::publishStatus(const FrameResult& result, const Features& features) {
   Status status;
   toStatus(result, frames_.map, status);
@@ -73,6 +80,7 @@ void MapperNodelet::fillTotals(Status& status) const {
   status.dropped_no_odometry = totals_.dropped_no_odometry;
   status.dropped_no_extrinsics = totals_.dropped_no_extrinsics;
   status.odometry_refused = totals_.odometry_refused;
+  status.results_not_finite = totals_.results_not_finite;
   status.restarts = totals_.restarts;
 }
 
@@ -90,7 +98,8 @@ void MapperNodelet::onSecond() {
 void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper) {
   using diagnostic_msgs::DiagnosticStatus;
   const bool is_stuck = latest_.state == Status::WAITING_FOR_ODOMETRY ||
-                        latest_.state == Status::WAITING_FOR_EXTRINSICS || standstill_.isStuck();
+                        latest_.state == Status::WAITING_FOR_EXTRINSICS ||
+                        latest_.state == Status::NOT_FINITE || standstill_.isStuck();
   const bool is_well = latest_.state == Status::LOCALISED ||
                        latest_.state == Status::BUILDING_MAP ||
                        latest_.state == Status::OBSERVER_ONLY;
@@ -103,6 +112,8 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
   wrapper.add("images answered", totals_.images);
   wrapper.add("images without odometry", totals_.dropped_no_odometry);
   wrapper.add("odometry messages refused", totals_.odometry_refused);
+  if (!covariance_fault_.empty()) wrapper.add("odometry covariance", covariance_fault_);
+  wrapper.add("results not finite", totals_.results_not_finite);
   wrapper.add("landmarks", latest_.landmarks);
   wrapper.add("landmark matches", latest_.landmark_matches);
   wrapper.add("deviation [m]", latest_.deviation);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mounting.hpp"
 
+#include "ardrone_vslam/slam.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -30,8 +32,14 @@ std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
   camera_frame_ = camera_frame;
   T_base_cam_.reset();
   try {
-    T_base_cam_ =
+    const Eigen::Isometry3d T_base_cam =
         toIsometry(buffer_.lookupTransform(base_frame, camera_frame, ros::Time(0)).transform);
+    const std::string wrong = mountingFault(T_base_cam);
+    if (wrong.empty()) {
+      T_base_cam_ = T_base_cam;
+    } else {
+      fault = "transform from " + base_frame + " to " + camera_frame + ": " + wrong;
+    }
   } catch (const tf2::TransformException& e) {
     fault = "no transform from " + base_frame + " to " + camera_frame + " (" + e.what() +
             "): publish the camera's mounting, for example by `rosrun tf2_ros "

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 
 namespace ardrone_vslam {
 namespace {
@@ -39,20 +41,60 @@ double findFoldRadius(const CameraIntrinsics& c) {
   return std::numeric_limits<double>::infinity();
 }
 
-void requireCamera(const CameraIntrinsics& c) {
-  const auto refuse = [](const std::string& fault) {
-    throw std::invalid_argument("camera calibration: " + fault +
-                                "; calibrate the camera or correct its camera_info");
-  };
-  if (c.width_px <= 0 || c.height_px <= 0) refuse("the image size is not positive");
+/// Sizes and focal lengths. @return the fault
+std::string pinholeFault(const CameraIntrinsics& c) {
+  if (c.width_px <= 0 || c.height_px <= 0) return "the image size is not positive";
   for (const double value : {c.fx_px, c.fy_px, c.cx_px, c.cy_px, c.k1, c.k2, c.p1, c.p2, c.k3}) {
-    if (!std::isfinite(value)) refuse("a value of K or D is not finite");
+    if (!std::isfinite(value)) return "a value of K or D is not finite";
   }
   if (c.fx_px <= 0 || c.fy_px <= 0)
-    refuse("the focal length (K[0], K[4]) is not positive, the camera is uncalibrated");
+    return "the focal length (K[0], K[4]) is not positive, the camera is uncalibrated";
+  std::ostringstream fault;
+  for (const double focal_px : {c.fx_px, c.fy_px}) {
+    const double widths = focal_px / c.width_px;
+    if (widths >= kShortestFocal && widths <= kLongestFocal) continue;
+    fault << "the focal length " << focal_px << " px (K[0], K[4]) is not within " << kShortestFocal
+          << " and " << kLongestFocal << " times the image width of " << c.width_px << " px";
+    return fault.str();
+  }
+  if (c.cx_px < 0 || c.cx_px >= c.width_px || c.cy_px < 0 || c.cy_px >= c.height_px) {
+    fault << "the principal point (" << c.cx_px << ", " << c.cy_px
+          << ") (K[2], K[5]) lies outside the image of " << c.width_px << "x" << c.height_px;
+  }
+  return fault.str();
+}
+
+/// No lens distorts the middle of its image much; one that seems to has wrong coefficients.
+/// @return the fault
+std::string lensFault(const CameraIntrinsics& c) {
+  constexpr double kMiddle = 0.1;        // of the half diagonal
+  constexpr double kLargestShare = 0.2;  // of the radius, by which a pixel may move there
+  constexpr int kSteps = 64;
+  const double radius =
+      kMiddle * 0.5 * std::hypot(c.width_px, c.height_px) / std::sqrt(c.fx_px * c.fy_px);
+  bool folds = false;
+  double moved = 3 * (std::abs(c.p1) + std::abs(c.p2)) * radius;
+  for (int i = 1; i <= kSteps; ++i) {
+    const double r = radius * i / kSteps;
+    folds = folds || !(radialSlope(c, r * r) > 0);
+    moved = std::max(moved, std::abs(radialFactor(c, r * r) - 1));
+  }
+  if (!folds && moved <= kLargestShare) return {};
+  std::ostringstream fault;
+  fault << "the distortion (k1 " << c.k1 << ", k2 " << c.k2 << ", p1 " << c.p1 << ", p2 " << c.p2
+        << ", k3 " << c.k3 << ") " << (folds ? "folds back" : "moves pixels by more than a fifth")
+        << " already within a tenth of the image's half diagonal";
+  return fault.str();
 }
 
 }  // namespace
+
+std::string calibrationFault(const CameraIntrinsics& intrinsics) {
+  std::string fault = pinholeFault(intrinsics);
+  if (fault.empty()) fault = lensFault(intrinsics);
+  if (!fault.empty()) fault += "; calibrate the camera or correct its camera_info";
+  return fault;
+}
 
 bool CameraIntrinsics::operator==(const CameraIntrinsics& o) const {
   return width_px == o.width_px && height_px == o.height_px && fx_px == o.fx_px &&
@@ -62,7 +104,8 @@ bool CameraIntrinsics::operator==(const CameraIntrinsics& o) const {
 
 CameraModel::CameraModel(const CameraIntrinsics& intrinsics, UndistortMethod method)
     : intrinsics_(intrinsics), method_(method) {
-  requireCamera(intrinsics);
+  const std::string fault = calibrationFault(intrinsics);
+  if (!fault.empty()) throw std::invalid_argument("camera calibration: " + fault);
   focal_length_px_ = std::sqrt(intrinsics.fx_px * intrinsics.fy_px);
   fold_radius_ = findFoldRadius(intrinsics);
   fold_radius_distorted_ =

@@ -2,6 +2,7 @@
 #include "ardrone_vslam/observer_buffer.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 namespace ardrone_vslam {
 namespace {
@@ -15,7 +16,51 @@ std::int64_t toNanoseconds(double seconds) {
   return static_cast<std::int64_t>(seconds * 1e9);
 }
 
+/// As it is stored: what cannot be interpolated is taken out.
+ObserverState bounded(ObserverState state) {
+  if (!positionVariance_m2(state)) state.covariance.setZero();
+  state.twist_covariance =
+      state.twist_covariance.cwiseMax(-kLargestTwistCovariance).cwiseMin(kLargestTwistCovariance);
+  return state;
+}
+
 }  // namespace
+
+std::string rangeFault(const ObserverState& state) {
+  std::ostringstream fault;
+  const double farthest_m = state.T_odom_base.translation().cwiseAbs().maxCoeff();
+  const double fastest = state.twist_base.cwiseAbs().maxCoeff();
+  if (!(farthest_m <= kFarthestObserver_m)) {
+    fault << "its position has a coordinate of " << farthest_m << " m, beyond "
+          << kFarthestObserver_m << " m; check its unit and whether its source has diverged";
+  } else if (!(fastest <= kFastestObserver)) {
+    fault << "its twist has a component of " << fastest << ", beyond " << kFastestObserver
+          << " m/s or rad/s; check its unit, zeros stand for 'unknown'";
+  }
+  return fault.str();
+}
+
+std::optional<double> positionVariance_m2(const ObserverState& state) {
+  const Eigen::Vector3d variance_m2 = state.covariance.diagonal().head<3>();
+  const bool is_usable = variance_m2.minCoeff() >= 0 &&
+                         variance_m2.maxCoeff() <= kLargestVariance_m2 && !variance_m2.isZero(0);
+  if (!is_usable) return std::nullopt;
+  return variance_m2.sum() / 3;
+}
+
+std::string covarianceFault(const ObserverState& state) {
+  const Eigen::Vector3d variance_m2 = state.covariance.diagonal().head<3>();
+  if (variance_m2.isZero(0) || positionVariance_m2(state)) return {};
+  const bool is_negative = variance_m2.minCoeff() < 0;
+  std::ostringstream fault;
+  fault << "its position variance of "
+        << (is_negative ? variance_m2.minCoeff() : variance_m2.maxCoeff()) << " m^2 is "
+        << (is_negative ? "negative" : "above ");
+  if (!is_negative) fault << kLargestVariance_m2 << " m^2";
+  fault << ", so it counts as not given: the noise is that of observer_noise_m_per_sqrt_m and "
+           "observer_noise_m_per_sqrt_s; zeros in the source's pose covariance say the same";
+  return fault.str();
+}
 
 ObserverState interpolate(const ObserverState& a, const ObserverState& b, std::int64_t stamp_ns) {
   const auto span = static_cast<double>(b.stamp_ns - a.stamp_ns);
@@ -29,7 +74,9 @@ ObserverState interpolate(const ObserverState& a, const ObserverState& b, std::i
   // to grow by rounding.
   state.T_odom_base.translation() =
       a.T_odom_base.translation() + s * (b.T_odom_base.translation() - a.T_odom_base.translation());
-  state.covariance = a.covariance + s * (b.covariance - a.covariance);
+  if (positionVariance_m2(a) && positionVariance_m2(b)) {
+    state.covariance = a.covariance + s * (b.covariance - a.covariance);
+  }
   state.twist_base = a.twist_base + s * (b.twist_base - a.twist_base);
   state.twist_covariance = a.twist_covariance + s * (b.twist_covariance - a.twist_covariance);
   return state;
@@ -41,11 +88,12 @@ ObserverBuffer::ObserverBuffer(const ObserverBufferConfig& config) : config_(con
 
 ObserverBuffer::Push ObserverBuffer::push(const ObserverState& state) {
   if (!isFinite(state)) return Push::kNotFinite;
+  if (!rangeFault(state).empty()) return Push::kOutOfRange;
   if (!states_.empty()) {
     if (state.stamp_ns == states_.back().stamp_ns) return Push::kDuplicateStamp;
     if (state.stamp_ns < states_.back().stamp_ns) return Push::kBackwardStamp;
   }
-  states_.push_back(state);
+  states_.push_back(bounded(state));
   const std::int64_t oldest_kept_ns = state.stamp_ns - toNanoseconds(config_.buffer_s);
   while (states_.front().stamp_ns < oldest_kept_ns) states_.pop_front();
   return Push::kAccepted;

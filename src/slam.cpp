@@ -3,6 +3,8 @@
 
 #include <cassert>
 #include <cmath>
+#include <sstream>
+#include <stdexcept>
 
 #include "ardrone_vslam/association.hpp"
 #include "ardrone_vslam/frame_view.hpp"
@@ -45,8 +47,27 @@ struct Slam::State {
   void report(const ObserverState& observer);
 };
 
+bool isFinite(const FrameResult& r) {
+  return r.T_map_base.matrix().allFinite() && r.T_odom_base.matrix().allFinite() &&
+         (r.T_map_base.translation() - r.T_odom_base.translation()).allFinite() &&
+         r.covariance.allFinite() && std::isfinite(r.deviation_m);
+}
+
+std::string mountingFault(const Eigen::Isometry3d& T_base_cam) {
+  if (!T_base_cam.matrix().allFinite())
+    return "it is not finite; correct the transform from base to camera";
+  const double farthest_m = T_base_cam.translation().cwiseAbs().maxCoeff();
+  if (farthest_m <= kFarthestCamera_m) return {};
+  std::ostringstream fault;
+  fault << "the camera is " << farthest_m << " m from base, beyond " << kFarthestCamera_m
+        << " m; correct the transform (metres are asked for)";
+  return fault.str();
+}
+
 Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
   validate(config);
+  const std::string fault = mountingFault(T_base_cam);
+  if (!fault.empty()) throw std::invalid_argument("the camera's mounting: " + fault);
   state_ = std::make_unique<State>(config, T_base_cam);
 }
 
@@ -79,6 +100,13 @@ const FrameResult& Slam::process(const ImageFeatures& features, const ObserverSt
 
   enter(Stage::kLocalise);
   s.predict(features, observer);
+  if (!s.filter.position_map().allFinite() || !s.filter.covariance().allFinite()) {
+    s.landmark_matches = {};
+    s.feature_matches = {};
+    s.report(observer);  // which says so; nothing of it may reach the map
+    enter(Stage::kIdle);
+    return s.result;
+  }
   if (s.config.estimator == Estimator::kObserver) {
     s.result.state = SlamState::kObserverOnly;
   } else {
@@ -180,6 +208,7 @@ void Slam::State::report(const ObserverState& observer) {
   }
   result.landmarks = static_cast<int>(landmark_map.size());
   result.map_features = static_cast<int>(feature_map.size());
+  if (!isFinite(result)) result.state = SlamState::kNotFinite;
 }
 
 const char* explain(SlamState state) {
@@ -197,6 +226,9 @@ const char* explain(SlamState state) {
              "the pose follows the odometry";
     case SlamState::kObserverOnly:
       return "estimator is set to observer: the odometry is passed on without correction";
+    case SlamState::kNotFinite:
+      return "the pose is not finite and is not published; the map begins anew: check odometry, "
+             "calibration and mounting for absurd values";
   }
   return "";
 }

@@ -45,10 +45,12 @@ void ThesisFilter::predict(const ObserverState& observer) {
       observer.T_odom_base.translation() - observer_.T_odom_base.translation();
   const double seconds = static_cast<double>(observer.stamp_ns - observer_.stamp_ns) * 1e-9;
   constexpr double kRounding = 1e-12;  // a constant covariance does not grow by its rounding
-  const double then = observer_.covariance.topLeftCorner<3, 3>().trace() / 3;
-  const double growth = observer.covariance.topLeftCorner<3, 3>().trace() / 3 - then;
-  double variance = growth;
-  if (!(growth > kRounding * then)) {
+  const std::optional<double> then = positionVariance_m2(observer_);
+  const std::optional<double> now = positionVariance_m2(observer);
+  double variance = 0;
+  if (then && now && *now - *then > kRounding * *then) {
+    variance = *now - *then;
+  } else {
     variance = config_.observer_noise_m_per_sqrt_m * config_.observer_noise_m_per_sqrt_m *
                    increment.norm() +
                config_.observer_noise_m_per_sqrt_s * config_.observer_noise_m_per_sqrt_s *
@@ -173,10 +175,10 @@ bool ThesisFilter::fuse(const PositionFix& fix) {
   const Eigen::Matrix3d shared = covariance_ - drift;
   const Eigen::Vector3d innovation = fix.position_map - position_map_;  // (6.8)
   const Eigen::Matrix3d inverse = (drift + fix.covariance).inverse();   // (6.9)
-  if (innovation.dot(inverse * innovation) > config_.gate_deviations * config_.gate_deviations)
-    return false;
-  const Eigen::Matrix3d gain = drift * inverse;  // (6.10)
-  position_map_ += gain * innovation;            // (6.11)
+  const double gate = config_.gate_deviations * config_.gate_deviations;
+  if (!(innovation.dot(inverse * innovation) <= gate)) return false;  // nor what is not finite
+  const Eigen::Matrix3d gain = drift * inverse;                       // (6.10)
+  position_map_ += gain * innovation;                                 // (6.11)
   const Eigen::Matrix3d rest = Eigen::Matrix3d::Identity() - gain;
   // Joseph form of (6.12): symmetric and positive whatever the rounding.
   covariance_ = shared + rest * drift * rest.transpose() + gain * fix.covariance * gain.transpose();

@@ -24,14 +24,22 @@ struct CameraIntrinsics {
   bool operator==(const CameraIntrinsics& other) const;
 };
 
+/// Focal lengths of cameras, in image widths: fields of view of 169 and 1.1 degrees.
+constexpr double kShortestFocal = 0.05;
+constexpr double kLongestFocal = 50;
+
+/// What cannot be a camera, and what helps: size, values not finite, focal length, principal point
+/// outside the image, distortion that folds back or moves pixels by more than a fifth already
+/// within a tenth of the half diagonal. Empty when it can be one.
+std::string calibrationFault(const CameraIntrinsics& intrinsics);
+
 enum class UndistortMethod { kExact, kClosedForm };
 
 /// Pixel <-> bearing in the optical frame (x right, y down, z forward). Immutable; safe to share
 /// between threads.
 class CameraModel {
  public:
-  /// @throws std::invalid_argument naming the value that cannot be a camera (size, focal length,
-  /// not finite).
+  /// @throws std::invalid_argument with the calibrationFault
   explicit CameraModel(const CameraIntrinsics& intrinsics,
                        UndistortMethod method = UndistortMethod::kExact);
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
 
 #include "ardrone_vslam/parameters.hpp"
 
@@ -19,12 +20,33 @@ struct ObserverState {
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
   /// Of position [m^2], then rotation vector [rad^2], axes of odom; all zero when the observer
-  /// gives none.
+  /// gives none. Read it through positionVariance_m2.
   Matrix6d covariance = Matrix6d::Zero();
   /// Of base, axes of base: linear [m/s], then angular [rad/s]. Only passed on; zero when unknown.
   Vector6d twist_base = Vector6d::Zero();
   Matrix6d twist_covariance = Matrix6d::Zero();  ///< in the same order
 };
+
+/// Bounds of what an observer can mean. Beyond the first two a state is refused: no drone is there,
+/// and the squares of such numbers overflow.
+constexpr double kFarthestObserver_m = 1e7;  ///< of base from the origin of odom
+constexpr double kFastestObserver = 1e3;     ///< linear [m/s] and angular [rad/s]
+/// A position variance above this (a deviation of 100 m) marks an unknown one: drivers write 1e5,
+/// 1e6, 1e9 or the largest double.
+constexpr double kLargestVariance_m2 = 1e4;
+/// Twist covariances are only passed on; larger entries are cut to this.
+constexpr double kLargestTwistCovariance = 1e12;
+
+/// What is out of bounds in a state, and what helps; empty when nothing is.
+std::string rangeFault(const ObserverState& state);
+
+/// Mean position variance per axis.
+/// @return nothing when the observer gives none: all zero, negative or above kLargestVariance_m2 in
+/// one axis
+std::optional<double> positionVariance_m2(const ObserverState& state);
+
+/// Why a covariance that is not all zero counts as not given; empty when it is used or all zero.
+std::string covarianceFault(const ObserverState& state);
 
 struct ObserverBufferConfig {
   double buffer_s = 10.0;
@@ -45,13 +67,14 @@ void visitParameters(ObserverBufferConfig& c, Visitor&& visit) {
 /// slerp).
 class ObserverBuffer {
  public:
-  enum class Push { kAccepted, kNotFinite, kDuplicateStamp, kBackwardStamp };
+  enum class Push { kAccepted, kNotFinite, kOutOfRange, kDuplicateStamp, kBackwardStamp };
   enum class Lookup { kFound, kEmpty, kTooOld, kNotYet, kGap };
 
   explicit ObserverBuffer(const ObserverBufferConfig& config);
 
   /// Appends a state; one that is refused changes nothing. The quaternion part is taken as
-  /// normalised.
+  /// normalised. A covariance that counts as not given is stored as zero, so that none is
+  /// interpolated from it.
   Push push(const ObserverState& state);
 
   /// @param state  set only when the answer is kFound
@@ -70,6 +93,7 @@ class ObserverBuffer {
 };
 
 /// Linear in position, covariances and twist, slerp in orientation; `a` and `b` bracket the stamp.
+/// The covariance is zero where `a` or `b` gives none.
 ObserverState interpolate(const ObserverState& a, const ObserverState& b, std::int64_t stamp_ns);
 
 }  // namespace ardrone_vslam

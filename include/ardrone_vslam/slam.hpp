@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/landmark_map.hpp"
@@ -19,9 +20,11 @@ enum class SlamState {
   kTooFewLandmarks,  ///< fewer matches than `min_landmarks`: the pose is the observer's increment
   kFixRejected,   ///< the landmarks' position failed its gate: the pose is the observer's increment
   kObserverOnly,  ///< `estimator: observer`
+  kNotFinite,     ///< a number overflowed: the pose is not to be used, the map is to begin anew
 };
-constexpr std::array<const char*, 5> kSlamStateNames{
-    "building_map", "localised", "too_few_landmarks", "fix_rejected", "observer_only"};
+constexpr std::array<const char*, 6> kSlamStateNames{"building_map",      "localised",
+                                                     "too_few_landmarks", "fix_rejected",
+                                                     "observer_only",     "not_finite"};
 
 /// One frame's answer.
 struct FrameResult {
@@ -51,17 +54,26 @@ struct FrameResult {
   int map_features = 0;  ///< in the feature map, after this frame
 };
 
+/// Whether every number of the pose, of its covariance and of T_map_odom is finite.
+bool isFinite(const FrameResult& result);
+
+constexpr double kFarthestCamera_m = 100;  ///< from base
+
+/// What cannot be the mounting of a camera, and what helps; empty when it can.
+std::string mountingFault(const Eigen::Isometry3d& T_base_cam);
+
 /// Features and observer states -> fused poses and a map (thesis algorithm 5 in the order of
 /// algorithm.md 10).
 class Slam {
  public:
   /// @param T_base_cam  mounting of the camera: optical frame to base
-  /// @throws ConfigError listing every invalid parameter
+  /// @throws ConfigError listing every invalid parameter; std::invalid_argument with the
+  /// mountingFault
   Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam);
   ~Slam();
 
   /// One frame. Stamps must ascend and the observer state must be for the image's stamp (asserted).
-  /// At the first frame map equals odom.
+  /// At the first frame map equals odom. After kNotFinite every further answer may be that.
   const FrameResult& process(const ImageFeatures& features, const ObserverState& observer,
                              const StageHook& hook = {});
 

@@ -105,7 +105,8 @@ class ThesisFilter {
   /// Starts at a base position.
   void start(const Eigen::Vector3d& position_map, const ObserverState& observer);
   /// Moves on by the observer's increment since the last call; the deviation grows by the increase
-  /// of the observer's covariance or, where it gives none, by the configured noise.
+  /// of the observer's covariance or, where it gives none (positionVariance_m2), by the configured
+  /// noise.
   void predict(const ObserverState& observer);
 
   /// The camera's position by landmarks (6.1-6.4; `exact`: algorithm.md 9).

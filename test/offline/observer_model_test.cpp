@@ -10,8 +10,13 @@
 #include <cmath>
 #include <functional>
 
+#include "support/truth_paths.hpp"
+
 namespace ardrone_vslam {
 namespace {
+
+using test::circle;
+using test::straightLine;
 
 constexpr int kSeeds = 400;
 constexpr double kTolerance = 0.15;
@@ -20,34 +25,6 @@ const std::string kProfiles = ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profile
 
 ObserverProfile profileNamed(const std::string& name) {
   return loadObserverProfile(name, kProfiles);
-}
-
-/// Constant velocity along x at 10 Hz, beginning at `first_ns`.
-Trajectory straightLine(double speed_m_s, double seconds, std::int64_t first_ns = 0) {
-  Trajectory trajectory;
-  for (int i = 0; i <= static_cast<int>(std::lround(seconds * 10)); ++i) {
-    StampedPose pose;
-    pose.stamp_ns = first_ns + i * std::int64_t{100000000};
-    pose.T_map_base.translation() << speed_m_s * 0.1 * i, 0, 1;
-    trajectory.append(pose);
-  }
-  return trajectory;
-}
-
-/// A circle of 3 m with the nose along the path, climbing, banked.
-Trajectory circle() {
-  Trajectory trajectory;
-  for (int i = 0; i <= 200; ++i) {
-    StampedPose pose;
-    const double angle = 0.03 * i;
-    pose.stamp_ns = 5000000000 + i * std::int64_t{33333333};
-    pose.T_map_base.linear() = (Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) *
-                                Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()))
-                                   .toRotationMatrix();
-    pose.T_map_base.translation() << 3 * std::sin(angle), -3 * std::cos(angle), 0.01 * i;
-    trajectory.append(pose);
-  }
-  return trajectory;
 }
 
 /// Root mean squares over the seeds of three numbers that should have mean 0.

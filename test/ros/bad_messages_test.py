@@ -11,9 +11,10 @@ import unittest
 import rospy
 import rostest
 from ardrone_vslam.msg import Features, Status
+from nav_msgs.msg import Odometry
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from drone import Drone, HEIGHT, WIDTH  # noqa: E402
+from drone import Drone, HEIGHT, Recorder, WIDTH  # noqa: E402
 
 NAN = float("nan")
 
@@ -24,6 +25,7 @@ class BadMessages(unittest.TestCase):
         rospy.init_node("bad_messages_test")
         cls.drone = Drone()
         cls.features = rospy.Publisher("/vslam/features", Features, queue_size=10)
+        cls.fused = Recorder("/vslam/odometry_fused", Odometry)
         cls.drone.connect()
         cls.drone.mount_camera()
 
@@ -93,6 +95,16 @@ class BadMessages(unittest.TestCase):
             info.K = [0] * 9
         self.refuse_image(change, "/camera/camera_info", "uncalibrated", "camera_calibration")
 
+    def test_focal_length_of_no_camera(self):
+        def change(_, info):
+            info.K = [1e300, 0, 160, 0, 1e300, 120, 0, 0, 1]
+        self.refuse_image(change, "/camera/camera_info", "focal length 1e+300 px", "calibrate")
+
+    def test_lens_that_folds_back(self):
+        def change(_, info):
+            info.D = [-900, 5000, 3, 3, 1e5]
+        self.refuse_image(change, "/camera/camera_info", "k1 -900", "folds back", "calibrate")
+
     def test_fisheye_lens(self):
         def change(_, info):
             info.distortion_model = "equidistant"
@@ -155,6 +167,36 @@ class BadMessages(unittest.TestCase):
         def change(odometry):
             odometry.pose.covariance = [NAN] * 36
         self.refuse_odometry(change, "/odometry", "covariance is not finite")
+
+    def test_odometry_far_beyond_the_earth(self):
+        def change(odometry):
+            odometry.pose.pose.position.x = 1e300
+        self.refuse_odometry(change, "/odometry", "1e+300 m, beyond 1e+07 m", "check its unit")
+
+    def test_odometry_faster_than_any_drone(self):
+        def change(odometry):
+            odometry.twist.twist.linear.x = 1e300
+        self.refuse_odometry(change, "/odometry", "1e+300, beyond 1000 m/s", "check its unit")
+
+    def test_covariance_that_means_unknown(self):
+        """Largest doubles, as some drivers write: the pose is used, the covariance is not."""
+        before = self.fly_well()
+        for variance in (sys.float_info.max, 1e6, -1.0, 1e12, sys.float_info.max):
+            stamp = self.drone.next()
+            odometry = self.drone.odometry()
+            odometry.pose.covariance = [variance if i % 7 == 0 else 0 for i in range(36)]
+            odometry.twist.covariance = [sys.float_info.max] * 36
+            self.drone.send(odometry, self.drone.image(), self.drone.info())
+            pose = self.drone.answered(stamp)
+            self.assertIsNotNone(pose)
+            self.assertTrue(all(math.isfinite(n) for n in pose.pose.covariance))
+            self.assertLess(pose.pose.covariance[0], 1)
+            fused = self.fused.wait(lambda f: f.header.stamp == stamp)
+            self.assertTrue(all(math.isfinite(n) for n in fused.twist.covariance))
+        self.assert_said("/odometry", "counts as not given", "observer_noise_m_per_sqrt_m")
+        after = self.fly_well()
+        self.assertEqual(after.odometry_refused, before.odometry_refused)
+        self.assertEqual(after.results_not_finite, 0)
 
     def test_odometry_late(self):
         def change(odometry):

@@ -109,14 +109,14 @@ class Drone:
                     p.name for p in publishers if p.get_num_connections() == 0))
             time.sleep(0.05)
 
-    def mount_camera(self):
+    def mount_camera(self, forward_m=0.21):
         """base_link -> camera_optical: looks forward (REP-103)."""
         mounting = TransformStamped()
         mounting.header.frame_id = self.frame("base_link")
         mounting.child_frame_id = self.frame("camera_optical")
         rotation = mounting.transform.rotation
         rotation.x, rotation.y, rotation.z, rotation.w = -0.5, 0.5, -0.5, 0.5
-        mounting.transform.translation.x = 0.21
+        mounting.transform.translation.x = forward_m
         self._tf.publish(TFMessage([mounting]))
 
     def position_m(self):

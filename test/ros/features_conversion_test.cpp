@@ -90,23 +90,24 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 
 INSTANTIATE_TEST_SUITE_P(
     All, FeaturesFault,
-    testing::Values(Spoiled{"stamp is zero", [](Features& m) { m.header.stamp = ros::Time(); }},
-                    Spoiled{"no frame_id", [](Features& m) { m.header.frame_id.clear(); }},
-                    Spoiled{"image size", [](Features& m) { m.width = 0; }},
-                    Spoiled{"focal_length", [](Features& m) { m.focal_length = 0; }},
-                    Spoiled{"focal_length", [](Features& m) { m.focal_length = kNaN; }},
-                    Spoiled{"'y' has 9", [](Features& m) { m.y.pop_back(); }},
-                    Spoiled{"'score' has 11", [](Features& m) { m.score.push_back(1); }},
-                    Spoiled{"'track_id' has 0", [](Features& m) { m.track_id.clear(); }},
-                    Spoiled{"'age' has 9", [](Features& m) { m.age.pop_back(); }},
-                    Spoiled{"'bearing' has 29", [](Features& m) { m.bearing.pop_back(); }},
-                    Spoiled{"'descriptor' has 639", [](Features& m) { m.descriptor.pop_back(); }},
-                    Spoiled{"'y' has 10 entries where 'x' asks for 0",
-                            [](Features& m) { m.x.clear(); }},
-                    Spoiled{"not finite", [](Features& m) { m.x[4] = kInf; }},
-                    Spoiled{"bearing 2", [](Features& m) { m.bearing[7] = kNaN; }},
-                    Spoiled{"bearing 0", [](Features& m) { m.bearing[2] = 2; }},
-                    Spoiled{"track_id 3", [](Features& m) { m.track_id[3] = 0; }}));
+    testing::Values(
+        Spoiled{"stamp is zero", [](Features& m) { m.header.stamp = ros::Time(); }},
+        Spoiled{"no frame_id", [](Features& m) { m.header.frame_id.clear(); }},
+        Spoiled{"image size", [](Features& m) { m.width = 0; }},
+        Spoiled{"focal_length", [](Features& m) { m.focal_length = 0; }},
+        Spoiled{"focal_length", [](Features& m) { m.focal_length = kNaN; }},
+        Spoiled{"50 times the image width", [](Features& m) { m.focal_length = 1e30F; }},
+        Spoiled{"'y' has 9", [](Features& m) { m.y.pop_back(); }},
+        Spoiled{"'score' has 11", [](Features& m) { m.score.push_back(1); }},
+        Spoiled{"'track_id' has 0", [](Features& m) { m.track_id.clear(); }},
+        Spoiled{"'age' has 9", [](Features& m) { m.age.pop_back(); }},
+        Spoiled{"'bearing' has 29", [](Features& m) { m.bearing.pop_back(); }},
+        Spoiled{"'descriptor' has 639", [](Features& m) { m.descriptor.pop_back(); }},
+        Spoiled{"'y' has 10 entries where 'x' asks for 0", [](Features& m) { m.x.clear(); }},
+        Spoiled{"not finite", [](Features& m) { m.x[4] = kInf; }},
+        Spoiled{"bearing 2", [](Features& m) { m.bearing[7] = kNaN; }},
+        Spoiled{"bearing 0", [](Features& m) { m.bearing[2] = 2; }},
+        Spoiled{"track_id 3", [](Features& m) { m.track_id[3] = 0; }}));
 
 }  // namespace
 }  // namespace ardrone_vslam

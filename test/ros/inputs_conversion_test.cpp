@@ -119,6 +119,11 @@ INSTANTIATE_TEST_SUITE_P(
                       i.height = 200;
                     }},
         SpoiledInfo{{"uncalibrated"}, [](auto& i) { i.K[4] = -571; }},
+        SpoiledInfo{{"focal length 1e+300 px", "calibrate"}, [](auto& i) { i.K[0] = 1e300; }},
+        SpoiledInfo{{"k1 -900", "folds back"},
+                    [](auto& i) {
+                      i.D = {-900, 5000, 3, 3, 1e5};
+                    }},
         SpoiledInfo{{"binning"}, [](auto& i) { i.binning_x = 2; }},
         SpoiledInfo{{"region of interest", "320x360 at (0, 0)"},
                     [](auto& i) {
@@ -168,6 +173,16 @@ TEST(OdometryConversion, QuaternionIsNormalised) {
   EXPECT_TRUE((r * r.transpose()).isIdentity(1e-12));
 }
 
+TEST(OdometryConversion, AVarianceThatMeansUnknownIsNoReasonToRefuse) {
+  for (const double marker : {-1.0, 1e9, std::numeric_limits<double>::max()}) {
+    auto odometry = goodOdometry();
+    odometry.pose.covariance[7] = marker;
+    const auto state = toObserverState(odometry).value;
+    ASSERT_TRUE(state);
+    EXPECT_NE(covarianceFault(*state), "");
+  }
+}
+
 struct SpoiledOdometry {
   const char* expected;
   std::function<void(nav_msgs::Odometry&)> spoil;
@@ -197,8 +212,10 @@ INSTANTIATE_TEST_SUITE_P(
         SpoiledOdometry{"twist is not finite", [](auto& o) { o.twist.twist.angular.z = kNaN; }},
         SpoiledOdometry{"twist covariance is not finite",
                         [](auto& o) { o.twist.covariance[35] = kNaN; }},
-        SpoiledOdometry{"negative variance -1 at row 5",
-                        [](auto& o) { o.pose.covariance[35] = -1; }},
+        SpoiledOdometry{"coordinate of 1e+300 m, beyond 1e+07 m; check its unit",
+                        [](auto& o) { o.pose.pose.position.x = -1e300; }},
+        SpoiledOdometry{"component of 1e+300, beyond 1000 m/s or rad/s",
+                        [](auto& o) { o.twist.twist.linear.x = 1e300; }},
         SpoiledOdometry{"stamp is zero", [](auto& o) { o.header.stamp = ros::Time(); }}));
 
 TEST(TimeConversion, RoundTripIsExact) {

@@ -63,6 +63,13 @@ class MissingOdometry(unittest.TestCase):
         self.assertIn("static_transform_publisher", status.reason)
         self.assertEqual(status.images, 0)
 
+        drone.mount_camera(forward_m=1e300)
+        status = self.keep_sending(drone, True, lambda s: "beyond 100 m" in s.reason)
+        self.assertIsNotNone(status)
+        self.assertEqual(status.state, Status.WAITING_FOR_EXTRINSICS)
+        self.assertIn("base_link to camera_optical", status.reason)
+        self.assertEqual(status.images, 0)
+
         drone.mount_camera()
         self.assertIsNotNone(self.keep_sending(drone, True, lambda s: s.images > 0))
         self.assertIsNotNone(drone.fly(1)[0])

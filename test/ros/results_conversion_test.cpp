@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 
+#include <limits>
+
 #include "conversions.hpp"
 
 namespace ardrone_vslam {
@@ -103,7 +105,8 @@ TEST(ResultConversion, EveryOtherStateHasAReason) {
       {SlamState::kBuildingMap, Status::BUILDING_MAP},
       {SlamState::kTooFewLandmarks, Status::TOO_FEW_LANDMARKS},
       {SlamState::kFixRejected, Status::FIX_REJECTED},
-      {SlamState::kObserverOnly, Status::OBSERVER_ONLY}};
+      {SlamState::kObserverOnly, Status::OBSERVER_ONLY},
+      {SlamState::kNotFinite, Status::NOT_FINITE}};
   for (const auto& [state, constant] : states) {
     FrameResult result = someResult();
     result.state = state;
@@ -112,6 +115,16 @@ TEST(ResultConversion, EveryOtherStateHasAReason) {
     EXPECT_EQ(status.state, constant);
     EXPECT_NE(status.reason, "");
   }
+}
+
+TEST(ResultConversion, TheStatusOfAResultThatIsNotFiniteIsFinite) {
+  FrameResult result = someResult();
+  result.state = SlamState::kNotFinite;
+  result.deviation_m = std::numeric_limits<double>::quiet_NaN();
+  Status status;
+  toStatus(result, "map", status);
+  EXPECT_EQ(status.state_name, "not_finite");
+  EXPECT_EQ(status.deviation, 0);
 }
 
 LandmarkMap someMap() {

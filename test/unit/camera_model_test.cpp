@@ -113,5 +113,46 @@ TEST(CameraModel, refusesWhatCannotBeACamera) {
   EXPECT_THROW(CameraModel{c}, std::invalid_argument);
 }
 
+struct Absurd {
+  double CameraIntrinsics::*value;
+  double number;
+  const char* named;
+};
+
+class AbsurdCalibration : public testing::TestWithParam<Absurd> {};
+
+TEST_P(AbsurdCalibration, IsRefusedByName) {
+  CameraIntrinsics c = ardroneFront();
+  EXPECT_EQ(calibrationFault(c), "");
+  c.*GetParam().value = GetParam().number;
+  EXPECT_NE(calibrationFault(c).find(GetParam().named), std::string::npos) << calibrationFault(c);
+  EXPECT_THROW(CameraModel{c}, std::invalid_argument);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, AbsurdCalibration,
+    testing::Values(Absurd{&CameraIntrinsics::fx_px, 1e300, "focal length 1e+300 px"},
+                    Absurd{&CameraIntrinsics::fy_px, 1e-300, "focal length 1e-300 px"},
+                    Absurd{&CameraIntrinsics::fx_px, 31.9, "0.05 and 50 times"},
+                    Absurd{&CameraIntrinsics::fx_px, 32001, "0.05 and 50 times"},
+                    Absurd{&CameraIntrinsics::cx_px, 1e300, "principal point (1e+300, 180)"},
+                    Absurd{&CameraIntrinsics::cy_px, -1, "principal point (320, -1)"},
+                    Absurd{&CameraIntrinsics::k1, 1e300, "k1 1e+300"},
+                    Absurd{&CameraIntrinsics::k1, -900, "folds back"},
+                    Absurd{&CameraIntrinsics::k1, 900, "more than a fifth"},
+                    Absurd{&CameraIntrinsics::k2, -1e300, "folds back"},
+                    Absurd{&CameraIntrinsics::k3, 1e300, "k3 1e+300"},
+                    Absurd{&CameraIntrinsics::p1, 3, "p1 3"},
+                    Absurd{&CameraIntrinsics::p2, -1e300, "p2 -1e+300"}));
+
+TEST(CameraModel, AFoldBeforeTheImagesEdgeIsNoFault) {
+  CameraIntrinsics c = ardroneFront();
+  c.k1 = -3;  // folds at a third of the half diagonal
+  c.k2 = 0;
+  EXPECT_EQ(calibrationFault(c), "");
+  EXPECT_TRUE(CameraModel(c).bearing({400, 180}));
+  EXPECT_FALSE(CameraModel(c).bearing({600, 180}));
+}
+
 }  // namespace
 }  // namespace ardrone_vslam

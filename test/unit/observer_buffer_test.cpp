@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace ardrone_vslam {
 namespace {
@@ -94,6 +95,73 @@ TEST(ObserverBuffer, RefusesWhatIsNotFiniteDuplicateOrBackward) {
   ASSERT_EQ(buffer.at(10, state), Lookup::kFound);
   EXPECT_EQ(state.T_odom_base.translation().x(), 1) << "a refused state changes nothing";
   EXPECT_EQ(buffer.newestStamp_ns(), 10);
+}
+
+TEST(ObserverBuffer, RefusesWhatNoDroneCanBe) {
+  ObserverBuffer buffer({});
+  ObserverState far_off = stateAt(1);
+  ObserverState too_fast = stateAt(1);
+  for (const double factor : {1.001, -1e3, 1e293}) {
+    far_off.T_odom_base.translation().z() = factor * kFarthestObserver_m;
+    EXPECT_EQ(buffer.push(far_off), Push::kOutOfRange) << factor;
+    too_fast.twist_base[4] = factor * kFastestObserver;
+    EXPECT_EQ(buffer.push(too_fast), Push::kOutOfRange) << factor;
+  }
+  EXPECT_NE(rangeFault(far_off).find("1e+300 m, beyond 1e+07 m"), std::string::npos);
+  EXPECT_NE(rangeFault(too_fast).find("1e+296, beyond 1000 m/s or rad/s"), std::string::npos);
+  EXPECT_TRUE(buffer.empty());
+
+  ObserverState at_the_bound = stateAt(1, -kFarthestObserver_m);
+  at_the_bound.twist_base[0] = kFastestObserver;
+  EXPECT_EQ(rangeFault(at_the_bound), "");
+  EXPECT_EQ(buffer.push(at_the_bound), Push::kAccepted);
+}
+
+TEST(ObserverBuffer, AVarianceThatMeansUnknownCountsAsNotGiven) {
+  const double kLargest = std::numeric_limits<double>::max();
+  ObserverState known = stateAt(0);
+  known.covariance = 0.5 * Matrix6d::Identity();
+  EXPECT_EQ(positionVariance_m2(known).value_or(-1), 0.5);
+  EXPECT_EQ(covarianceFault(known), "");
+  known.covariance.bottomRightCorner<3, 3>() *= -1;  // of rotation, which is not used
+  EXPECT_EQ(positionVariance_m2(known).value_or(-1), 0.5);
+  ObserverState zero = stateAt(0);
+  EXPECT_FALSE(positionVariance_m2(zero));
+  EXPECT_EQ(covarianceFault(zero), "") << "the usual way to give none";
+
+  for (const double marker : {-1.0, 1.001 * kLargestVariance_m2, 99999.0, 1e12, kLargest}) {
+    ObserverBuffer buffer({});
+    ObserverState unknown = stateAt(kSecond_ns / 10);
+    unknown.covariance = known.covariance;
+    unknown.covariance(2, 2) = marker;  // one axis is enough
+    EXPECT_FALSE(positionVariance_m2(unknown)) << marker;
+    EXPECT_NE(covarianceFault(unknown).find(marker < 0 ? "is negative" : "above 10000 m^2"),
+              std::string::npos)
+        << covarianceFault(unknown);
+    ASSERT_EQ(buffer.push(known), Push::kAccepted);
+    ASSERT_EQ(buffer.push(unknown), Push::kAccepted) << "the pose is as good as ever";
+    ObserverState state;
+    for (const std::int64_t stamp_ns : {std::int64_t{1}, kSecond_ns / 20, kSecond_ns / 10}) {
+      ASSERT_EQ(buffer.at(stamp_ns, state), Lookup::kFound);
+      EXPECT_FALSE(positionVariance_m2(state)) << "nothing lies between known and unknown";
+      EXPECT_TRUE(state.covariance.isZero(0));
+    }
+  }
+}
+
+TEST(ObserverBuffer, TwistCovariancesOfAnySizeStayFinite) {
+  ObserverBuffer buffer({});
+  ObserverState first = stateAt(0);
+  first.twist_covariance.setConstant(std::numeric_limits<double>::max());
+  ObserverState second = stateAt(100);
+  second.twist_covariance = -first.twist_covariance;
+  ASSERT_EQ(buffer.push(first), Push::kAccepted);
+  ASSERT_EQ(buffer.push(second), Push::kAccepted);
+  ObserverState state;
+  ASSERT_EQ(buffer.at(0, state), Lookup::kFound);
+  EXPECT_EQ(state.twist_covariance(3, 1), kLargestTwistCovariance);
+  ASSERT_EQ(buffer.at(50, state), Lookup::kFound);
+  EXPECT_TRUE(state.twist_covariance.allFinite());
 }
 
 TEST(ObserverBuffer, EveryAnswerOfALookup) {

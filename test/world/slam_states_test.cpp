@@ -2,7 +2,12 @@
 // Every state that Slam can report, and what must not wear its map down.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "support/point_flight.hpp"
 
@@ -75,6 +80,55 @@ TEST_F(SlamStates, FixRejected) {
   const FrameResult result = slam.process(look(40), jumped);
   EXPECT_EQ(result.state, SlamState::kFixRejected);
   EXPECT_TRUE(result.camera_position_map) << "shown, though not used";
+}
+
+TEST_F(SlamStates, NotFiniteIsNamedAndLeavesTheMapAlone) {
+  const double kLargest = std::numeric_limits<double>::max();
+  for (const double bad : {std::nan(""), kLargest, -kLargest}) {
+    Slam slam({}, test::forwardMounting());
+    for (std::size_t i = 0; i < 40; ++i) {
+      EXPECT_TRUE(isFinite(slam.process(look(i), observer_[i])));
+    }
+    const std::size_t landmarks = slam.landmarks().size();
+    ASSERT_GT(landmarks, 0U);
+    ObserverState overflowing = observer_[40];
+    overflowing.T_odom_base.translation().setConstant(bad);
+    const FrameResult result = slam.process(look(40), overflowing);
+    EXPECT_EQ(result.state, SlamState::kNotFinite) << bad;
+    EXPECT_FALSE(isFinite(result));
+    EXPECT_EQ(result.landmark_matches, 0) << "not those of the image before";
+    EXPECT_EQ(slam.landmarks().size(), landmarks);
+  }
+}
+
+TEST(FrameResultCheck, EveryNumberOfThePoseCounts) {
+  const double kInfinite = std::numeric_limits<double>::infinity();
+  const double kLargest = std::numeric_limits<double>::max();
+  FrameResult good;
+  EXPECT_TRUE(isFinite(good));
+  std::vector<FrameResult> bad(6, good);
+  bad[0].T_map_base.translation().y() = kInfinite;
+  bad[1].T_map_base.linear()(2, 0) = std::nan("");
+  bad[2].T_odom_base.translation().x() = std::nan("");
+  bad[3].covariance(5, 4) = -kInfinite;
+  bad[4].deviation_m = kInfinite;
+  bad[5].T_map_base.translation().x() = kLargest;  // finite, but T_map_odom is not
+  bad[5].T_odom_base.translation().x() = -kLargest;
+  for (std::size_t i = 0; i < bad.size(); ++i) EXPECT_FALSE(isFinite(bad[i])) << i;
+}
+
+TEST(MountingCheck, TheCameraIsOnTheDrone) {
+  Eigen::Isometry3d T_base_cam = test::forwardMounting();
+  EXPECT_EQ(mountingFault(T_base_cam), "");
+  T_base_cam.translation().y() = -kFarthestCamera_m;
+  EXPECT_EQ(mountingFault(T_base_cam), "");
+  for (const double metres : {100.1, -1e300}) {
+    T_base_cam.translation().y() = metres;
+    EXPECT_NE(mountingFault(T_base_cam).find("beyond 100 m; correct"), std::string::npos);
+    EXPECT_THROW(Slam({}, T_base_cam), std::invalid_argument);
+  }
+  T_base_cam.translation().y() = std::nan("");
+  EXPECT_NE(mountingFault(T_base_cam).find("not finite"), std::string::npos);
 }
 
 TEST_F(SlamStates, ObserverOnly) {
