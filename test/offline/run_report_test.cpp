@@ -234,7 +234,8 @@ TEST(RunReport, AGoodRunHasNeitherWarningNorFault) {
 TEST(RunReport, PosesThatNeverMoveAreAFaultWhenTheImagesTravel) {
   RunResult run = someRun();
   Trajectory still;
-  for (const StampedPose& pose : straightTruth().poses())
+  const Trajectory moving = straightTruth();
+  for (const StampedPose& pose : moving.poses())
     still.append({pose.stamp_ns, Eigen::Isometry3d::Identity()});
   EXPECT_TRUE(judgeRun("flight", run, evaluate(run, still), false).faults.empty());
   run.images_travel = true;
