@@ -1,10 +1,31 @@
 # Sourced by the scripts beside it: where things are, and how the package is built. Sets `root` and `build`.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-build=${ARDRONE_VSLAM_BUILD:-$root/build}
+# Not build/: rosrun looks into no folder of that name inside a package.
+build=${ARDRONE_VSLAM_BUILD:-$root/build_ros}
 
 # Installs what is missing, then builds everything; further arguments go to cmake.
 build_package() {
   "$root/scripts/install_dependencies" ${install_options:-}
   cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release "$@"
   cmake --build "$build" -j "$(nproc)"
+}
+
+# $1: the script's name.
+print_version() {
+  echo "$1 (ardrone_vslam) $(sed -n 's:.*<version>\(.*\)</version>.*:\1:p' "$root/package.xml")"
+}
+
+# Ends with exit code 2 unless the option has a value. $1: the script's name; then what is left of its arguments.
+need_value() {
+  [ $# -ge 3 ] && return
+  echo "$1: $2 needs a value; see $1 --help" >&2
+  exit 2
+}
+
+# The same for a number. $1: the script's name, $2: option, $3: its value.
+need_number() {
+  need_value "$@"
+  [[ "$3" =~ ^[0-9]+(\.[0-9]*)?$|^\.[0-9]+$ ]] && return
+  echo "$1: $2 '$3': must be a number, for example 1" >&2
+  exit 2
 }

@@ -2,15 +2,16 @@
 // make_bag: a folder of images or a recorded video stream of the AR.Drone as a bag.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <map>
 
 #include "bag_writer.hpp"
-#include "config_path.hpp"
 #include "kitti_folder.hpp"
 #include "pave_sequence.hpp"
+#include "profile_option.hpp"
 #include "progress_line.hpp"
 #include "tool_main.hpp"
 #include "tum_folder.hpp"
@@ -26,15 +27,20 @@ struct Options {
   std::string observer_profile;
   std::string frames;
   bool ping_pong = false;
+  std::string images = "raw";
+  std::string compression = "none";
   PaveOptions pave;
   BagWriteOptions write;
 };
 
-/// One subcommand: what it reads and which observer it simulates when none is named.
-struct Source {
-  CLI::App* command;
-  std::string default_profile;
-};
+using Write = BagWriteOptions;
+
+const std::map<std::string, Write::ImageFormat> kFormats{{"raw", Write::ImageFormat::kRaw},
+                                                         {"png", Write::ImageFormat::kPng},
+                                                         {"jpeg", Write::ImageFormat::kJpeg}};
+const std::map<std::string, Write::Compression> kCompressions{{"none", Write::Compression::kNone},
+                                                              {"lz4", Write::Compression::kLz4},
+                                                              {"bz2", Write::Compression::kBz2}};
 
 void addNames(CLI::App& command, Options& o) {
   const std::string group = "Names";
@@ -52,15 +58,6 @@ void addNames(CLI::App& command, Options& o) {
 }
 
 void addCommon(CLI::App& command, Options& o) {
-  using Write = BagWriteOptions;
-  static const std::map<std::string, Write::ImageFormat> kFormats{
-      {"raw", Write::ImageFormat::kRaw},
-      {"png", Write::ImageFormat::kPng},
-      {"jpeg", Write::ImageFormat::kJpeg}};
-  static const std::map<std::string, Write::Compression> kCompressions{
-      {"none", Write::Compression::kNone},
-      {"lz4", Write::Compression::kLz4},
-      {"bz2", Write::Compression::kBz2}};
   command.add_option("--out", o.out, "the bag to write, FILE.bag")->required();
   command.add_flag("--force", o.force, "overwrite the bag if it is there");
   command.add_option("--observer-profile", o.observer_profile,
@@ -68,16 +65,15 @@ void addCommon(CLI::App& command, Options& o) {
                      "(config/observer_profiles.yaml); default: the recorded observer if there is "
                      "one, else wheel for kitti, drone for the others");
   addSeed(command, "--seed", o.write.seed, "of the odometry's noise");
-  command.add_option("--compressed", o.write.image_format, "images as raw, png or jpeg")
-      ->transform(CLI::CheckedTransformer(kFormats));
-  command.add_option("--compression", o.write.compression, "of the bag: none, lz4 or bz2")
-      ->transform(CLI::CheckedTransformer(kCompressions));
+  command.add_option("--compressed", o.images, "images in the bag")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"raw", "png", "jpeg"}));
+  command.add_option("--compression", o.compression, "of the bag's chunks")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"none", "lz4", "bz2"}));
   command.add_option("--frames", o.frames, "A:B:STEP, frames A up to but without B");
-  addNames(command, o);
-}
-
-void addPingPong(CLI::App& command, Options& o) {
   command.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
+  addNames(command, o);
 }
 
 std::unique_ptr<Sequence> openSource(const CLI::App& app, const Options& o) {
@@ -90,15 +86,27 @@ std::unique_ptr<Sequence> openSource(const CLI::App& app, const Options& o) {
   return pave;
 }
 
+bool neverMoves(const Trajectory& truth) {
+  constexpr double kRest_m = 1e-6;
+  return truth.size() > 1 &&
+         std::all_of(truth.poses().begin(), truth.poses().end(), [&](const StampedPose& pose) {
+           const Eigen::Vector3d& start = truth.poses().front().T_map_base.translation();
+           return (pose.T_map_base.translation() - start).norm() < kRest_m;
+         });
+}
+
 /// @param advice  what to do when there is neither truth nor observer
-void chooseObserver(const Sequence& sequence, const std::string& default_profile,
-                    const std::string& advice, Options& o) {
+void chooseObserver(const Sequence& sequence, const std::string& advice, Options& o) {
   std::string name = o.observer_profile;
   if (name.empty() && sequence.observer().empty() && !sequence.truth().empty()) {
-    name = default_profile;
+    name = defaultProfile(o.input);
+  }
+  if (!o.pave.at_rest && neverMoves(sequence.truth())) {
+    std::cerr << "make_bag: warning: " << sequence.name()
+              << ": all true poses are at the same place; check poses.txt or poses_tum.txt\n";
   }
   if (!name.empty()) {
-    o.write.observer_profile = loadObserverProfile(name, findConfigFile("observer_profiles.yaml"));
+    o.write.observer_profile = profileOfOption(name);
   } else if (sequence.observer().empty()) {
     std::cerr << "make_bag: warning: " << sequence.name()
               << ": has neither true poses nor an observer; the bag gets no odometry" << advice
@@ -121,15 +129,18 @@ void checkUsage(const CLI::App& app, const Options& o) {
   }
 }
 
-int run(const CLI::App& app, const std::string& default_profile, Options& o) {
+int run(const CLI::App& app, Options& o) {
   checkUsage(app, o);
+  if (!o.observer_profile.empty()) profileOfOption(o.observer_profile);
+  o.write.image_format = kFormats.at(o.images);
+  o.write.compression = kCompressions.at(o.compression);
   const FrameSelection selection =
       asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
   if (!o.force && std::filesystem::exists(o.out)) {
     throw std::runtime_error(o.out + ": is there already; choose another name or give --force");
   }
   const auto sequence = select(openSource(app, o), selection);
-  chooseObserver(*sequence, default_profile, app.got_subcommand("pave") ? kAtRestAdvice : "", o);
+  chooseObserver(*sequence, app.got_subcommand("pave") ? kAtRestAdvice : "", o);
   o.write.tool = "make_bag (ardrone_vslam) " ARDRONE_VSLAM_VERSION;
   BagWriteReport report;
   {
@@ -162,20 +173,12 @@ int main(int argc, char** argv) {
   auto* kitti = app.add_subcommand("kitti", "a folder of the KITTI odometry data");
   auto* tum = app.add_subcommand("tum", "a folder with image/, camera.yaml, times.txt");
   auto* pave = app.add_subcommand("pave", "a recorded stream of the AR.Drone 2.0's video port");
-  const Source sources[] = {{kitti, "wheel"}, {tum, "drone"}, {pave, "drone"}};
-  for (const Source& source : sources) {
-    source.command->add_option("input", o.input, source.command->get_description())->required();
-    addCommon(*source.command, o);
+  for (CLI::App* command : {kitti, tum, pave}) {
+    command->add_option("input", o.input, command->get_description())->required();
+    addCommon(*command, o);
   }
-  addPingPong(*kitti, o);
-  addPingPong(*tum, o);
   pave->add_option("--camera", o.pave.camera_yaml,
                    "calibration; default: camera.yaml beside the stream");
   pave->add_flag("--at-rest", o.pave.at_rest, "the drone stood still: its true pose is known");
-  return runTool(app, argc, argv, [&] {
-    for (const Source& source : sources) {
-      if (source.command->parsed()) return run(app, source.default_profile, o);
-    }
-    return 2;
-  });
+  return runTool(app, argc, argv, [&] { return run(app, o); });
 }

@@ -12,7 +12,7 @@
 #ifdef ARDRONE_VSLAM_WITH_ROS
 #include "bag_writer.hpp"
 #endif
-#include "config_path.hpp"
+#include "profile_option.hpp"
 #include "progress_line.hpp"
 #include "tool_main.hpp"
 #include "tum_folder_writer.hpp"
@@ -75,18 +75,6 @@ FlightStart parseStart(const std::string& text) {
     throw UsageError("--start: '" + text + "' must be X,Y,YAW, for example 1,-0.5,1.57");
   }
   return start;
-}
-
-void loadProfile(Options& o) {
-  const std::string profiles = findConfigFile("observer_profiles.yaml");
-  const auto names = observerProfileNames(profiles);
-  if (std::find(names.begin(), names.end(), o.observer_profile) == names.end()) {
-    std::string known;
-    for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;
-    throw UsageError("--observer-profile: there is no profile '" + o.observer_profile +
-                     "'; known are " + known);
-  }
-  o.world.observer = loadObserverProfile(o.observer_profile, profiles);
 }
 
 #ifdef ARDRONE_VSLAM_WITH_ROS
@@ -154,7 +142,7 @@ int run(Options& o) {
     throw std::runtime_error(o.out + ": is there already; choose another name or give --force");
   }
   if (bag && o.observer_profile.empty()) o.observer_profile = "drone";
-  if (!o.observer_profile.empty()) loadProfile(o);
+  if (!o.observer_profile.empty()) o.world.observer = profileOfOption(o.observer_profile);
   if (!o.start.empty()) o.world.start = parseStart(o.start);
   // Base of a folder is by its definition where the camera is.
   if (!bag) o.world.T_base_cam = forwardCamera();

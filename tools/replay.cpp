@@ -4,17 +4,18 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 
 #include "parameter_table.hpp"
+#include "profile_option.hpp"
 #include "progress_line.hpp"
 #include "run_all.hpp"
 #include "run_observers.hpp"
 #include "run_print.hpp"
 #include "run_report.hpp"
+#include "run_verdict.hpp"
 #include "tool_main.hpp"
 #ifdef ARDRONE_VSLAM_WITH_ROS
 #include "bag_options.hpp"
@@ -60,10 +61,11 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--set", o.overrides, "key=value over the configuration; may be repeated")
       ->allow_extra_args(false)
       ->take_all();
-  app.add_option("--estimator", o.estimator, "thesis or observer; over the configuration");
+  app.add_option("--estimator", o.estimator, "over the configuration")
+      ->check(CLI::IsMember({"thesis", "observer"}));
   app.add_option("--observer-profile", o.observer_profile,
                  "corrupt the truth like this (truth, wheel, drone, hover, harsh); default: the "
-                 "input's own odometry, else wheel");
+                 "input's own odometry, else wheel for a KITTI folder, drone for the others");
   o.seed_option = addSeed(app, "--seed", o.seed, "of the observer's noise");
   app.add_option("--seeds", o.seeds, "A:B, runs the seeds A to B and prints median and worst")
       ->excludes(o.seed_option);
@@ -117,6 +119,11 @@ std::vector<RunObserver> observersOf(const Sequence& sequence, const Options& o)
   // one.
   const bool is_bag = !std::filesystem::is_directory(o.input);
   std::vector<RunObserver> observers;
+  if (o.observer_profile.empty() && is_bag && o.ping_pong) {
+    throw UsageError(sequence.name() +
+                     ": --ping-pong: recorded odometry cannot run backwards; corrupt the truth "
+                     "instead, by --observer-profile (drone, say)");
+  }
   if (o.observer_profile.empty() && (is_bag || !sequence.observer().empty())) {
     if (!o.seeds.empty() || o.seed_option->count() > 0) {
       throw UsageError(sequence.name() + (o.seeds.empty() ? ": --seed" : ": --seeds") +
@@ -125,7 +132,8 @@ std::vector<RunObserver> observersOf(const Sequence& sequence, const Options& o)
     observers.push_back(recordedObserver(sequence));
     return observers;
   }
-  const std::string profile = o.observer_profile.empty() ? "wheel" : o.observer_profile;
+  const std::string profile =
+      o.observer_profile.empty() ? defaultProfile(o.input) : o.observer_profile;
   for (const std::uint64_t seed : seedsOf(o))
     observers.push_back(simulatedObserver(sequence, profile, seed));
   return observers;
@@ -140,39 +148,22 @@ void makeFolder(const std::string& folder) {
   }
 }
 
-/// What a user should know before believing the numbers.
-void warnOf(const std::string& name, const RunResult& run, const RunEvaluation& evaluation,
-            bool truth_moved) {
-  if (run.frames.empty()) {
-    throw std::runtime_error(name +
-                             ": no image has odometry at its stamp; the stamps of images and "
-                             "odometry do not overlap, or the "
-                             "odometry's gaps are longer than observer_max_gap_s");
-  }
-  const auto isEmpty = [](const RunFrame& frame) { return frame.result.features == 0; };
-  if (std::all_of(run.frames.begin(), run.frames.end(), isEmpty)) {
-    throw std::runtime_error(
-        name +
-        ": no image shows a corner: black, blank or blurred images, or threshold_min too high");
-  }
-  if (run.frames_without_observer > 0) {
-    std::cerr << "replay: " << run.frames_without_observer
-              << " images have no odometry at their stamp and are left out\n";
-  }
-  if (truth_moved) {
-    std::cerr << "replay: truth and observer start at different poses; the truth was moved as a "
-                 "whole to the observer's start\n";
-  }
-  if (evaluation.frames_without_truth > 0) {
-    std::cerr << "replay: " << evaluation.frames_without_truth
-              << " images have no truth at their stamp and are not evaluated\n";
+/// What is wrong with the file is a fault of the input, what --set adds to it wrong usage.
+PipelineConfig configOf(const Options& o) {
+  std::vector<std::string> overrides = o.overrides;
+  if (!o.estimator.empty()) overrides.push_back("mapper/estimator=" + o.estimator);
+  const PipelineConfig config = loadConfig(o.config, {});
+  if (overrides.empty()) return config;
+  try {
+    return loadConfig(o.config, overrides);
+  } catch (const ConfigError& e) {
+    throw UsageError(e.what());
   }
 }
 
 int run(const Options& o) {
-  std::vector<std::string> overrides = o.overrides;
-  if (!o.estimator.empty()) overrides.push_back("mapper/estimator=" + o.estimator);
-  const PipelineConfig config = loadConfig(o.config, overrides);
+  const PipelineConfig config = configOf(o);
+  if (!o.observer_profile.empty()) profileOfOption(o.observer_profile);
   const FrameSelection selection =
       asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
   const auto sequence = select(openInput(o, config), selection);
@@ -186,11 +177,14 @@ int run(const Options& o) {
   }
 
   std::vector<Json> summaries;
+  std::vector<std::string> faults;
   for (std::size_t i = 0; i < results.size(); ++i) {
     bool truth_moved = false;
     const Trajectory truth = truthFromObserversStart(sequence->truth(), observers[i], truth_moved);
     const RunEvaluation evaluation = evaluate(results[i], truth);
-    warnOf(sequence->name(), results[i], evaluation, truth_moved);
+    const RunVerdict verdict = judgeRun(sequence->name(), results[i], evaluation, truth_moved);
+    for (const std::string& text : verdict.warnings) std::cerr << "replay: " << text << '\n';
+    faults.insert(faults.end(), verdict.faults.begin(), verdict.faults.end());
     const RunLabel label{sequence->name(), observers[i].profile, observers[i].seed,
                          nameOf(config.mapper.estimator)};
     summaries.push_back(summaryOf(results[i], evaluation, label));
@@ -206,7 +200,8 @@ int run(const Options& o) {
     printSeeds(all);
   }
   std::cout << "written to " << o.out << '\n';
-  return 0;
+  for (const std::string& text : faults) std::cerr << "replay: " << text << '\n';
+  return faults.empty() ? 0 : 1;
 }
 
 }  // namespace

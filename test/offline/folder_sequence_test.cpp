@@ -77,6 +77,13 @@ TEST(KittiFolder, FaultsAreNamedWithFileAndRemedy) {
   expectError(open, {"poses.txt", "line 1", "11 numbers", "12"});
   folder.write("poses.txt", "1 0 0 nan 0 1 0 0 0 0 1 0\n");
   expectError(open, {"poses.txt", "line 1", "not finite"});
+  folder.write("poses.txt", "1 0 0 1e300 0 1 0 0 0 0 1 0\n");
+  expectError(open, {"poses.txt", "line 1", "more than 1e7 m"});
+  for (const char* no_rotation : {"0 0 0 1 0 0 0 1 0 0 0 1", "2 0 0 1 0 2 0 1 0 0 2 1",
+                                  "1 0 0 1 0 1 0 1 0 0 -1 1", "1 0.01 0 1 0 1 0 1 0 0 1 1"}) {
+    folder.write("poses.txt", std::string("1 0 0 0 0 1 0 0 0 0 1 0\n") + no_rotation + "\n");
+    expectError(open, {"poses.txt", "line 2", "no rotation"});
+  }
   makeKittiFolder(folder, 4);
 
   folder.write("calib.txt", "P1: 20 0 16 0 0 21 12 0 0 0 1 0\n");

@@ -73,6 +73,19 @@ TEST(Pipeline, ThreadsDoNotMatter) {
   }
 }
 
+TEST(Pipeline, ImagesThatTravelAreToldFromAnObserverThatStandsStill) {
+  const auto sequence = laps(10, 10);
+  std::vector<ObserverState> rest(2);
+  rest[0].stamp_ns = sequence->stamp_ns(0);
+  rest[1].stamp_ns = sequence->stamp_ns(sequence->size() - 1);
+  PipelineConfig patient = loadConfig("", {});
+  patient.mapper.observer.max_gap_s = 10;
+  BackEnd back_end(patient.mapper, sequence->T_base_cam(), rest);
+  runFrontEnd(*sequence, patient.tracker, 1,
+              [&](const TrackedFrame& frame) { back_end.process(frame); });
+  EXPECT_TRUE(back_end.finish().images_travel);
+}
+
 TEST(RealPipeline, KittiWithTheTruthAsObserver) {
   const std::string folder = realData("kitti_03");
   if (folder.empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
@@ -111,6 +124,7 @@ TEST(RealPipeline, NothingIsMappedWhileTheDroneStandsStill) {
   const RunResult run = back_end.finish();
   EXPECT_EQ(run.frames.size(), sequence->size());
   EXPECT_TRUE(run.landmarks.empty());
+  EXPECT_FALSE(run.images_travel);
 }
 
 }  // namespace

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <sstream>
 
+#include "run_verdict.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {
@@ -198,6 +201,74 @@ TEST(RunReport, FilesOfARun) {
   EXPECT_EQ(cellsOf(line).front(), "id");
   std::getline(landmarks, line);
   EXPECT_EQ(cellsOf(line).front(), "11");
+}
+
+TEST(RunReport, FramesAndLandmarksThatAreNotFiniteAreCounted) {
+  const TemporaryFolder folder;
+  RunResult run = someRun();
+  run.frames[1].result.T_map_base.translation().x() = 1e300;
+  run.frames[2].result.T_odom_base.translation().y() = -1e300;
+  run.landmarks[0].position_map.z() = std::numeric_limits<double>::quiet_NaN();
+  const RunEvaluation evaluation = evaluate(run, straightTruth());
+  const Json summary = summaryOf(run, evaluation, {"s", "drone", 1, "thesis"});
+  EXPECT_EQ(summary["frames_error_not_finite"], 2);
+  EXPECT_EQ(summary["landmarks_not_finite"], 1);
+  writeRun(folder.path(), run, evaluation, summary);
+  std::ifstream landmarks(folder.file("landmarks.csv"));
+  std::string text{std::istreambuf_iterator<char>(landmarks), {}};
+  EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+  const RunVerdict verdict = judgeRun("flight", run, evaluation, false);
+  ASSERT_EQ(verdict.faults.size(), 2U);
+  EXPECT_NE(verdict.faults[0].find("flight: the position error of 2 of 4 images is not finite"),
+            std::string::npos);
+  EXPECT_NE(verdict.faults[1].find("1 of 2 landmarks"), std::string::npos);
+}
+
+TEST(RunReport, AGoodRunHasNeitherWarningNorFault) {
+  const RunResult run = someRun();
+  const RunVerdict verdict = judgeRun("flight", run, evaluate(run, straightTruth()), false);
+  EXPECT_TRUE(verdict.faults.empty());
+  EXPECT_TRUE(verdict.warnings.empty());
+}
+
+TEST(RunReport, PosesThatNeverMoveAreAFaultWhenTheImagesTravel) {
+  RunResult run = someRun();
+  Trajectory still;
+  const Trajectory moving = straightTruth();
+  for (const StampedPose& pose : moving.poses())
+    still.append({pose.stamp_ns, Eigen::Isometry3d::Identity()});
+  EXPECT_TRUE(judgeRun("flight", run, evaluate(run, still), false).faults.empty());
+  run.images_travel = true;
+  EXPECT_TRUE(judgeRun("flight", run, evaluate(run, straightTruth()), false).faults.empty());
+  const RunVerdict truth = judgeRun("flight", run, evaluate(run, still), false);
+  ASSERT_EQ(truth.faults.size(), 1U);
+  EXPECT_NE(truth.faults[0].find("flight: the truth never moves"), std::string::npos);
+  for (RunFrame& frame : run.frames) frame.result.T_odom_base.setIdentity();
+  const RunVerdict observer = judgeRun("flight", run, evaluate(run, {}), false);
+  ASSERT_EQ(observer.faults.size(), 1U);
+  EXPECT_NE(observer.faults[0].find("flight: the odometry never moves"), std::string::npos);
+}
+
+TEST(RunReport, ARunWithoutLandmarksSaysWhyThatMayBe) {
+  RunResult run = someRun();
+  run.landmarks.clear();
+  const RunVerdict verdict = judgeRun("flight", run, evaluate(run, straightTruth()), false);
+  EXPECT_TRUE(verdict.faults.empty());
+  ASSERT_EQ(verdict.warnings.size(), 1U);
+  for (const char* why : {"no landmark", "dark", "motion", "calibration"})
+    EXPECT_NE(verdict.warnings[0].find(why), std::string::npos) << why;
+}
+
+TEST(RunReport, ARunWithoutObserverForMostImagesIsAFault) {
+  RunResult run = someRun();
+  run.frames_without_observer = 4;
+  const RunEvaluation evaluation = evaluate(run, straightTruth());
+  EXPECT_TRUE(judgeRun("flight", run, evaluation, false).faults.empty());
+  EXPECT_EQ(judgeRun("flight", run, evaluation, false).warnings.size(), 1U);
+  run.frames_without_observer = 5;
+  const RunVerdict verdict = judgeRun("flight", run, evaluation, false);
+  ASSERT_EQ(verdict.faults.size(), 1U);
+  EXPECT_NE(verdict.faults[0].find("5 of 9 images have no usable odometry"), std::string::npos);
 }
 
 TEST(RunReport, FoldersThatCannotBeMadeAreNamed) {

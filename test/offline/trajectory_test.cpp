@@ -81,6 +81,20 @@ TEST(TumFile, KeepsNanosecondsAtTodaysEpoch) {
   }
 }
 
+TEST(TumFile, LinesOfAnyLengthAreWhole) {
+  const TemporaryFile file("trajectory_long.txt");
+  writeTum(file.path(), Trajectory({pose(1, 1e300, 0), pose(2, -1.5, 0)}));
+  std::ifstream stream(file.path());
+  std::string line;
+  std::getline(stream, line);
+  std::getline(stream, line);
+  EXPECT_EQ(line.substr(line.size() - 48, 48), " 0.000000000 0.000000000 0.000000000 1.000000000");
+  std::getline(stream, line);
+  EXPECT_EQ(line,
+            "0.000000002 -1.500000000 0.000000000 0.000000000 0.000000000 0.000000000 0.000000000 "
+            "1.000000000");
+}
+
 TEST(TumFile, ReadsCommentsBlankLinesExponentsAndNegativeStamps) {
   const TemporaryFile file("trajectory_forms.txt",
                            "# head\n\n-0.5 0 0 0 0 0 0 1 # tail\r\n1.5e+00 1 2 3 0 0 0 1\n");
@@ -101,6 +115,11 @@ TEST(TumFile, NamesFileLineAndFault) {
   EXPECT_NE(faultOfReading(good + good).find(":2: the stamp 1.000000000 s does not come after"),
             std::string::npos);
   EXPECT_NE(faultOfReading("1 0 0 0 0 0 0 2\n").find(":1: the quaternion"), std::string::npos);
+  EXPECT_NE(
+      faultOfReading(good + "2 0 -1e300 0 0 0 0 1\n").find(":2: the position is more than 1e7"),
+      std::string::npos);
+  EXPECT_NE(faultOfReading(good + "2 0 0 0 0 0 0 0\n").find(":2: the quaternion's norm is not 1"),
+            std::string::npos);
   EXPECT_NE(faultOfReading("1 0 0 0 0 0 0 1 7\n").find(":1: more than eight"), std::string::npos);
   EXPECT_THROW(readTum("/nowhere/at_all.txt"), std::runtime_error);
   EXPECT_THROW(writeTum("/nowhere/at_all.txt", {}), std::runtime_error);

@@ -175,6 +175,12 @@ TEST(BagInput, OdometryThatIsWrongIsDroppedAndCounted) {
   expectWarning(*backward, {"/odom", "1 messages dropped", "goes back"});
 
   recipe = BagRecipe();
+  recipe.odometry[3].pose.pose.position.z = -1e300;
+  const auto far = TestBag(recipe).open();
+  EXPECT_EQ(far->observer().size(), 4u);
+  expectWarning(*far, {"/odom", "1 messages dropped", "more than 1e7 m"});
+
+  recipe = BagRecipe();
   for (auto& message : recipe.odometry) message.pose.pose.position.x = 3;
   expectWarning(*TestBag(recipe).open(), {"/odom", "5 poses are equal", "zero odometry"});
 }

@@ -107,6 +107,63 @@ TEST_F(ToolUsage, FaultsOfTheInputAreNoWrongUsage) {
   EXPECT_EQ(run(ARDRONE_VSLAM_MAKE_BAG " --version"), 0);
 }
 
+TEST_F(ToolUsage, WhatIsNamedOnTheCommandLineWronglyIsWrongUsage) {
+  makeKittiFolder(folder_, 3);
+  EXPECT_EQ(replay(folder_.path() + " --set threshold"), 2);
+  expectOutput({"replay: ", "'threshold'", "key=value"});
+  EXPECT_EQ(replay(folder_.path() + " --set no_such_key=1"), 2);
+  expectOutput({"no_such_key"});
+  EXPECT_EQ(replay(folder_.path() + " --estimator foo"), 2);
+  expectOutput({"--estimator", "thesis"});
+  EXPECT_EQ(replay(folder_.path() + " --observer-profile foo"), 2);
+  expectOutput({"replay: --observer-profile", "'foo'", "drone"});
+  EXPECT_EQ(
+      makeBag("kitti " + folder_.path() + " --out " + path("a.bag") + " --observer-profile foo"),
+      2);
+  expectOutput({"make_bag: --observer-profile", "'foo'", "drone"});
+  folder_.write("wrong.yaml", "tracker: {no_such_key: 1}\n");
+  EXPECT_EQ(replay(folder_.path() + " --config " + path("wrong.yaml")), 1);
+  expectOutput({"no_such_key"});
+}
+
+TEST_F(ToolUsage, RecordedOdometryDoesNotRunBackwards) {
+  const TestBag bag{BagRecipe()};
+  EXPECT_EQ(replay(bag.path() + " --ping-pong"), 2);
+  expectOutput({"replay: ", bag.path(), "cannot run backwards", "--observer-profile"});
+}
+
+TEST_F(ToolUsage, ADeviceIsNoBag) {
+  EXPECT_EQ(replay("/dev/null"), 1);
+  expectOutput({"replay: /dev/null", "device"});
+}
+
+TEST_F(ToolUsage, HelpNamesChoicesPlainly) {
+  for (const std::string kind : {"kitti", "tum", "pave"}) {
+    EXPECT_EQ(makeBag(kind + " --help"), 0);
+    expectOutput({"raw,png,jpeg", "none,lz4,bz2", "--ping-pong"});
+    EXPECT_EQ(output().find("ENUM"), std::string::npos);
+    EXPECT_EQ(output().find("->"), std::string::npos);
+  }
+}
+
+TEST_F(ToolUsage, ATumFolderIsFlownWithTheDronesProfile) {
+  makeTumFolder(folder_, 5);
+  EXPECT_EQ(makeBag("tum " + folder_.path() + " --out " + path("a.bag")), 0) << output();
+  expectOutput({"observer profile drone"});
+  folder_.remove("poses_tum.txt");
+  EXPECT_EQ(replay(folder_.path()), 1);
+  expectOutput({"the profile 'drone'"});
+}
+
+TEST_F(ToolUsage, ReplayOfOdometryThatRunsAwayFails) {
+  BagRecipe recipe;
+  for (std::size_t i = 1; i < recipe.odometry.size(); ++i)
+    recipe.odometry[i].pose.pose.position.x = 1e300;
+  const TestBag bag(recipe);
+  EXPECT_EQ(replay(bag.path()), 1);
+  expectOutput({"replay: ", "/odom", "4 messages dropped", "1e7 m"});
+}
+
 TEST_F(ToolUsage, ReplayOfADamagedBagNamesItAndDoesNotCrash) {
   std::string bytes = bytesOfRecipe(BagRecipe(), rosbag::compression::Uncompressed);
   // The first index entry's offset leads far out of its chunk.

@@ -43,6 +43,7 @@ check_runs() {
     done
     for script in plot_run record_run; do
       rosrun ardrone_vslam "$script" --help > /dev/null || fail "rosrun $script --help"
+      rosrun ardrone_vslam "$script" --version | grep -q 'ardrone_vslam) [0-9]' || fail "rosrun $script --version"
     done
     rosrun ardrone_vslam make_world laps --out "$work/laps.bag" --seconds 4 --force > /dev/null 2>&1 || fail "make_world"
     roslaunch -p "$port" ardrone_vslam replay.launch bag:="$work/laps.bag" quit:=true > "$work/launch.log" 2>&1 &

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "kitti_folder.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -56,7 +57,8 @@ CameraIntrinsics readCalibration(const std::string& path, const std::string& fir
   throw std::runtime_error(path + ": has no line P0; take calib.txt of the same KITTI sequence");
 }
 
-Eigen::Isometry3d poseFromRow(const std::vector<long double>& row) {
+/// @param place  for messages: file and line
+Eigen::Isometry3d poseFromRow(const std::vector<long double>& row, const std::string& place) {
   Eigen::Matrix3d rotation;
   Eigen::Vector3d translation;
   for (int r = 0; r < 3; ++r) {
@@ -64,6 +66,17 @@ Eigen::Isometry3d poseFromRow(const std::vector<long double>& row) {
       rotation(r, c) = static_cast<double>(row[static_cast<std::size_t>(4 * r + c)]);
     }
     translation(r) = static_cast<double>(row[static_cast<std::size_t>(4 * r + 3)]);
+  }
+  if (!rotation.allFinite() || !translation.allFinite()) {
+    throw std::runtime_error(place + "the pose is not finite; correct it");
+  }
+  if (isTooFar(translation)) throw std::runtime_error(place + kTooFarFault + "; correct it");
+  constexpr double kSlack = 1e-3;  // of the file's digits
+  const Eigen::Matrix3d excess = rotation.transpose() * rotation - Eigen::Matrix3d::Identity();
+  if (!(excess.cwiseAbs().maxCoeff() < kSlack) || !(rotation.determinant() > 0)) {
+    throw std::runtime_error(place +
+                             "the 3x3 block of the pose is no rotation (orthonormal, determinant "
+                             "1); correct it, a KITTI pose is a row of [R | t]");
   }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   // The file's seven digits make a matrix that is no exact rotation.
@@ -86,10 +99,7 @@ Trajectory readPoses(const std::string& path, const std::vector<std::int64_t>& s
       throw std::runtime_error(place + "has " + std::to_string(row.size()) +
                                " numbers, a KITTI pose has 12");
     }
-    const Eigen::Isometry3d T_cam0_cam = poseFromRow(row);
-    if (!T_cam0_cam.matrix().allFinite()) {
-      throw std::runtime_error(place + "the pose is not finite; correct it");
-    }
+    const Eigen::Isometry3d T_cam0_cam = poseFromRow(row, place);
     if (poses.size() < stamps_ns.size()) {
       poses.push_back({stamps_ns[poses.size()], axes * T_cam0_cam * axes.inverse()});
     } else {

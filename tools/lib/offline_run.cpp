@@ -55,7 +55,10 @@ void runFrontEnd(Sequence& sequence, const TrackerConfig& config, int threads,
 
 BackEnd::BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
                  const std::vector<ObserverState>& observer)
-    : slam_(config, T_base_cam), buffer_(config.observer), observer_(observer) {}
+    : slam_(config, T_base_cam),
+      T_base_cam_(T_base_cam),
+      buffer_(config.observer),
+      observer_(observer) {}
 
 bool BackEnd::observerAt(std::int64_t stamp_ns, ObserverState& state) {
   auto lookup = buffer_.at(stamp_ns, state);
@@ -74,6 +77,7 @@ void BackEnd::process(const TrackedFrame& frame) {
     ++run_.frames_without_observer;
     return;
   }
+  watch_.see(frame.features, Eigen::Isometry3d((state.T_odom_base * T_base_cam_).linear()));
   RunFrame run_frame;
   run_frame.times_ms = frame.times_ms;
   StageTimer timer(run_frame.times_ms);
@@ -82,6 +86,7 @@ void BackEnd::process(const TrackedFrame& frame) {
 }
 
 RunResult BackEnd::finish() {
+  run_.images_travel = watch_.isStuck();
   run_.landmarks = slam_.landmarks().all();
   return std::move(run_);
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../../nodes/standstill_watch.hpp"  // no ROS
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/stages.hpp"
@@ -36,7 +37,9 @@ struct RunResult {
   int frames_without_observer =
       0;  ///< no odometry at the image's stamp: before the first state, in a gap, or after the last
   int observer_states_refused = 0;  ///< not finite, duplicate or backward stamps
-  double scale_error = 0;           ///< the one drawn for the observer
+  /// The tracks moved for seconds on end by more than the observer's turning explains.
+  bool images_travel = false;
+  double scale_error = 0;  ///< the one drawn for the observer
 };
 
 /// Called with the number of images done, from the calling thread.
@@ -61,6 +64,8 @@ class BackEnd {
   bool observerAt(std::int64_t stamp_ns, ObserverState& state);
 
   Slam slam_;
+  Eigen::Isometry3d T_base_cam_;
+  StandstillWatch watch_;  ///< sees an observer that only turns: what moves then is the images
   ObserverBuffer buffer_;
   const std::vector<ObserverState>& observer_;
   std::size_t next_ = 0;

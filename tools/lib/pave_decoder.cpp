@@ -81,7 +81,24 @@ class PaveDecoder::Reader {
   }
 
   cv::Mat image(std::size_t index) {
-    if (index < next_index_) rewind();
+    if (index >= next_index_) return decode(index);
+    if (index < kept_begin_ || index >= kept_begin_ + kept_.size()) keepUpTo(index);
+    return kept_[index - kept_begin_].clone();
+  }
+
+ private:
+  static constexpr std::size_t kKept = 64;  // pictures; 15 MB at 640x360
+
+  /// Whoever goes back mostly goes on backward, and each beginning costs the whole way.
+  void keepUpTo(std::size_t index) {
+    kept_.clear();
+    kept_begin_ = index < kKept ? 0 : index + 1 - kKept;
+    rewind();
+    for (std::size_t i = kept_begin_; i <= index; ++i) kept_.push_back(decode(i));
+  }
+
+  /// @pre index >= next_index_
+  cv::Mat decode(std::size_t index) {
     bool is_grabbed = true;
     for (; is_grabbed && next_index_ <= index; ++next_index_) is_grabbed = capture_.grab();
     cv::Mat picture;
@@ -98,7 +115,6 @@ class PaveDecoder::Reader {
     return grey;
   }
 
- private:
   void rewind() {
     if (!capture_.open(stream_.path(), cv::CAP_FFMPEG)) {
       throw std::runtime_error(
@@ -112,6 +128,8 @@ class PaveDecoder::Reader {
   TemporaryStream stream_;
   cv::VideoCapture capture_;
   std::size_t next_index_ = 0;
+  std::vector<cv::Mat> kept_;  // pictures from kept_begin_ on, when asked for backward
+  std::size_t kept_begin_ = 0;
 };
 
 PaveDecoder::PaveDecoder(const std::string& name, std::vector<PaveFrame> frames) {

@@ -25,7 +25,8 @@ class PaveDecoder {
   std::size_t size() const { return headers_.size(); }
   const PaveHeader& header(std::size_t index) const { return headers_.at(index); }
   std::size_t droppedFrames() const { return dropped_frames_; }
-  /// 8-bit grey. Going back decodes from the beginning again.
+  /// 8-bit grey. Going back decodes from the beginning again, at most once for 64
+  /// images on end.
   cv::Mat image(std::size_t index);
 
  private:

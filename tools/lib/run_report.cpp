@@ -95,6 +95,7 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   summary["nees_mean"] =
       nees_values.empty() ? Json(nullptr) : orNull(summarise(nees_values).mean_m);
   summary["frames_without_truth"] = e.frames_without_truth;
+  summary["frames_error_not_finite"] = e.frames_error_not_finite;
 }
 
 void addCost(const RunResult& run, Json& summary) {
@@ -160,6 +161,7 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
 void writeLandmarks(std::ostream& out, const RunResult& run) {
   out << "id,x_m,y_m,z_m,deviation_m,depth_deviation_m,times_seen\n" << std::setprecision(9);
   for (const Landmark& l : run.landmarks) {
+    if (isNotFinite(l)) continue;
     out << l.id << ',' << l.position_map.x() << ',' << l.position_map.y() << ','
         << l.position_map.z() << ',' << l.deviation_m << ',' << l.depth_deviation_m << ','
         << l.times_seen << '\n';
@@ -167,6 +169,11 @@ void writeLandmarks(std::ostream& out, const RunResult& run) {
 }
 
 }  // namespace
+
+bool isNotFinite(const Landmark& landmark) {
+  return !landmark.position_map.allFinite() ||
+         !std::isfinite(landmark.deviation_m + landmark.depth_deviation_m);
+}
 
 RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
   constexpr std::int64_t kLongestTruthGap_ns = 1'000'000'000;
@@ -191,6 +198,7 @@ RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
       fused_error = error.norm();
       observer_error = (r.T_odom_base.translation() - position).norm();
       fused_nees = nees(error, r.covariance.topLeftCorner<3, 3>());
+      if (!std::isfinite(fused_error + observer_error)) ++e.frames_error_not_finite;
       if (r.camera_position_map) camera_error = (*r.camera_position_map - position).norm();
     } else {
       ++e.frames_without_truth;
@@ -216,6 +224,8 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   const auto matches = collect(run, [](const RunFrame& f) { return f.result.landmark_matches; });
   summary["landmark_matches_median"] = quantile(matches, 0.5);
   summary["landmarks"] = run.landmarks.size();
+  summary["landmarks_not_finite"] =
+      std::count_if(run.landmarks.begin(), run.landmarks.end(), isNotFinite);
   addCost(run, summary);
   return summary;
 }

@@ -28,11 +28,16 @@ struct RunEvaluation {
   Trajectory fused_at_truth;  ///< at the same frames
   Trajectory observer_at_truth;
   int frames_without_truth = 0;  ///< before, after, or in gaps of the truth of more than a second
+  /// The truth is known, but fused or observer error is not finite; left out of all means.
+  int frames_error_not_finite = 0;
   std::vector<double> fused_error_m;
   std::vector<double> observer_error_m;
   std::vector<double> camera_error_m;  ///< of camera_position_map; NaN where there was none
   std::vector<double> nees;
 };
+
+/// Such landmarks are counted in the summary and left out of landmarks.csv.
+bool isNotFinite(const Landmark& landmark);
 
 RunEvaluation evaluate(const RunResult& run, const Trajectory& truth);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iomanip>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
@@ -86,6 +87,7 @@ std::string parseLine(const std::string& line, StampedPose& pose) {
   pose.T_map_base = Eigen::Isometry3d::Identity();
   pose.T_map_base.linear() = rotation.normalized().toRotationMatrix();
   pose.T_map_base.translation() << values[0], values[1], values[2];
+  if (isTooFar(pose.T_map_base.translation())) return kTooFarFault;
   return {};
 }
 
@@ -170,14 +172,17 @@ void writeTumPoses(const std::string& path, const std::vector<StampedPose>& pose
   std::istringstream comment_lines(comment);
   for (std::string line; std::getline(comment_lines, line);) file << "# " << line << '\n';
   file << "# timestamp[s] tx ty tz[m] qx qy qz qw\n";
-  std::array<char, 256> text{};
+  file.imbue(std::locale::classic());
+  file << std::fixed << std::setprecision(9);
   for (const auto& pose : poses) {
     const Eigen::Vector3d& p = pose.T_map_base.translation();
     Eigen::Quaterniond q(pose.T_map_base.linear());
     if (q.w() < 0) q.coeffs() = -q.coeffs();
-    std::snprintf(text.data(), text.size(), " %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", p.x(), p.y(),
-                  p.z(), q.x(), q.y(), q.z(), q.w());
-    file << secondsText(pose.stamp_ns) << text.data();
+    file << secondsText(pose.stamp_ns);
+    for (const double value : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) {
+      file << ' ' << value;
+    }
+    file << '\n';
   }
   file.close();
   if (!file) {

@@ -13,6 +13,15 @@ struct StampedPose {
   Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();
 };
 
+/// No robot's map reaches further; what does is a fault of its source, and squares of it leave a
+/// double's range.
+constexpr double kFarthest_m = 1e7;
+constexpr const char* kTooFarFault = "the position is more than 1e7 m from the origin";
+
+inline bool isTooFar(const Eigen::Vector3d& position) {
+  return position.cwiseAbs().maxCoeff() > kFarthest_m;
+}
+
 /// Poses with ascending stamps. Interpolation: position linearly, orientation by slerp.
 class Trajectory {
  public:

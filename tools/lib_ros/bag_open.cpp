@@ -29,8 +29,11 @@ void unpackChunk(const std::string& compression, std::vector<std::uint8_t>& pack
 }  // namespace
 
 void openForReading(rosbag::Bag& bag, const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) {
+  if (!std::filesystem::exists(path)) {
     throw std::runtime_error(path + ": there is no such file; check the path");
+  }
+  if (!std::filesystem::is_regular_file(path)) {
+    throw std::runtime_error(path + ": is no file but a folder, device or pipe; give a bag's path");
   }
   if (std::filesystem::file_size(path) == 0) {
     throw std::runtime_error(path + ": is empty (0 bytes); record it again");

@@ -62,6 +62,7 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
   if (topic.empty()) return odometry;
   std::size_t not_finite = 0;
   std::size_t backward = 0;
+  std::size_t too_far = 0;
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = readMessage<nav_msgs::Odometry>(instance);
@@ -70,6 +71,8 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
     const auto state = fromOdometryMessage(*message);
     if (!state) {
       ++not_finite;
+    } else if (isTooFar(state->T_odom_base.translation())) {
+      ++too_far;
     } else if (!odometry.states.empty() && state->stamp_ns < odometry.states.back().stamp_ns) {
       ++backward;
     } else {
@@ -79,6 +82,8 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
   warnOfDropped(not_finite, topic,
                 "pose, twist or a covariance is not finite, or the quaternion is not a unit; "
                 "correct the odometry's source",
+                warnings);
+  warnOfDropped(too_far, topic, std::string(kTooFarFault) + "; correct the odometry's source",
                 warnings);
   warnOfDropped(backward, topic, "the stamp goes back; correct the clock of its source", warnings);
   if (odometry.states.empty()) {
@@ -97,12 +102,15 @@ Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic,
   if (topic.empty()) return truth;
   std::size_t not_finite = 0;
   std::size_t backward = 0;
+  std::size_t too_far = 0;
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   for (const rosbag::MessageInstance& instance : view) {
     const auto pose = toTruthPose(instance);
     if (!pose) continue;
     if (!pose->T_map_base) {
       ++not_finite;
+    } else if (isTooFar(pose->T_map_base->translation())) {
+      ++too_far;
     } else if (!truth.empty() && pose->stamp_ns <= truth.poses().back().stamp_ns) {
       ++backward;
     } else {
@@ -111,6 +119,7 @@ Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic,
   }
   warnOfDropped(not_finite, topic, "the pose is not finite or its quaternion is not a unit",
                 warnings);
+  warnOfDropped(too_far, topic, kTooFarFault, warnings);
   warnOfDropped(backward, topic, "the stamp does not ascend", warnings);
   return truth;
 }
@@ -139,7 +148,12 @@ Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base
     pose.position.y = message.transform.translation.y;
     pose.position.z = message.transform.translation.z;
     pose.orientation = message.transform.rotation;
-    if (const auto T_base_cam = fromPoseMessage(pose)) return *T_base_cam;
+    if (const auto T_base_cam = fromPoseMessage(pose)) {
+      if (!isTooFar(T_base_cam->translation())) return *T_base_cam;
+      throw std::runtime_error(bag.getFileName() + ": tf puts the camera frame '" + camera_frame +
+                               "' more than 1e7 m from the base frame '" + base +
+                               "'; correct the transform");
+    }
   } catch (const tf2::TransformException&) {
   }
   throw std::runtime_error(

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scripts as programs: --version, what wrong usage is told, and what counts as a whole flight.
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <iterator>
+
+#include "support/sequence_folders.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+class ScriptUsage : public testing::Test {
+ protected:
+  /// Exit code; what is printed goes to output().
+  int run(const std::string& command) const {
+    const int status = std::system((command + " > " + folder_.file("output") + " 2>&1").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  int script(const std::string& command) const {
+    return run(ARDRONE_VSLAM_SOURCE_DIR "/scripts/" + command);
+  }
+  std::string output() const {
+    std::ifstream file(folder_.file("output"));
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void expectOutput(const std::vector<std::string>& parts) const {
+    for (const auto& part : parts) {
+      EXPECT_NE(output().find(part), std::string::npos) << part << " is not in: " << output();
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ScriptUsage, EachSaysItsVersionAndRefusesUnknownOptions) {
+  for (const std::string name :
+       {"test", "demo", "benchmark", "install_dependencies", "plot_run", "record_run"}) {
+    EXPECT_EQ(script(name + " --version"), 0) << name << output();
+    expectOutput({name + " (ardrone_vslam) 0."});
+    EXPECT_EQ(script(name + " --no-such-option"), 2) << name;
+    expectOutput({name, "usage"});
+  }
+}
+
+TEST_F(ScriptUsage, TestHandsOnlyWhatFollowsTheDashesToCtest) {
+  EXPECT_EQ(script("test -R unit"), 2);
+  expectOutput({"test: unknown option '-R'", "after --"});
+}
+
+TEST_F(ScriptUsage, DemoNamesTheValueThatIsMissing) {
+  for (const std::string option : {"--out", "--seconds", "--seed", "--rate"}) {
+    EXPECT_EQ(script("demo " + option), 2) << option;
+    expectOutput({"demo: " + option + " needs a value"});
+  }
+  EXPECT_EQ(script("demo --seconds ten"), 2);
+  expectOutput({"demo: --seconds 'ten'", "number"});
+}
+
+TEST_F(ScriptUsage, PlotRunNamesThePictureThatCannotBeWritten) {
+  folder_.write("frames.csv", "stamp_ns,landmark_candidates,landmark_matches\n0,1,1\n1000,2,1\n");
+  EXPECT_EQ(script("plot_run " + folder_.path() + " --out " + folder_.file("run.foo")), 2);
+  expectOutput({"plot_run: error: --out", "run.foo", "png"});
+  EXPECT_EQ(script("plot_run " + folder_.path() + " --out " + folder_.file("none/run.png")), 1);
+  expectOutput({"plot_run: ", "none/run.png", "cannot be written"});
+  EXPECT_EQ(output().find("Traceback"), std::string::npos);
+  EXPECT_EQ(script("plot_run " + folder_.path() + " --out " + folder_.file("run.png")), 0)
+      << output();
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("run.png")));
+}
+
+TEST_F(ScriptUsage, PlayBagNamesTheBagThatIsNotThere) {
+  const std::string bag = folder_.file("none.bag");
+  EXPECT_EQ(script("play_bag --clock --bags=" + bag + " __name:=player"), 1);
+  expectOutput({"play_bag: " + bag + ": there is no such file", "full path"});
+}
+
+TEST_F(ScriptUsage, RecordRunCountsImagesWithoutPoseFromTheFirstAnsweredOne) {
+  folder_.write("check.py",
+                "import importlib.machinery, importlib.util, sys\n"
+                "sys.dont_write_bytecode = True\n"
+                "loader = importlib.machinery.SourceFileLoader('record_run', sys.argv[1])\n"
+                "module = importlib.util.module_from_spec(importlib.util.spec_from_loader("
+                "'record_run', loader))\n"
+                "loader.exec_module(module)\n"
+                "topics = [{1, 2, 3, 4, 5}, {11, 12}]\n"
+                "assert module.unanswered(topics, [2, 3, 4, 5]) == (topics[0], [])\n"
+                "assert module.unanswered(topics, [2, 3]) == (topics[0], [4, 5])\n"
+                "assert module.unanswered(topics, [1, 3, 5]) == (topics[0], [2, 4])\n");
+  EXPECT_EQ(run("/usr/bin/python3 " + folder_.file("check.py") +
+                " " ARDRONE_VSLAM_SOURCE_DIR "/scripts/record_run"),
+            0)
+      << output();
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run_verdict.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace ardrone_vslam {
+namespace {
+
+void throwIfNothingCame(const std::string& name, const RunResult& run) {
+  if (run.frames.empty()) {
+    throw std::runtime_error(name +
+                             ": no image has odometry at its stamp; the stamps of images and "
+                             "odometry do not overlap, or the "
+                             "odometry's gaps are longer than observer_max_gap_s");
+  }
+  const auto isEmpty = [](const RunFrame& frame) { return frame.result.features == 0; };
+  if (std::all_of(run.frames.begin(), run.frames.end(), isEmpty)) {
+    throw std::runtime_error(
+        name +
+        ": no image shows a corner: black, blank or blurred images, or threshold_min too high");
+  }
+}
+
+/// A template, as observed and true poses are kept differently.
+template <class Frames, class PoseOf>
+bool neverMoves(const Frames& frames, const PoseOf& poseOf) {
+  return frames.size() > 1 && std::all_of(frames.begin(), frames.end(), [&](const auto& frame) {
+           const Eigen::Isometry3d& first = poseOf(frames.front());
+           return (poseOf(frame).translation() - first.translation()).norm() <
+                  StandstillWatch::kRest_m;
+         });
+}
+
+/// Images that travel although the positions beside them are constant: zeros instead of poses.
+std::string standstillFault(const std::string& name, const RunResult& run,
+                            const Trajectory& truth) {
+  if (!run.images_travel) return {};
+  const auto observed = [](const RunFrame& f) -> const auto& {
+    return f.result.T_odom_base;
+  };
+  const auto known = [](const StampedPose& p) -> const auto& {
+    return p.T_map_base;
+  };
+  const std::string end = " although the images do; ";
+  if (neverMoves(truth.poses(), known)) {
+    return name + ": the truth never moves" + end +
+           "check the truth's topic or file (poses.txt, poses_tum.txt), or remove it";
+  }
+  if (neverMoves(run.frames, observed)) {
+    return name + ": the odometry never moves" + end +
+           "no landmark can be made: check what publishes it, or corrupt the truth by "
+           "--observer-profile";
+  }
+  return {};
+}
+
+std::vector<std::string> faultsOf(const std::string& name, const RunResult& run,
+                                  const RunEvaluation& evaluation) {
+  std::vector<std::string> faults;
+  const std::string standstill = standstillFault(name, run, evaluation.truth);
+  if (!standstill.empty()) faults.push_back(standstill);
+  const auto left_out = static_cast<std::size_t>(run.frames_without_observer);
+  if (left_out > run.frames.size()) {
+    faults.push_back(name + ": " + std::to_string(left_out) + " of " +
+                     std::to_string(left_out + run.frames.size()) +
+                     " images have no usable odometry at their stamp; record the odometry for as "
+                     "long as the images, or choose the frames that have it by --frames");
+  }
+  if (evaluation.frames_error_not_finite > 0) {
+    faults.push_back(name + ": the position error of " +
+                     std::to_string(evaluation.frames_error_not_finite) + " of " +
+                     std::to_string(run.frames.size()) +
+                     " images is not finite, and the means leave them out; check the odometry's "
+                     "and the truth's positions and the camera's mounting");
+  }
+  const auto landmarks = std::count_if(run.landmarks.begin(), run.landmarks.end(), isNotFinite);
+  if (landmarks > 0) {
+    faults.push_back(name + ": " + std::to_string(landmarks) + " of " +
+                     std::to_string(run.landmarks.size()) +
+                     " landmarks are not finite and are left out of landmarks.csv; check the "
+                     "odometry's positions, the calibration and the camera's mounting");
+  }
+  return faults;
+}
+
+}  // namespace
+
+RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEvaluation& evaluation,
+                    bool truth_moved) {
+  throwIfNothingCame(name, run);
+  RunVerdict verdict;
+  verdict.faults = faultsOf(name, run, evaluation);
+  if (run.frames_without_observer > 0) {
+    verdict.warnings.push_back(std::to_string(run.frames_without_observer) +
+                               " images have no odometry at their stamp and are left out");
+  }
+  if (run.landmarks.empty()) {
+    verdict.warnings.push_back(
+        "no landmark came out, so the poses are the odometry's: images too dark, blurred or plain, "
+        "no motion sideways (turning gives no depth), odometry that does not move with the images, "
+        "or another camera's calibration");
+  }
+  if (truth_moved) {
+    verdict.warnings.push_back(
+        "truth and observer start at different poses; the truth was moved as a whole to the "
+        "observer's start");
+  }
+  if (evaluation.frames_without_truth > 0) {
+    verdict.warnings.push_back(std::to_string(evaluation.frames_without_truth) +
+                               " images have no truth at their stamp and are not evaluated");
+  }
+  return verdict;
+}
+
+}  // namespace ardrone_vslam
