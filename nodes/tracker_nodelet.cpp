@@ -9,6 +9,7 @@
 #include <boost/make_shared.hpp>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "ardrone_vslam/instruction_set.hpp"
 #include "conversions.hpp"
 #include "debug_image.hpp"
 #include "params.hpp"
@@ -46,6 +47,7 @@ void TrackerNodelet::onInit() {
   diagnostics_->add("tracker", this, &TrackerNodelet::diagnose);
   timer_ = getNodeHandle().createWallTimer(ros::WallDuration(1.0),
                                            [this](const ros::WallTimerEvent&) { onSecond(); });
+  if (config_.use_attitude) attitude_ = std::make_unique<AttitudeInput>(getNodeHandle());
   subscribe();
 }
 
@@ -68,7 +70,9 @@ void TrackerNodelet::readParameters() {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;
   }
-  NODELET_INFO_STREAM("ardrone_vslam " ARDRONE_VSLAM_VERSION " tracker: " << reader.summary());
+  NODELET_INFO_STREAM("ardrone_vslam " ARDRONE_VSLAM_VERSION " tracker: "
+                      << reader.summary() << "; kernels: " << nameOf(instructionSetInUse().set));
+  if (!instructionSetInUse().fault.empty()) NODELET_WARN_STREAM(instructionSetInUse().fault);
 }
 
 void TrackerNodelet::subscribe() {
@@ -126,7 +130,12 @@ void TrackerNodelet::onImage(const AnyImage& message, const sensor_msgs::CameraI
   const GreyImage image = toGrey(message);
   if (!image.fault.empty()) return drop(image_topic_, image.fault);
   if (!prepareTracker(info, header.frame_id, image)) return;
-  tracker_->process(image.view(), toNanoseconds(header.stamp), features_, stage_clock_.hook());
+  std::optional<float> turn_rad;
+  if (attitude_) turn_rad = attitude_->sceneTurn_rad(toNanoseconds(header.stamp), camera_frame_);
+  if (attitude_ && !turn_rad && limiter_.allows("attitude", ros::SteadyTime::now().toSec()))
+    NODELET_WARN_STREAM(attitude_->fault() << "; until then each corner's own orientation");
+  tracker_->process(image.view(), toNanoseconds(header.stamp), features_, stage_clock_.hook(),
+                    turn_rad);
   next_track_id_ = tracker_->nextTrackId();
   publish(image, header);
 }

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "ardrone_vslam/tracker.hpp"
+#include "attitude_input.hpp"
 #include "image_queue.hpp"
 #include "node_config.hpp"
 #include "stage_clock.hpp"
@@ -84,6 +85,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   std::string waiting_for_;             // what is missing this second, in words
   std::string loss_;                    // what was lost this second and what helps, in words
 
+  std::unique_ptr<AttitudeInput> attitude_;  // with use_attitude
   std::unique_ptr<ImageQueue> queue_;
   ros::CallbackQueueInterface* own_queue_ = nullptr;  // the nodelet's single-threaded one
   ros::CallbackQueue receive_queue_;

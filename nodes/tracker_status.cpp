@@ -83,6 +83,7 @@ void TrackerNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("images dropped while the tracker was busy", counts.overflowed);
   status.add("images without camera_info", counts.without_info);
   status.add("images waiting", counts.waiting);
+  if (attitude_) status.add("images without attitude", attitude_->imagesWithout());
   status.add("features in the latest image", features_.size());
 }
 

@@ -11,12 +11,14 @@ struct Tracker::State {
       : camera(intrinsics, config.undistort),
         detector(config.corners),
         describer(config.freak),
-        frame_tracker(config.tracks, first_track_id) {}
+        frame_tracker(config.tracks, first_track_id),
+        use_attitude(config.use_attitude) {}
 
   CameraModel camera;
   CornerDetector detector;
   FreakDescriber describer;
   FrameTracker frame_tracker;
+  bool use_attitude;
 
   std::vector<Corner> corners;
   std::vector<Eigen::Vector3f> bearings;  // of the keypoints
@@ -45,7 +47,7 @@ std::uint32_t Tracker::nextTrackId() const {
 }
 
 void Tracker::process(const ImageView& image, std::int64_t stamp_ns, ImageFeatures& features,
-                      const StageHook& hook) {
+                      const StageHook& hook, std::optional<float> scene_turn_rad) {
   State& s = *state_;
   assert(image.width_px == s.camera.intrinsics().width_px &&
          image.height_px == s.camera.intrinsics().height_px &&
@@ -60,7 +62,8 @@ void Tracker::process(const ImageView& image, std::int64_t stamp_ns, ImageFeatur
   s.keepCornersWithBearing();
 
   enter(Stage::kDescribe);
-  s.describer.describe(image, s.keypoints, s.described, features.descriptor);
+  s.describer.describe(image, s.keypoints, s.described, features.descriptor, nullptr,
+                       s.use_attitude ? scene_turn_rad : std::nullopt);
   s.collect(image, stamp_ns, features);
 
   enter(Stage::kTrack);

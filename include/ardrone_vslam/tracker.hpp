@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "ardrone_vslam/camera_model.hpp"
 #include "ardrone_vslam/corner_detector.hpp"
@@ -17,6 +18,7 @@ struct TrackerConfig {
   FreakConfig freak;
   FrameTrackerConfig tracks;
   UndistortMethod undistort = UndistortMethod::kExact;
+  bool use_attitude = false;
 };
 
 template <>
@@ -32,6 +34,11 @@ void visitParameters(TrackerConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"undistort", "choice", 0, 0,
                       "exact: Newton; closed_form: Drap & Lefevre's three terms"},
         c.undistort);
+  visit(ParameterInfo{"use_attitude", "switch", 0, 0,
+                      "turn FREAK's pattern by the observer's attitude (nodelet: topic `attitude`) "
+                      "instead of 45 pairs a corner: cheaper and steadier; without attitude the 45 "
+                      "pairs"},
+        c.use_attitude);
 }
 
 /// Image -> ImageFeatures: corners, descriptors, bearings, track ids (thesis algorithm 1). One
@@ -49,8 +56,10 @@ class Tracker {
   /// @param features  cleared and filled; corners whose descriptor or bearing does not exist are
   /// left out
   /// @param hook  told which stage begins; may be empty
+  /// @param scene_turn_rad  with `use_attitude`: sceneTurn_rad() of the camera's attitude; nothing
+  ///   where it is not known: then, as without `use_attitude`, each corner's own orientation
   void process(const ImageView& image, std::int64_t stamp_ns, ImageFeatures& features,
-               const StageHook& hook = {});
+               const StageHook& hook = {}, std::optional<float> scene_turn_rad = std::nullopt);
 
   const CameraModel& camera() const;
   std::uint32_t nextTrackId() const;

@@ -30,7 +30,7 @@ Outcome runOn(Sequence& sequence, const std::string& profile_name, std::uint64_t
       loadObserverProfile(profile_name, ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");
   const ObserverRun observer = simulateObserver(sequence.truth(), profile, seed);
   BackEnd back_end(config.mapper, sequence.T_base_cam(), observer.states);
-  runFrontEnd(sequence, config.tracker, threads,
+  runFrontEnd(sequence, config.tracker, {}, threads,
               [&](const TrackedFrame& frame) { back_end.process(frame); });
   Outcome outcome;
   outcome.run = back_end.finish();
@@ -81,7 +81,7 @@ TEST(Pipeline, ImagesThatTravelAreToldFromAnObserverThatStandsStill) {
   PipelineConfig patient = loadConfig("", {});
   patient.mapper.observer.max_gap_s = 10;
   BackEnd back_end(patient.mapper, sequence->T_base_cam(), rest);
-  runFrontEnd(*sequence, patient.tracker, 1,
+  runFrontEnd(*sequence, patient.tracker, {}, 1,
               [&](const TrackedFrame& frame) { back_end.process(frame); });
   EXPECT_TRUE(back_end.finish().images_travel);
 }
@@ -119,7 +119,7 @@ TEST(RealPipeline, NothingIsMappedWhileTheDroneStandsStill) {
   PipelineConfig patient = config;
   patient.mapper.observer.max_gap_s = 10;
   BackEnd back_end(patient.mapper, sequence->T_base_cam(), rest);
-  runFrontEnd(*sequence, config.tracker, 1,
+  runFrontEnd(*sequence, config.tracker, {}, 1,
               [&](const TrackedFrame& frame) { back_end.process(frame); });
   const RunResult run = back_end.finish();
   EXPECT_EQ(run.frames.size(), sequence->size());

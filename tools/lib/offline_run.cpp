@@ -4,6 +4,8 @@
 #include <chrono>
 #include <future>
 
+#include "ardrone_vslam/scene_turn.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -16,6 +18,29 @@ std::int64_t now_ns() {
 ImageView viewOf(const cv::Mat& image) {
   return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
 }
+
+/// The image's turn at ascending stamps, from odometry.
+class SceneTurns {
+ public:
+  SceneTurns(const std::vector<ObserverState>& attitude, const Eigen::Matrix3d& R_base_cam)
+      : attitude_(attitude), R_base_cam_(R_base_cam) {}
+
+  std::optional<float> at(std::int64_t stamp_ns) {
+    while (next_ < attitude_.size() && attitude_[next_].stamp_ns < stamp_ns) ++next_;
+    if (next_ == attitude_.size()) return std::nullopt;
+    const ObserverState& after = attitude_[next_];
+    if (next_ == 0 && after.stamp_ns > stamp_ns) return std::nullopt;
+    const ObserverState& before = attitude_[next_ == 0 ? 0 : next_ - 1];
+    const ObserverState state =
+        after.stamp_ns == stamp_ns ? after : interpolate(before, after, stamp_ns);
+    return sceneTurn_rad(state.T_odom_base.linear() * R_base_cam_);
+  }
+
+ private:
+  const std::vector<ObserverState>& attitude_;
+  Eigen::Matrix3d R_base_cam_;
+  std::size_t next_ = 0;
+};
 
 }  // namespace
 
@@ -33,13 +58,15 @@ void StageTimer::enter(Stage stage) {
   since_ns_ = now;
 }
 
-void runFrontEnd(Sequence& sequence, const TrackerConfig& config, int threads,
+void runFrontEnd(Sequence& sequence, const TrackerConfig& config,
+                 const std::vector<ObserverState>& attitude, int threads,
                  const std::function<void(const TrackedFrame& frame)>& consume) {
   Tracker tracker(config, sequence.camera());
   const auto policy = threads >= 2 ? std::launch::async : std::launch::deferred;
   const auto load = [&sequence, policy](std::size_t index) {
     return std::async(policy, [&sequence, index] { return sequence.image(index); });
   };
+  SceneTurns turns(attitude, sequence.T_base_cam().linear());
   TrackedFrame frame;
   std::future<cv::Mat> next;
   if (sequence.size() > 0) next = load(0);
@@ -48,7 +75,8 @@ void runFrontEnd(Sequence& sequence, const TrackerConfig& config, int threads,
     if (i + 1 < sequence.size()) next = load(i + 1);
     frame.times_ms = {};
     StageTimer timer(frame.times_ms);
-    tracker.process(viewOf(image), sequence.stamp_ns(i), frame.features, timer.hook());
+    tracker.process(viewOf(image), sequence.stamp_ns(i), frame.features, timer.hook(),
+                    turns.at(sequence.stamp_ns(i)));
     consume(frame);
   }
 }

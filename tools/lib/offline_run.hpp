@@ -48,7 +48,9 @@ using Progress = std::function<void(std::size_t)>;
 /// Images -> features; images are decoded ahead by a thread of their own when `threads` is 2 or
 /// more.
 /// @param consume  gets each frame in order; `frame` is reused for the next one
-void runFrontEnd(Sequence& sequence, const TrackerConfig& config, int threads,
+/// @param attitude  with `use_attitude`: poses whose orientation turns the descriptors' pattern
+void runFrontEnd(Sequence& sequence, const TrackerConfig& config,
+                 const std::vector<ObserverState>& attitude, int threads,
                  const std::function<void(const TrackedFrame& frame)>& consume);
 
 /// Features + observer -> poses and map, as the nodelets do it: odometry interpolated at the

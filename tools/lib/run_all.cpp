@@ -34,11 +34,14 @@ std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
         std::make_unique<BackEnd>(config.mapper, sequence.T_base_cam(), observer.run.states));
   }
   std::size_t done = 0;
-  // The front end does not depend on the observer: it runs once for all seeds.
-  runFrontEnd(sequence, config.tracker, threads, [&](const TrackedFrame& frame) {
-    forEach(back_ends.size(), threads, [&](std::size_t i) { back_ends[i]->process(frame); });
-    if (progress) progress(++done);
-  });
+  // The front end runs once for all seeds. With `use_attitude` it takes the first seed's: attitudes
+  // of one profile differ by no more than the pattern's steps of 1.4 degrees.
+  runFrontEnd(sequence, config.tracker, observers.front().run.states, threads,
+              [&](const TrackedFrame& frame) {
+                forEach(back_ends.size(), threads,
+                        [&](std::size_t i) { back_ends[i]->process(frame); });
+                if (progress) progress(++done);
+              });
   std::vector<RunResult> results;
   for (std::size_t i = 0; i < back_ends.size(); ++i) {
     results.push_back(back_ends[i]->finish());

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "ardrone_vslam/instruction_set.hpp"
 #include "metrics.hpp"
 
 namespace ardrone_vslam {
@@ -114,6 +115,7 @@ void addCost(const RunResult& run, Json& summary) {
   }
   summary["stage_share"] = share;
   summary["peak_rss_mb"] = peakMemory_mb();
+  summary["instruction_set"] = nameOf(instructionSetInUse().set);
 }
 
 void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e) {

@@ -3,6 +3,8 @@
 
 #include <iostream>
 
+#include "ardrone_vslam/instruction_set.hpp"
+
 namespace ardrone_vslam {
 
 int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& run) {
@@ -12,6 +14,8 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& ru
   };
   try {
     app.parse(argc, argv);
+    const std::string& kernels_fault = instructionSetInUse().fault;
+    if (!kernels_fault.empty()) std::cerr << app.get_name() << ": " << kernels_fault << '\n';
     return run();
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;

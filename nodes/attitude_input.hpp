@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
+
+#include <optional>
+#include <string>
+
+#include "ardrone_vslam/observer_buffer.hpp"
+#include "mounting.hpp"
+
+namespace ardrone_vslam {
+
+/// The turn of the image by the observer's attitude (topic `attitude`, the observer's odometry).
+/// An image does not wait for it: what the newest message says is near enough.
+class AttitudeInput {
+ public:
+  static constexpr std::int64_t kOldest_ns = 100'000'000;
+
+  explicit AttitudeInput(ros::NodeHandle nh);
+
+  /// @return nothing when the latest attitude is more than kOldest_ns older than the image, the
+  ///   camera's mounting is not known, or gravity does not say (sceneTurn_rad)
+  std::optional<float> sceneTurn_rad(std::int64_t stamp_ns, const std::string& camera_frame);
+
+  std::uint64_t imagesWithout() const { return images_without_; }
+  /// Why the latest image had none, with the remedy; empty if it had.
+  const std::string& fault() const { return fault_; }
+
+ private:
+  void onAttitude(const nav_msgs::Odometry& message);
+  std::optional<float> find(std::int64_t stamp_ns, const std::string& camera_frame);
+
+  Mounting mounting_;
+  ObserverBuffer buffer_;
+  std::string base_frame_;
+  std::string topic_;
+  std::string fault_;
+  std::uint64_t images_without_ = 0;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace ardrone_vslam

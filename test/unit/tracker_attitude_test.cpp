@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "ardrone_vslam/tracker.hpp"
+#include "support/generated_image.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+CameraIntrinsics camera() {
+  CameraIntrinsics intrinsics;
+  intrinsics.width_px = 320;
+  intrinsics.height_px = 240;
+  intrinsics.fx_px = intrinsics.fy_px = 300;
+  intrinsics.cx_px = 159.5;
+  intrinsics.cy_px = 119.5;
+  return intrinsics;
+}
+
+std::vector<Descriptor> describe(bool use_attitude, std::optional<float> turn_rad) {
+  static const test::TestImage image = test::generatedImage(320, 240);
+  TrackerConfig config;
+  config.use_attitude = use_attitude;
+  config.corners.threshold = 8;
+  Tracker tracker(config, camera());
+  ImageFeatures features;
+  tracker.process(image.view(), 1, features, {}, turn_rad);
+  return features.descriptor;
+}
+
+TEST(TrackerAttitude, TheTurnCountsOnlyWithUseAttitude) {
+  const auto own = describe(false, std::nullopt);
+  ASSERT_GT(own.size(), 20U);
+  EXPECT_EQ(describe(false, 0.5F), own);
+  EXPECT_EQ(describe(true, std::nullopt), own) << "not known: each corner's own orientation";
+  const auto upright = describe(true, 0.F);
+  const auto turned = describe(true, 0.5F);
+  ASSERT_EQ(upright.size(), own.size());
+  EXPECT_NE(upright, own);
+  EXPECT_NE(turned, upright);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
