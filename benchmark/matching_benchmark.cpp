@@ -74,6 +74,7 @@ auto bruteForceOfOpenCv(std::size_t size) {
     const cv::Mat query = asMat(mapDescriptors(size).query);
     const cv::Mat map = asMat(mapDescriptors(size).map);
     return [=](std::size_t) {
+      matches->clear();  // knnMatch appends
       cv::BFMatcher(cv::NORM_HAMMING).knnMatch(query, map, *matches, 2);
       return matches->size();
     };

@@ -27,9 +27,13 @@ ABOUT = {
     "freak_brisk_kitti": "FREAK beside BRISK's descriptor, the same keypoints",
     "freak_orb_kitti": "FREAK beside ORB's descriptor (256 bits), the same keypoints",
     "freak_upright_kitti": "FREAK without the 45 orientation pairs",
-    "exact_100k": "best and second best of 1000 queries among 100,000",
-    "index_100k": "the same by the index; the peer is FLANN's hierarchical clustering (4 trees)",
-    "index_lsh_100k": "the same; the peer is FLANN's LSH",
+    "exact_1k": "best and second best of 1000 queries among 1,000",
+    "exact_10k": "among 10,000",
+    "exact_100k": "among 100,000",
+    "index_1k": "the same among 1,000 by the index (32 probes); the peer is FLANN's hierarchical clustering (Debian's)",
+    "index_10k": "among 10,000",
+    "index_100k": "among 100,000",
+    "index_lsh_100k": "the same beside FLANN's LSH",
     "project_100k": "100,000 landmarks projected and culled",
     "tracker_kitti": "image to features with tracks, 600 features",
     "tracker_320x240": "the same, 320x240, 200 features",
@@ -67,14 +71,15 @@ def pair(sides):
         for name, side in (("ours", ours), ("peer", other)):
             if side["share"] is not None:
                 rows[row][f"{name}_share"] = side["share"]
-    return rows
+    order = {name: i for i, name in enumerate(ABOUT)}
+    return dict(sorted(rows.items(), key=lambda item: (order.get(item[0], len(order)), item[0])))
 
 
 def machine(context):
     with open("/proc/cpuinfo") as file:
         model = next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown")
     return (f"{model}, {context['num_cpus']} cores, one thread; kernels: {context['instruction_set']}; "
-            f"{context['compiler']}; OpenCV {context['opencv']}; frames: {context['frames']}.")
+            f"compiler {context['compiler']}; OpenCV {context['opencv']}; frames: {context['frames']}.")
 
 
 def time_text(ns):

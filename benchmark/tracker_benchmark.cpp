@@ -37,6 +37,7 @@ auto openCv(int features, const Frames& (*frames)()) {
     s->orb = cv::ORB::create(features);
     return [=](std::size_t i) {
       s->orb->detectAndCompute(frames().at(i), {}, s->keypoints, s->descriptors);
+      s->matches.clear();  // knnMatch appends
       if (!s->previous.empty()) s->matcher.knnMatch(s->descriptors, s->previous, s->matches, 2);
       cv::swap(s->descriptors, s->previous);
       return s->keypoints.size();
