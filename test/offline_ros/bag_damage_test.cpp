@@ -105,7 +105,12 @@ TEST(BagReadMessage, AnImpossibleLengthIsRefusedBeforeMemoryIsTaken) {
 
 INSTANTIATE_TEST_SUITE_P(Compressions, BagDamage,
                          testing::Values(rosbag::compression::Uncompressed,
-                                         rosbag::compression::LZ4, rosbag::compression::BZ2));
+                                         rosbag::compression::LZ4, rosbag::compression::BZ2),
+                         [](const auto& compression) {
+                           const bool is_bz2 = compression.param == rosbag::compression::BZ2;
+                           const bool is_lz4 = compression.param == rosbag::compression::LZ4;
+                           return std::string(is_bz2 ? "bz2" : is_lz4 ? "lz4" : "uncompressed");
+                         });
 
 }  // namespace
 }  // namespace ardrone_vslam

@@ -185,6 +185,29 @@ TEST(BagInput, OdometryThatIsWrongIsDroppedAndCounted) {
   expectWarning(*TestBag(recipe).open(), {"/odom", "5 poses are equal", "zero odometry"});
 }
 
+TEST(BagInput, ACovarianceThatCountsAsNotGivenIsToldOnce) {
+  BagRecipe recipe;
+  for (auto& message : recipe.odometry) message.pose.covariance[0] = -1;
+  const auto negative = TestBag(recipe).open();
+  EXPECT_EQ(negative->observer().size(), 5u);
+  expectWarning(*negative, {"/odom", "variance of -1 m^2", "counts as not given"});
+  for (auto& message : recipe.odometry) message.pose.covariance.assign(0);  // the usual "none"
+  EXPECT_TRUE(TestBag(recipe).open()->warnings().empty());
+}
+
+TEST(BagInput, AMountingThatCannotBeIsRefusedWithTheBagsName) {
+  BagRecipe recipe;
+  recipe.has_tf = false;
+  Eigen::Isometry3d T_base_cam = forwardCamera();
+  T_base_cam.translation().y() = -101;
+  const TestBag bag(recipe, [&](rosbag::Bag& opened) {
+    tf2_msgs::TFMessage tf;
+    tf.transforms = {toTransformMessage(T_base_cam, ros::Time(1.0), "base", "cam")};
+    opened.write("/tf", ros::Time(1.0), tf);
+  });
+  bag.expectRefused({bag.path(), "'base'", "'cam'", "101 m from base", "beyond 100 m"});
+}
+
 TEST(BagInput, NoTransformToTheCamera) {
   BagRecipe recipe;
   recipe.has_tf = false;

@@ -81,7 +81,8 @@ TEST_P(FastAgainstOpenCv, KittiFrames) {
 }
 
 INSTANTIATE_TEST_SUITE_P(InstructionSets, FastAgainstOpenCv,
-                         testing::ValuesIn(supportedInstructionSets()));
+                         testing::ValuesIn(supportedInstructionSets()),
+                         [](const auto& set) { return std::string(nameOf(set.param)); });
 
 }  // namespace
 }  // namespace ardrone_vslam::test

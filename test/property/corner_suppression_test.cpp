@@ -234,7 +234,8 @@ TEST_P(Suppressions, HoldWithTheThresholdOfEachCell) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Arcs, Suppressions, testing::Values(9, 10, 11, 12));
+INSTANTIATE_TEST_SUITE_P(Arcs, Suppressions, testing::Values(9, 10, 11, 12),
+                         testing::PrintToStringParamName());
 
 TEST(SamplingRaster, TestsEachPixelOfABlockOnce) {
   for (int y = 0; y < 8; ++y) {

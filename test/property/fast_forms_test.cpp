@@ -84,7 +84,8 @@ TEST_P(FastForms, LargeRandomImages) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Arcs, FastForms, testing::Values(9, 10, 11, 12));
+INSTANTIATE_TEST_SUITE_P(Arcs, FastForms, testing::Values(9, 10, 11, 12),
+                         testing::PrintToStringParamName());
 
 /// Three rows of an image and their maxima, both ways of handling ties.
 std::vector<std::uint16_t> maximaOf(const Kernels& kernels, const GreyImage& image, int y,

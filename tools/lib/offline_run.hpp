@@ -36,7 +36,7 @@ struct RunResult {
   std::vector<Landmark> landmarks;
   int frames_without_observer =
       0;  ///< no odometry at the image's stamp: before the first state, in a gap, or after the last
-  int observer_states_refused = 0;  ///< not finite, duplicate or backward stamps
+  int observer_states_refused = 0;  ///< not finite, out of bounds, duplicate or backward stamps
   /// The tracks moved for seconds on end by more than the observer's turning explains.
   bool images_travel = false;
   double scale_error = 0;  ///< the one drawn for the observer

@@ -12,6 +12,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "ardrone_vslam/slam.hpp"
 #include "bag_messages.hpp"
 #include "bag_read_message.hpp"
 
@@ -41,6 +42,18 @@ std::optional<TruthPose> toTruthPose(const rosbag::MessageInstance& instance) {
     return TruthPose{toNanoseconds(odometry->header.stamp), fromPoseMessage(odometry->pose.pose)};
   }
   return std::nullopt;
+}
+
+/// Says once that the odometry's covariance counts as not given, and why, as the mapper nodelet
+/// does.
+void warnOfCovariance(const std::vector<ObserverState>& states, const std::string& topic,
+                      std::vector<std::string>& warnings) {
+  for (const ObserverState& state : states) {
+    const std::string fault = covarianceFault(state);
+    if (fault.empty()) continue;
+    warnings.push_back(topic + ": " + fault);
+    return;
+  }
 }
 
 bool standsStill(const std::vector<ObserverState>& states) {
@@ -86,6 +99,7 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
   warnOfDropped(too_far, topic, std::string(kTooFarFault) + "; correct the odometry's source",
                 warnings);
   warnOfDropped(backward, topic, "the stamp goes back; correct the clock of its source", warnings);
+  warnOfCovariance(odometry.states, topic, warnings);
   if (odometry.states.empty()) {
     warnings.push_back(topic + ": holds no usable odometry; record a working observer");
   }
@@ -149,10 +163,10 @@ Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base
     pose.position.z = message.transform.translation.z;
     pose.orientation = message.transform.rotation;
     if (const auto T_base_cam = fromPoseMessage(pose)) {
-      if (!isTooFar(T_base_cam->translation())) return *T_base_cam;
-      throw std::runtime_error(bag.getFileName() + ": tf puts the camera frame '" + camera_frame +
-                               "' more than 1e7 m from the base frame '" + base +
-                               "'; correct the transform");
+      const std::string fault = mountingFault(*T_base_cam);
+      if (fault.empty()) return *T_base_cam;
+      throw std::runtime_error(bag.getFileName() + ": tf from the base frame '" + base +
+                               "' to the camera frame '" + camera_frame + "': " + fault);
     }
   } catch (const tf2::TransformException&) {
   }

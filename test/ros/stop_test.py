@@ -1,0 +1,45 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The manager of the launch file does not crash when it is stopped, also not right after its nodelets were loaded."""
+import os
+import signal
+import time
+import unittest
+
+import rosgraph
+import rospkg
+import rospy
+import rostest
+from roslaunch.parent import ROSLaunchParent
+
+TIMEOUT_S = 30.0
+PUBLISHED = {"/vslam/features", "/vslam/status"}  # one of each nodelet
+
+
+def wait_for_nodelets():
+    master = rosgraph.Master("/stop_test")
+    end_s = time.monotonic() + TIMEOUT_S
+    while not PUBLISHED <= {topic for topic, _ in master.getSystemState()[0]}:
+        if time.monotonic() > end_s:
+            raise RuntimeError("the nodelets do not publish")
+        time.sleep(0.02)
+
+
+class Stop(unittest.TestCase):
+    def test_the_manager_ends_without_a_crash(self):
+        rospy.init_node("stop_test")
+        launch_file = os.path.join(rospkg.RosPack().get_path("ardrone_vslam"), "launch", "vslam.launch")
+        launch = ROSLaunchParent(rospy.get_param("/run_id"), [launch_file])
+        launch.start()
+        try:
+            wait_for_nodelets()
+            # Alone: roslaunch stops the loaders as well, and who is first is chance.
+            manager = next(p.popen for p in launch.pm.procs if p.name.startswith("vslam/manager"))
+            manager.send_signal(signal.SIGINT)
+            self.assertEqual(manager.wait(TIMEOUT_S), 0)
+        finally:
+            launch.shutdown()
+
+
+if __name__ == "__main__":
+    rostest.rosrun("ardrone_vslam", "stop", Stop)
