@@ -21,7 +21,7 @@ constexpr std::size_t kBlock = 4;
 using Means = std::array<std::uint8_t, kernels::kFreakPaddedFields>;
 
 /// A keypoint on its way to a descriptor.
-struct Patch {
+struct alignas(64) Patch {
   int x_px, y_px, scale;
   int orientation;
   Means means;

@@ -56,9 +56,9 @@ struct FreakImage {
   int width_px, height_px;
 };
 
-/// Entries between the rows of an integral image: room for a row's pixels in whole blocks of 32.
+/// Entries between the rows of an integral image: room for a row's pixels in whole blocks of 8.
 constexpr std::ptrdiff_t freakIntegralStride(int width_px) {
-  return (width_px + 31) / 32 * 32 + 2;
+  return (width_px + 7) / 8 * 8 + 1;
 }
 
 /// Integral image: (width + 1) x (height + 1) entries, rows `stride` entries apart; the first row
@@ -71,8 +71,7 @@ void freakIntegral16Scalar(const FreakImage& image, std::uint16_t* sums, std::pt
 void freakIntegral32Scalar(const FreakImage& image, std::uint32_t* sums, std::ptrdiff_t stride);
 
 /// Rounded mean grey of each field: (sum + area / 2) / area.
-/// @param at_keypoint  the integral image's entry at the keypoint's column and row; the entry
-///   behind each corner of a box must be readable
+/// @param at_keypoint  the integral image's entry at the keypoint's column and row
 /// @param stride  below 2^15
 /// @param boxes  kFreakPaddedFields boxes of one orientation
 /// @param means  kFreakPaddedFields bytes; those beyond kFreakFields may stay unwritten
