@@ -7,7 +7,7 @@ function(ardrone_vslam_instruction_sets target)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set_source_files_properties(${avx2} PROPERTIES COMPILE_OPTIONS "-mavx2;-mbmi;-mbmi2;-mpopcnt")
     set_source_files_properties(${avx512} PROPERTIES
-      COMPILE_OPTIONS "-mavx2;-mbmi;-mbmi2;-mpopcnt;-mavx512f;-mavx512bw;-mavx512vl;-mavx512vpopcntdq")
+      COMPILE_OPTIONS "-mavx2;-mbmi;-mbmi2;-mpopcnt;-mavx512f;-mavx512bw;-mavx512vl;-mavx512vbmi;-mavx512vpopcntdq")
     target_compile_definitions(${target} PRIVATE ARDRONE_VSLAM_WITH_AVX2)
     target_sources(${target} PRIVATE ${avx2} ${avx512})
   elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64|^arm")

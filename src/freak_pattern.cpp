@@ -206,8 +206,7 @@ void FreakPattern::computeComparisons() {
       // Within 16 bytes the published order runs from the last byte to the first.
       const int selected = 128 * (byte / 16) + 16 * bit + 15 - byte % 16;
       const auto& pair = all_pairs[kFreakSelectedPairs[static_cast<std::size_t>(selected)]];
-      comparisons_.first.set(64 * bit + byte, pair[0]);
-      comparisons_.second.set(64 * bit + byte, pair[1]);
+      comparisons_.set(bit, byte, pair[0], pair[1]);
     }
   }
 }

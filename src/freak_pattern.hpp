@@ -33,8 +33,8 @@ FreakPixelBox boxAround(const FreakField& field, int x_px, int y_px);
 
 /// FREAK's sampling pattern: 43 fields in rings of 6, 6, 6, 6, 6, 6, 6, 1, turned to 256
 /// orientations and enlarged by 2^(k / 16) for the scales k = 0..63. Constant once constructed;
-/// about 110 KB, of which a keypoint of the pattern's own size needs 58: the boxes of scale 0 (53
-/// KB), the lists of pairs (5 KB). The others are the directions of the ring points (48 KB), from
+/// about 111 KB, of which a keypoint of the pattern's own size needs 59: the boxes of scale 0 (53
+/// KB), the lists of pairs (6 KB). The others are the directions of the ring points (48 KB), from
 /// which fields at other scales are computed on the fly.
 class FreakPattern {
  public:

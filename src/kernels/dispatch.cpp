@@ -24,6 +24,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.project = projectAvx2;
   }
   if (set == InstructionSet::kAvx512) {
+    kernels.freak_bits = freakBitsAvx512;
     kernels.hamming_nearest = hammingNearestAvx512;
     kernels.hamming_mutual = hammingMutualAvx512;
     kernels.hamming_distances = hammingDistancesAvx512;
