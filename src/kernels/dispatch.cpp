@@ -28,6 +28,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_nearest = hammingNearestAvx512;
     kernels.hamming_mutual = hammingMutualAvx512;
     kernels.hamming_distances = hammingDistancesAvx512;
+    kernels.project = projectAvx512;
   }
 #endif
 #ifdef ARDRONE_VSLAM_WITH_NEON
