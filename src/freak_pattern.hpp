@@ -70,7 +70,7 @@ class FreakPattern {
   /// @return the scale for a keypoint of that size; 7 px and less is scale 0.
   static int scaleOf(float size_px);
   /// @return keypoints at x <= border or x >= width - border do not fit; rows alike.
-  int border_px(int scale) const;
+  int border_px(int scale) const { return border_px_[static_cast<std::size_t>(scale)]; }
 
   const kernels::FreakOrientationPairs& orientationPairs() const { return orientation_pairs_; }
   const kernels::FreakComparisons& comparisons() const { return comparisons_; }
@@ -91,6 +91,7 @@ class FreakPattern {
   void computeComparisons();
 
   std::array<double, kFreakScales> enlargement_{};
+  std::array<int, kFreakScales> border_px_{};
   std::array<Directions, kFreakOrientations> directions_{};
   std::vector<Row> rows_;
   std::array<std::array<std::uint16_t, 4>, kFreakOrientations> row_{};  ///< by evenness of y, x
