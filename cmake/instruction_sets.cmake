@@ -6,11 +6,8 @@ function(ardrone_vslam_instruction_sets target)
   file(GLOB neon CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/kernels/*_neon.cpp)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set_source_files_properties(${avx2} PROPERTIES COMPILE_OPTIONS "-mavx2;-mbmi;-mbmi2;-mpopcnt")
-    # Its plain loads are twice as fast as the vectors that the compiler would make of them.
-    set_property(SOURCE ${CMAKE_CURRENT_SOURCE_DIR}/src/kernels/freak_avx2.cpp
-      APPEND PROPERTY COMPILE_OPTIONS "-fno-tree-vectorize")
     set_source_files_properties(${avx512} PROPERTIES
-      COMPILE_OPTIONS "-mavx2;-mbmi;-mbmi2;-mpopcnt;-mavx512f;-mavx512bw;-mavx512vl;-mavx512vpopcntdq")
+      COMPILE_OPTIONS "-mavx2;-mbmi;-mbmi2;-mpopcnt;-mavx512f;-mavx512bw;-mavx512vl;-mavx512vbmi;-mavx512vpopcntdq")
     target_compile_definitions(${target} PRIVATE ARDRONE_VSLAM_WITH_AVX2)
     target_sources(${target} PRIVATE ${avx2} ${avx512})
   elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64|^arm")

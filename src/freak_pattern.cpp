@@ -85,7 +85,10 @@ FreakPixelBox boxAround(const FreakField& field, int x_px, int y_px) {
 FreakPattern::FreakPattern() {
   const double step = std::pow(2.0, static_cast<double>(kOctaves) / kFreakScales);
   for (int scale = 0; scale < kFreakScales; ++scale) {
-    enlargement_[static_cast<std::size_t>(scale)] = std::pow(step, scale);
+    const double factor = std::pow(step, scale);
+    enlargement_[static_cast<std::size_t>(scale)] = factor;
+    border_px_[static_cast<std::size_t>(scale)] =
+        static_cast<int>(std::ceil((kRadius[0] + ringSigma(0)) * factor * kPatternScale_px)) + 1;
   }
   for (int orientation = 0; orientation < kFreakOrientations; ++orientation) {
     const double theta = orientation * 2 * kPi / kFreakOrientations;
@@ -118,11 +121,6 @@ int FreakPattern::scaleOf(float size_px) {
   const auto per_log = static_cast<float>(kFreakScales / (std::log(2.0) * kOctaves));
   const double scale = std::log(size_px / kSmallestSize_px) * per_log + 0.5;
   return static_cast<int>(std::min(scale, kFreakScales - 1.0));
-}
-
-int FreakPattern::border_px(int scale) const {
-  const double factor = enlargement_[static_cast<std::size_t>(scale)];
-  return static_cast<int>(std::ceil((kRadius[0] + ringSigma(0)) * factor * kPatternScale_px)) + 1;
 }
 
 void FreakPattern::computeBoxes(int orientation) {
@@ -206,8 +204,7 @@ void FreakPattern::computeComparisons() {
       // Within 16 bytes the published order runs from the last byte to the first.
       const int selected = 128 * (byte / 16) + 16 * bit + 15 - byte % 16;
       const auto& pair = all_pairs[kFreakSelectedPairs[static_cast<std::size_t>(selected)]];
-      comparisons_.first.set(64 * bit + byte, pair[0]);
-      comparisons_.second.set(64 * bit + byte, pair[1]);
+      comparisons_.set(bit, byte, pair[0], pair[1]);
     }
   }
 }

@@ -33,8 +33,8 @@ FreakPixelBox boxAround(const FreakField& field, int x_px, int y_px);
 
 /// FREAK's sampling pattern: 43 fields in rings of 6, 6, 6, 6, 6, 6, 6, 1, turned to 256
 /// orientations and enlarged by 2^(k / 16) for the scales k = 0..63. Constant once constructed;
-/// about 110 KB, of which a keypoint of the pattern's own size needs 58: the boxes of scale 0 (53
-/// KB), the lists of pairs (5 KB). The others are the directions of the ring points (48 KB), from
+/// about 111 KB, of which a keypoint of the pattern's own size needs 59: the boxes of scale 0 (53
+/// KB), the lists of pairs (6 KB). The others are the directions of the ring points (48 KB), from
 /// which fields at other scales are computed on the fly.
 class FreakPattern {
  public:
@@ -70,7 +70,7 @@ class FreakPattern {
   /// @return the scale for a keypoint of that size; 7 px and less is scale 0.
   static int scaleOf(float size_px);
   /// @return keypoints at x <= border or x >= width - border do not fit; rows alike.
-  int border_px(int scale) const;
+  int border_px(int scale) const { return border_px_[static_cast<std::size_t>(scale)]; }
 
   const kernels::FreakOrientationPairs& orientationPairs() const { return orientation_pairs_; }
   const kernels::FreakComparisons& comparisons() const { return comparisons_; }
@@ -91,6 +91,7 @@ class FreakPattern {
   void computeComparisons();
 
   std::array<double, kFreakScales> enlargement_{};
+  std::array<int, kFreakScales> border_px_{};
   std::array<Directions, kFreakOrientations> directions_{};
   std::vector<Row> rows_;
   std::array<std::array<std::uint16_t, 4>, kFreakOrientations> row_{};  ///< by evenness of y, x

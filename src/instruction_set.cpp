@@ -14,7 +14,7 @@ std::vector<InstructionSet> supportedInstructionSets() {
   if (__builtin_cpu_supports("avx2")) {
     sets.push_back(InstructionSet::kAvx2);
     if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512vpopcntdq")) {
+        __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("avx512vpopcntdq")) {
       sets.push_back(InstructionSet::kAvx512);
     }
   }

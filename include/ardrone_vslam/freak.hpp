@@ -36,7 +36,7 @@ void visitParameters(FreakConfig& c, Visitor&& visit) {
 /// ch. 4. Bits run coarse to fine: the first 128 compare the outer fields. Random pairs of real
 /// images differ in a median of 215 bits.
 ///
-/// About 110 KB of tables, computed at construction (58 KB of them are used at the pattern's own
+/// About 111 KB of tables, computed at construction (59 KB of them are used at the pattern's own
 /// size), plus one integral image of the frame: 2 bytes
 /// a pixel for keypoints of the pattern's own size, 4 for larger ones. Its buffer is kept, so later
 /// frames of the same size do not allocate. An object is not for use from two threads at once.

@@ -24,9 +24,11 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.project = projectAvx2;
   }
   if (set == InstructionSet::kAvx512) {
+    kernels.freak_bits = freakBitsAvx512;
     kernels.hamming_nearest = hammingNearestAvx512;
     kernels.hamming_mutual = hammingMutualAvx512;
     kernels.hamming_distances = hammingDistancesAvx512;
+    kernels.project = projectAvx512;
   }
 #endif
 #ifdef ARDRONE_VSLAM_WITH_NEON

@@ -44,9 +44,19 @@ struct FreakOrientationPairs {
   alignas(64) std::int16_t weight_y[kFreakPaddedPairs];
 };
 
-/// Entry 64 q + b of the lists gives bit q of byte b of the descriptor. 4 KB.
+/// Entry 64 q + b of the lists gives bit q of byte b of the descriptor. 5 KB.
 struct FreakComparisons {
   FreakFieldList<kFreakComparisons> first, second;
+  /// The same fields in the order of the descriptor's bits.
+  alignas(64) std::uint8_t first_in_order[kFreakComparisons];
+  alignas(64) std::uint8_t second_in_order[kFreakComparisons];
+
+  void set(int bit, int byte, int first_field, int second_field) {
+    first.set(64 * bit + byte, first_field);
+    second.set(64 * bit + byte, second_field);
+    first_in_order[8 * byte + bit] = static_cast<std::uint8_t>(first_field);
+    second_in_order[8 * byte + bit] = static_cast<std::uint8_t>(second_field);
+  }
 };
 
 /// Grey image, rows `stride_bytes` apart.
@@ -56,9 +66,9 @@ struct FreakImage {
   int width_px, height_px;
 };
 
-/// Entries between the rows of an integral image: room for a row's pixels in whole blocks of 32.
+/// Entries between the rows of an integral image: room for a row's pixels in whole blocks of 8.
 constexpr std::ptrdiff_t freakIntegralStride(int width_px) {
-  return (width_px + 31) / 32 * 32 + 2;
+  return (width_px + 7) / 8 * 8 + 1;
 }
 
 /// Integral image: (width + 1) x (height + 1) entries, rows `stride` entries apart; the first row
@@ -71,8 +81,7 @@ void freakIntegral16Scalar(const FreakImage& image, std::uint16_t* sums, std::pt
 void freakIntegral32Scalar(const FreakImage& image, std::uint32_t* sums, std::ptrdiff_t stride);
 
 /// Rounded mean grey of each field: (sum + area / 2) / area.
-/// @param at_keypoint  the integral image's entry at the keypoint's column and row; the entry
-///   behind each corner of a box must be readable
+/// @param at_keypoint  the integral image's entry at the keypoint's column and row
 /// @param stride  below 2^15
 /// @param boxes  kFreakPaddedFields boxes of one orientation
 /// @param means  kFreakPaddedFields bytes; those beyond kFreakFields may stay unwritten
@@ -98,6 +107,8 @@ void freakMeansAvx2(const std::uint16_t* at_keypoint, std::ptrdiff_t stride, con
 void freakOrientationAvx2(const std::uint8_t* means, const FreakOrientationPairs& pairs,
                           std::int32_t* sums);
 void freakBitsAvx2(const std::uint8_t* means, const FreakComparisons& lists, std::uint64_t* words);
+void freakBitsAvx512(const std::uint8_t* means, const FreakComparisons& lists,
+                     std::uint64_t* words);
 void freakIntegral16Neon(const FreakImage& image, std::uint16_t* sums, std::ptrdiff_t stride);
 void freakMeansNeon(const std::uint16_t* at_keypoint, std::ptrdiff_t stride, const FreakBox* boxes,
                     std::uint8_t* means);
