@@ -55,7 +55,8 @@ Frames renderedStreet() {
 }  // namespace
 
 bool dataIsReal() {
-  return std::getenv("ARDRONE_VSLAM_DATA") != nullptr;
+  const char* folder = std::getenv("ARDRONE_VSLAM_DATA");
+  return folder != nullptr && *folder != '\0';
 }
 
 const Frames& streetFrames() {
