@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <optional>
 
 #include "ardrone_vslam/tracker.hpp"
 #include "support/generated_image.hpp"
@@ -51,10 +52,13 @@ CameraIntrinsics camera() {
   return intrinsics;
 }
 
-TEST(TrackerAllocation, NoneAfterWarmUp) {
-  const test::TestImage scene = test::generatedImage(760, 420);
+/// Lets a tracker see a moving scene until its buffers have grown, then counts.
+/// @param turnOf  the scene's turn in frame i
+template <class TurnOf>
+void expectNoneAfterWarmUp(const TrackerConfig& config, const TurnOf& turnOf) {
+  static const test::TestImage scene = test::generatedImage(760, 420);
   constexpr int kCycle_frames = 40;
-  const auto frameAt = [&scene](int i) {
+  const auto frameAt = [](int i) {
     const int step = i % kCycle_frames;
     ImageView view = scene.view();
     view.data += (step % 20) * 2 * scene.stride_bytes + step * 3;
@@ -62,19 +66,52 @@ TEST(TrackerAllocation, NoneAfterWarmUp) {
     view.height_px = camera().height_px;
     return view;
   };
-  Tracker tracker({}, camera());
+  Tracker tracker(config, camera());
   ImageFeatures features;
   int frame = 0;
-  for (; frame < 3 * kCycle_frames; ++frame) tracker.process(frameAt(frame), frame + 1, features);
+  const auto process = [&] {
+    tracker.process(frameAt(frame), frame + 1, features, {}, turnOf(frame));
+    ++frame;
+  };
+  while (frame < 3 * kCycle_frames) process();
   const long before = allocations;
   ASSERT_GT(before, 0) << "allocations are not counted";
   std::size_t found = 0;
-  for (int end = frame + kCycle_frames; frame < end; ++frame) {
-    tracker.process(frameAt(frame), frame + 1, features);
+  while (frame < 4 * kCycle_frames) {
+    process();
     found += features.size();
   }
   EXPECT_EQ(allocations - before, 0);
   EXPECT_GT(found, 100U * kCycle_frames) << "there was hardly anything to do";
+}
+
+std::optional<float> unknownTurn(int) {
+  return std::nullopt;
+}
+
+TEST(TrackerAllocation, NoneAfterWarmUp) {
+  expectNoneAfterWarmUp({}, unknownTurn);
+}
+
+TEST(TrackerAllocation, NoneWithAttitudeThatComesAndGoes) {
+  TrackerConfig config;
+  config.use_attitude = true;
+  expectNoneAfterWarmUp(config, [](int frame) -> std::optional<float> {
+    if (frame % 3 == 0) return std::nullopt;
+    return 0.1F * static_cast<float>(frame % 60) - 3.F;
+  });
+}
+
+TEST(TrackerAllocation, NoneWithFewerPassesOrStrictSuppression) {
+  for (const int passes : {1, 3, 8, 16}) {
+    for (const Suppression suppression : {Suppression::kLocalClimb, Suppression::kStrict3x3}) {
+      SCOPED_TRACE(passes);
+      TrackerConfig config;
+      config.corners.sampling_passes = passes;
+      config.corners.suppression = suppression;
+      expectNoneAfterWarmUp(config, unknownTurn);
+    }
+  }
 }
 
 }  // namespace
