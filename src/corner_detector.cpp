@@ -17,7 +17,8 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr int kBorderPx = kernels::kCircleRadiusPx;
+constexpr int kBorderPx = CornerDetector::kBorder_px;
+static_assert(kBorderPx == kernels::kCircleRadiusPx);
 constexpr int kAllPasses = 16;
 /// From so many passes on vector kernels test all pixels all the same: that costs less than to
 /// score on demand those that the climbs ask for.

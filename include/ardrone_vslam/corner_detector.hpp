@@ -93,6 +93,9 @@ void visitParameters(CornerDetectorConfig& c, Visitor&& visit) {
 /// time.
 class CornerDetector {
  public:
+  /// Pixels nearer to the border are not tested, as their circle of pixels is not in the image.
+  static constexpr int kBorder_px = 3;
+
   /// @param set  one of supportedInstructionSets(); the corners are the same with each
   /// @throws ConfigError listing every parameter out of its range, threshold_min above
   ///   threshold_max, and a `threshold` outside of threshold_min..threshold_max when it is to

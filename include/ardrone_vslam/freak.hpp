@@ -20,6 +20,10 @@ struct FreakKeypoint {
   float size_px = 7.F;
 };
 
+/// Keypoints of size 7 at least so far from the left and upper border, and one pixel less from the
+/// others, can be described.
+constexpr int kFreakBorder_px = 24;
+
 struct FreakConfig {
   bool oriented = true;
 };
