@@ -21,12 +21,14 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_nearest = hammingNearestAvx2;
     kernels.hamming_mutual = hammingMutualAvx2;
     kernels.hamming_distances = hammingDistancesAvx2;
+    kernels.hamming_window = hammingWindowAvx2;
     kernels.project = projectAvx2;
   }
   if (set == InstructionSet::kAvx512) {
     kernels.hamming_nearest = hammingNearestAvx512;
     kernels.hamming_mutual = hammingMutualAvx512;
     kernels.hamming_distances = hammingDistancesAvx512;
+    kernels.hamming_window = hammingWindowAvx512;
   }
 #endif
 #ifdef ARDRONE_VSLAM_WITH_NEON
@@ -42,6 +44,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_nearest = hammingNearestNeon;
     kernels.hamming_mutual = hammingMutualNeon;
     kernels.hamming_distances = hammingDistancesNeon;
+    kernels.hamming_window = hammingWindowNeon;
     kernels.project = projectNeon;
   }
 #endif
