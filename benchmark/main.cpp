@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   bench::addDescriptorRows();
   bench::addMatchingRows();
   bench::addProjectionRows();
+  bench::addGuidedRows();
   bench::addTrackerRows();
   benchmark::RunSpecifiedBenchmarks();
   return 0;
