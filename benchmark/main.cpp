@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::AddCustomContext("instruction_set", nameOf(instructionSetInUse().set));
   benchmark::AddCustomContext("opencv", CV_VERSION);
+  benchmark::AddCustomContext("libbenchmark", ARDRONE_VSLAM_LIBBENCHMARK);
   benchmark::AddCustomContext("compiler", __VERSION__);
   benchmark::AddCustomContext("frames", bench::dataIsReal() ? "KITTI 03" : "rendered");
   bench::addCornerRows();

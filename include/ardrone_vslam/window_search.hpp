@@ -22,7 +22,7 @@ class WindowSearch {
   explicit WindowSearch(InstructionSet set = instructionSetInUse().set);
   ~WindowSearch();
 
-  /// Begins anew with these entries. O(entries + cells); cells are 32 px wide, or as many as 256
+  /// Begins anew with these entries. O(entries + cells); cells are 24 px wide, or as many as 256
   /// along the longer side.
   /// @param places_px  one for each descriptor; what is not finite is never found
   /// @param left_out  marks entries that are never found; empty: none
