@@ -76,7 +76,7 @@ void Associator::matchLandmarks(const FrameView& view, LandmarkMap& map,
   columns.project(view, {config_.max_view_angle_deg, config_.max_distance_ratio}, visible_);
   result.in_view = static_cast<int>(visible_.count);
   begin(view, visible_.count);
-  result.method = chooseMethod(view, columns);
+  result.method = chooseMethod(view, map, columns);
   if (result.method == MatchMethod::kGuided) {
     matchGuided(view, map, columns, result);
   } else {
@@ -84,7 +84,7 @@ void Associator::matchLandmarks(const FrameView& view, LandmarkMap& map,
   }
 }
 
-MatchMethod Associator::chooseMethod(const FrameView& view, const LandmarkColumns& columns) {
+bool Associator::windowsAreWide(const FrameView& view, const LandmarkColumns& columns) {
   const auto radiusOf = [&](std::size_t landmark, float distance_m) {
     const double margin = margin_px(view, columns.positionVariance_m2(landmark), distance_m);
     return static_cast<float>(config_.search_radius_px + margin);
@@ -101,13 +101,20 @@ MatchMethod Associator::chooseMethod(const FrameView& view, const LandmarkColumn
       if (distance_m > 0) sorted_radii_px_.push_back(radiusOf(i, distance_m));
     }
   }
-  if (sorted_radii_px_.empty()) return MatchMethod::kGuided;
+  if (sorted_radii_px_.empty()) return false;
   const auto median =
       sorted_radii_px_.begin() + static_cast<std::ptrdiff_t>(sorted_radii_px_.size() / 2);
   std::nth_element(sorted_radii_px_.begin(), median, sorted_radii_px_.end());
-  if (*median <= config_.max_window_share * view.features().width_px) return MatchMethod::kGuided;
-  const bool is_large = columns.size() >= static_cast<std::size_t>(config_.index_from_landmarks);
-  return is_large ? MatchMethod::kIndexed : MatchMethod::kExact;
+  return *median > config_.max_window_share * view.features().width_px;
+}
+
+MatchMethod Associator::chooseMethod(const FrameView& view, LandmarkMap& map,
+                                     const LandmarkColumns& columns) {
+  if (!windowsAreWide(view, columns)) return MatchMethod::kGuided;
+  if (map.size() < static_cast<std::size_t>(config_.index_from_landmarks))
+    return MatchMethod::kExact;
+  // The index is built over several frames, so that none of them waits for all of it.
+  return map.advanceIndex() ? MatchMethod::kIndexed : MatchMethod::kExact;
 }
 
 void Associator::matchGuided(const FrameView& view, const LandmarkMap& map,

@@ -105,7 +105,9 @@ class Associator {
   int featureOfTrack(std::uint32_t track_id) const;
   int bestFeature(int target) const;
   double margin_px(const FrameView& view, double position_variance_m2, double distance_m) const;
-  MatchMethod chooseMethod(const FrameView& view, const LandmarkColumns& columns);
+  bool windowsAreWide(const FrameView& view, const LandmarkColumns& columns);
+  MatchMethod chooseMethod(const FrameView& view, LandmarkMap& map,
+                           const LandmarkColumns& columns);
   void matchGuided(const FrameView& view, const LandmarkMap& map, const LandmarkColumns& columns,
                    AssociationResult& result);
   void matchGlobally(const FrameView& view, LandmarkMap& map, const LandmarkColumns& columns,
