@@ -34,6 +34,12 @@ FrameTracker::FrameTracker(const FrameTrackerConfig& config, std::uint32_t first
 
 FrameTracker::~FrameTracker() = default;
 
+void FrameTracker::reserve(std::size_t features, int width_px, int height_px) {
+  state_->previous.reserve(features);
+  state_->of_present.reserve(features);
+  state_->windows.reserve(features, width_px, height_px);
+}
+
 std::uint32_t FrameTracker::nextTrackId() const {
   return state_->next_id;
 }

@@ -45,6 +45,7 @@ struct Tracker::State {
   std::vector<FreakKeypoint> keypoints;   // corners that have a bearing
   std::vector<int> described;             // indices into keypoints
 
+  void reserve(std::size_t budget);
   void keepCornersWithBearing();
   void collect(const ImageView& image, std::int64_t stamp_ns, ImageFeatures& features) const;
 };
@@ -53,6 +54,24 @@ Tracker::Tracker(const TrackerConfig& config, const CameraIntrinsics& camera,
                  std::uint32_t first_track_id) {
   validate(config);
   state_ = std::make_unique<State>(config, camera, first_track_id);
+  state_->reserve(static_cast<std::size_t>(config.corners.features_per_frame));
+}
+
+/// Room for the whole budget, so that a rich image after dull ones allocates nothing.
+void Tracker::State::reserve(std::size_t budget) {
+  const int width_px = camera.intrinsics().width_px;
+  const int height_px = camera.intrinsics().height_px;
+  bearings.reserve(budget);
+  scores.reserve(budget);
+  frame_tracker.reserve(budget, width_px, height_px);
+  // The describer's own buffers grow with what it is given: as much as it will ever be.
+  const std::vector<std::uint8_t> black(static_cast<std::size_t>(width_px) *
+                                        static_cast<std::size_t>(height_px));
+  std::vector<Descriptor> descriptors;
+  keypoints.assign(budget, {width_px / 2, height_px / 2});
+  described.reserve(budget);
+  describer.describe({black.data(), width_px, height_px, width_px}, keypoints, described,
+                     descriptors);
 }
 
 Tracker::~Tracker() = default;
@@ -75,6 +94,7 @@ void Tracker::process(const ImageView& image, std::int64_t stamp_ns, ImageFeatur
     if (hook) hook(stage);
   };
   features.clear();
+  features.reserve(s.keypoints.capacity());  // the corner budget
 
   enter(Stage::kDetect);
   s.detector.detect(describablePart(image), s.corners);

@@ -97,6 +97,23 @@ void WindowSearch::State::resizeArrays(std::size_t count) {
   ranges.resize(at(rows));
 }
 
+void WindowSearch::reserve(std::size_t entries, int width_px, int height_px) {
+  State& s = *state_;
+  const std::size_t room = entries + kernels::kWindowPadding;
+  s.position_of_entry.reserve(entries);
+  s.descriptor.reserve(room);
+  s.x_px.reserve(room);
+  s.y_px.reserve(room);
+  s.entry.reserve(room);
+  s.nearest_query.reserve(room);
+  s.nearest_query_bits.reserve(room);
+  const auto rows = at(1 + static_cast<int>(static_cast<float>(height_px) / kCell_px));
+  const auto columns = at(1 + static_cast<int>(static_cast<float>(width_px) / kCell_px));
+  s.first.reserve(rows * columns + 1);
+  s.fill.reserve(rows * columns);
+  s.ranges.reserve(rows);
+}
+
 void WindowSearch::build(const std::vector<Eigen::Vector2f>& places_px,
                          const std::vector<Descriptor>& descriptors,
                          const std::vector<bool>& left_out) {

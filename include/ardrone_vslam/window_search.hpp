@@ -22,6 +22,9 @@ class WindowSearch {
   explicit WindowSearch(InstructionSet set = instructionSetInUse().set);
   ~WindowSearch();
 
+  /// Makes room for so many entries within a box of this size, so that build() does not allocate.
+  void reserve(std::size_t entries, int width_px, int height_px);
+
   /// Begins anew with these entries. O(entries + cells); cells are 24 px wide, or as many as 256
   /// along the longer side.
   /// @param places_px  one for each descriptor; what is not finite is never found
