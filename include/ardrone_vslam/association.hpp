@@ -78,8 +78,7 @@ struct AssociationResult {
   std::vector<int> missed;  ///< targets in view without a match; none unless guided
 };
 
-/// Finds the landmarks and map features that a frame shows, and removes mismatches (algorithm.md 8,
-/// thesis 5.3).
+/// Finds the landmarks and map features that a frame shows, and removes mismatches (thesis 5.3).
 class Associator {
  public:
   explicit Associator(const AssociationConfig& config);
@@ -106,8 +105,7 @@ class Associator {
   int bestFeature(int target) const;
   double margin_px(const FrameView& view, double position_variance_m2, double distance_m) const;
   bool windowsAreWide(const FrameView& view, const LandmarkColumns& columns);
-  MatchMethod chooseMethod(const FrameView& view, LandmarkMap& map,
-                           const LandmarkColumns& columns);
+  MatchMethod chooseMethod(const FrameView& view, LandmarkMap& map, const LandmarkColumns& columns);
   void matchGuided(const FrameView& view, const LandmarkMap& map, const LandmarkColumns& columns,
                    AssociationResult& result);
   void matchGlobally(const FrameView& view, LandmarkMap& map, const LandmarkColumns& columns,

@@ -75,7 +75,7 @@ void visitParameters(CornerDetectorConfig& c, Visitor&& visit) {
         c.threshold_max);
 }
 
-/// FAST-s corners (algorithm.md 1, 2; thesis 3.1-3.6), thinned by non-maximum suppression and
+/// FAST-s corners (thesis 3.1-3.6), thinned by non-maximum suppression and
 /// spread over the image.
 ///
 /// A pixel is a corner at threshold t if arc_length_px circle pixels in a row are all brighter

@@ -25,7 +25,7 @@ class FrameView {
   void reset(const ImageFeatures& features, const Eigen::Isometry3d& T_map_cam, bool planar);
 
   /// How well the position is known: its variance per axis, and whether drift is shared
-  /// (estimator.md, lesson 4).
+  /// (common drift, docs/data_path.md).
   void setPositionVariance(double variance_m2, bool common_drift) {
     position_variance_m2_ = variance_m2;
     common_drift_ = common_drift;

@@ -26,8 +26,8 @@ struct Landmark {
   double depth_deviation_m = 0;  ///< along the ray of its last triangulation
   Ray first_ray;                 ///< of the first view, by which it was triangulated
   double parallax_rad = 0;       ///< between the first view and the one of its last triangulation
-  double position_variance_m2 =
-      0;  ///< of the base position, per axis, when the landmark was made (P_a of lesson 4)
+  double position_variance_m2 = 0;  ///< of the base position, per axis, when the landmark was made
+                                    ///< (common drift, docs/data_path.md)
   Descriptor descriptor;
   double height_m =
       0;  ///< above the camera that saw it last; used in 2-D mode, where positions have no height
