@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   benchmark::AddCustomContext("opencv", CV_VERSION);
   benchmark::AddCustomContext("libbenchmark", ARDRONE_VSLAM_LIBBENCHMARK);
   benchmark::AddCustomContext("compiler", __VERSION__);
-  benchmark::AddCustomContext("frames", bench::dataIsReal() ? "KITTI 03" : "rendered");
+  benchmark::AddCustomContext("frames", bench::dataFolder() ? "KITTI 03" : "rendered");
   bench::addCornerRows();
   bench::addDescriptorRows();
   bench::addMatchingRows();

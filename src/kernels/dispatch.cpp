@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernels/hamming_distances.hpp"
 #include "kernels/kernels.hpp"
 
 namespace ardrone_vslam::kernels {

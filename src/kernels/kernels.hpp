@@ -4,6 +4,7 @@
 #include "ardrone_vslam/instruction_set.hpp"
 #include "kernels/fast_kernels.hpp"
 #include "kernels/freak_kernels.hpp"
+#include "kernels/hamming_distances.hpp"
 #include "kernels/hamming_kernels.hpp"
 #include "kernels/hamming_window.hpp"
 #include "kernels/project_kernels.hpp"
