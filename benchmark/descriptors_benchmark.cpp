@@ -2,8 +2,8 @@
 #include <memory>
 #include <opencv2/features2d.hpp>
 
-#include "ardrone_vslam/corner_detector.hpp"
 #include "ardrone_vslam/freak.hpp"
+#include "ardrone_vslam/tracker.hpp"
 #include "frames.hpp"
 #include "row.hpp"
 #include "rows.hpp"
@@ -13,18 +13,20 @@ namespace {
 
 constexpr int kKeypoints = 600;
 
-/// The strongest corners of each frame, for ours and the peers alike.
+/// The tracker's features in each frame, for ours and the peers alike.
 const std::vector<std::vector<FreakKeypoint>>& keypoints() {
   static const auto all = [] {
-    CornerDetectorConfig config;
-    config.features_per_frame = kKeypoints;
-    CornerDetector detector(config);
+    TrackerConfig config;
+    config.corners.features_per_frame = kKeypoints;
+    Tracker tracker(config, streetFrames().camera);
     std::vector<std::vector<FreakKeypoint>> of_frames;
-    std::vector<Corner> corners;
+    ImageFeatures features;
     for (std::size_t i = 0; i < streetFrames().images.size(); ++i) {
-      detector.detect(streetFrames().view(i), corners);
+      tracker.process(streetFrames().view(i), static_cast<std::int64_t>(i + 1), features);
       of_frames.emplace_back();
-      for (const Corner& corner : corners) of_frames.back().push_back({corner.x_px, corner.y_px});
+      for (const Eigen::Vector2f& pixel_px : features.pixel_px)
+        of_frames.back().push_back(
+            {static_cast<int>(pixel_px.x()), static_cast<int>(pixel_px.y())});
     }
     return of_frames;
   }();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "descriptors_of_frames.hpp"
 
-#include <cstdlib>
 #include <map>
 #include <memory>
 
@@ -17,7 +16,7 @@ constexpr std::size_t kQueries = 1000;
 constexpr std::size_t kQueryInterval_frames = 10;
 
 std::unique_ptr<Sequence> longSequence() {
-  if (dataIsReal()) return openFolder(std::string(std::getenv("ARDRONE_VSLAM_DATA")) + "/kitti_03");
+  if (const auto folder = dataFolder()) return openFolder(*folder + "/kitti_03");
   return std::make_unique<WorldSequence>(WorldOptions{});
 }
 

@@ -14,19 +14,6 @@ constexpr std::size_t kFrames = 24;
 constexpr int kStreetWidth_px = 1242;
 constexpr int kStreetHeight_px = 375;
 
-/// `camera` for images of another size that show the same.
-CameraIntrinsics resized(CameraIntrinsics camera, int width_px, int height_px) {
-  const double sx = static_cast<double>(width_px) / camera.width_px;
-  const double sy = static_cast<double>(height_px) / camera.height_px;
-  camera.width_px = width_px;
-  camera.height_px = height_px;
-  camera.fx_px *= sx;
-  camera.cx_px = (camera.cx_px + 0.5) * sx - 0.5;
-  camera.fy_px *= sy;
-  camera.cy_px = (camera.cy_px + 0.5) * sy - 0.5;
-  return camera;
-}
-
 Frames firstFramesOf(Sequence& sequence) {
   Frames frames;
   frames.camera = sequence.camera();
@@ -36,7 +23,7 @@ Frames firstFramesOf(Sequence& sequence) {
 
 Frames resized(const Frames& frames, int width_px, int height_px) {
   Frames result;
-  result.camera = resized(frames.camera, width_px, height_px);
+  result.camera = bench::resized(frames.camera, width_px, height_px);
   for (const cv::Mat& image : frames.images) {
     cv::Mat small;
     cv::resize(image, small, {width_px, height_px}, 0, 0, cv::INTER_AREA);
@@ -54,14 +41,28 @@ Frames renderedStreet() {
 
 }  // namespace
 
-bool dataIsReal() {
-  return std::getenv("ARDRONE_VSLAM_DATA") != nullptr;
+std::optional<std::string> dataFolder() {
+  const char* folder = std::getenv("ARDRONE_VSLAM_DATA");
+  if (folder == nullptr || *folder == '\0') return std::nullopt;
+  return folder;
+}
+
+CameraIntrinsics resized(CameraIntrinsics camera, int width_px, int height_px) {
+  const double sx = static_cast<double>(width_px) / camera.width_px;
+  const double sy = static_cast<double>(height_px) / camera.height_px;
+  camera.width_px = width_px;
+  camera.height_px = height_px;
+  camera.fx_px *= sx;
+  camera.cx_px = (camera.cx_px + 0.5) * sx - 0.5;
+  camera.fy_px *= sy;
+  camera.cy_px = (camera.cy_px + 0.5) * sy - 0.5;
+  return camera;
 }
 
 const Frames& streetFrames() {
   static const Frames frames = [] {
-    if (!dataIsReal()) return renderedStreet();
-    return firstFramesOf(*openFolder(std::string(std::getenv("ARDRONE_VSLAM_DATA")) + "/kitti_03"));
+    const auto folder = dataFolder();
+    return folder ? firstFramesOf(*openFolder(*folder + "/kitti_03")) : renderedStreet();
   }();
   return frames;
 }

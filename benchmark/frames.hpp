@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,12 @@ struct Frames {
   }
 };
 
-/// Whether the environment variable ARDRONE_VSLAM_DATA names real sequences; without it all frames
-/// are rendered.
-bool dataIsReal();
+/// The folder that the environment variable ARDRONE_VSLAM_DATA names; nothing where it is unset or
+/// empty: then all frames are rendered.
+std::optional<std::string> dataFolder();
+
+/// `camera` for images of another size that show the same.
+CameraIntrinsics resized(CameraIntrinsics camera, int width_px, int height_px);
 
 /// 24 frames of a street, 1242x375 (KITTI 03), or of the synthetic room in that size. Read once.
 const Frames& streetFrames();

@@ -14,12 +14,14 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::AddCustomContext("instruction_set", nameOf(instructionSetInUse().set));
   benchmark::AddCustomContext("opencv", CV_VERSION);
+  benchmark::AddCustomContext("libbenchmark", ARDRONE_VSLAM_LIBBENCHMARK);
   benchmark::AddCustomContext("compiler", __VERSION__);
-  benchmark::AddCustomContext("frames", bench::dataIsReal() ? "KITTI 03" : "rendered");
+  benchmark::AddCustomContext("frames", bench::dataFolder() ? "KITTI 03" : "rendered");
   bench::addCornerRows();
   bench::addDescriptorRows();
   bench::addMatchingRows();
   bench::addProjectionRows();
+  bench::addGuidedRows();
   bench::addTrackerRows();
   benchmark::RunSpecifiedBenchmarks();
   return 0;

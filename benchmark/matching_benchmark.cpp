@@ -17,6 +17,12 @@ namespace {
 constexpr int kProbes = 32;
 constexpr int kTrees = 4;
 constexpr int kChecks = 1200;  // recall of about 95 % at 100,000
+// LSH: the fastest at a recall of about 95 % with 100,000 of those tried, 12 to 30 tables, 16 to 28
+// bits, 0 to 2 levels of probes (20, 24, 1: 0.48 ms a query at 91 %; 20, 22, 1: 0.67 ms at 95 %;
+// 12, 24, 2: 2.0 ms at 97 %).
+constexpr int kHashTables = 20;
+constexpr int kHashBits = 22;
+constexpr int kProbeLevels = 1;
 
 cv::Mat asMat(const std::vector<Descriptor>& descriptors) {
   cv::Mat rows(static_cast<int>(descriptors.size()), sizeof(Descriptor), CV_8U);
@@ -135,7 +141,10 @@ Flann& hierarchicalOf(std::size_t size) {
 Flann& lshOf(std::size_t size) {
   static std::map<std::size_t, std::unique_ptr<Flann>> made;
   auto& flann = made[size];
-  if (!flann) flann = std::make_unique<Flann>(size, cv::flann::LshIndexParams(12, 20, 2));
+  if (!flann) {
+    flann = std::make_unique<Flann>(
+        size, cv::flann::LshIndexParams(kHashTables, kHashBits, kProbeLevels));
+  }
   return *flann;
 }
 

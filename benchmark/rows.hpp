@@ -5,6 +5,7 @@ namespace ardrone_vslam::bench {
 
 void addCornerRows();
 void addDescriptorRows();
+void addGuidedRows();
 void addMatchingRows();
 void addProjectionRows();
 void addTrackerRows();

@@ -11,6 +11,8 @@ namespace {
 constexpr int kNobody = -1;
 /// So many landmarks tell how far away the map is.
 constexpr std::size_t kDistanceSample = 1000;
+/// So many searches ahead a landmark's descriptor is asked for.
+constexpr std::size_t kPrefetched = 8;
 
 }  // namespace
 
@@ -21,7 +23,6 @@ Associator::Associator(const AssociationConfig& config)
 
 void Associator::begin(const FrameView& view, std::size_t target_count) {
   best_of_target_.assign(target_count, BestTwo{});
-  best_of_feature_.assign(view.size(), BestTwo{});
   feature_taken_.assign(view.size(), false);
   targets_in_view_.clear();
   feature_of_track_.clear();
@@ -40,23 +41,12 @@ int Associator::featureOfTrack(std::uint32_t track_id) const {
   return entry == feature_of_track_.end() ? kNobody : entry->second;
 }
 
-void Associator::search(const FrameView& view, const Descriptor& descriptor, const Window& window,
-                        int target) {
-  view.visit(window.centre_px, window.radius_px, [&](int feature) {
-    const auto f = static_cast<std::size_t>(feature);
-    if (feature_taken_[f]) return;
-    const int distance = hammingDistance(descriptor, view.features().descriptor[f]);
-    best_of_target_[static_cast<std::size_t>(target)].offer(feature, distance);
-    best_of_feature_[f].offer(target, distance);
-  });
-}
-
 int Associator::bestFeature(int target) const {
   const BestTwo& best = best_of_target_[static_cast<std::size_t>(target)];
   if (!accept(best, config_.matcher)) return kNobody;
   const auto feature = static_cast<std::size_t>(best.index);
   if (feature_taken_[feature]) return kNobody;  // by a target before, if there is no cross check
-  if (config_.matcher.cross_check && best_of_feature_[feature].index != target) return kNobody;
+  if (config_.matcher.cross_check && windows_.nearestQuery(best.index) != target) return kNobody;
   return best.index;
 }
 
@@ -86,7 +76,7 @@ void Associator::matchLandmarks(const FrameView& view, LandmarkMap& map,
   columns.project(view, {config_.max_view_angle_deg, config_.max_distance_ratio}, visible_);
   result.in_view = static_cast<int>(visible_.count);
   begin(view, visible_.count);
-  result.method = chooseMethod(view, columns);
+  result.method = chooseMethod(view, map, columns);
   if (result.method == MatchMethod::kGuided) {
     matchGuided(view, map, columns, result);
   } else {
@@ -94,7 +84,7 @@ void Associator::matchLandmarks(const FrameView& view, LandmarkMap& map,
   }
 }
 
-MatchMethod Associator::chooseMethod(const FrameView& view, const LandmarkColumns& columns) {
+bool Associator::windowsAreWide(const FrameView& view, const LandmarkColumns& columns) {
   const auto radiusOf = [&](std::size_t landmark, float distance_m) {
     const double margin = margin_px(view, columns.positionVariance_m2(landmark), distance_m);
     return static_cast<float>(config_.search_radius_px + margin);
@@ -111,13 +101,20 @@ MatchMethod Associator::chooseMethod(const FrameView& view, const LandmarkColumn
       if (distance_m > 0) sorted_radii_px_.push_back(radiusOf(i, distance_m));
     }
   }
-  if (sorted_radii_px_.empty()) return MatchMethod::kGuided;
+  if (sorted_radii_px_.empty()) return false;
   const auto median =
       sorted_radii_px_.begin() + static_cast<std::ptrdiff_t>(sorted_radii_px_.size() / 2);
   std::nth_element(sorted_radii_px_.begin(), median, sorted_radii_px_.end());
-  if (*median <= config_.max_window_share * view.features().width_px) return MatchMethod::kGuided;
-  const bool is_large = columns.size() >= static_cast<std::size_t>(config_.index_from_landmarks);
-  return is_large ? MatchMethod::kIndexed : MatchMethod::kExact;
+  return *median > config_.max_window_share * view.features().width_px;
+}
+
+MatchMethod Associator::chooseMethod(const FrameView& view, LandmarkMap& map,
+                                     const LandmarkColumns& columns) {
+  if (!windowsAreWide(view, columns)) return MatchMethod::kGuided;
+  if (map.size() < static_cast<std::size_t>(config_.index_from_landmarks))
+    return MatchMethod::kExact;
+  // The index is built over several frames, so that none of them waits for all of it.
+  return map.advanceIndex() ? MatchMethod::kIndexed : MatchMethod::kExact;
 }
 
 void Associator::matchGuided(const FrameView& view, const LandmarkMap& map,
@@ -130,10 +127,19 @@ void Associator::matchGuided(const FrameView& view, const LandmarkMap& map,
     if (free && decideLandmark(view, map, {landmark, feature}, result)) continue;
     targets_in_view_.push_back(static_cast<int>(k));
   }
-  for (const int target : targets_in_view_) {
+  windows_.build(view.idealPixels(), view.features().descriptor, feature_taken_);
+  const auto descriptorOf = [&](int target) -> const Descriptor& {
+    const int landmark = visible_.index[static_cast<std::size_t>(target)];
+    return map.all()[static_cast<std::size_t>(landmark)].descriptor;
+  };
+  for (std::size_t t = 0; t < targets_in_view_.size(); ++t) {
+    // Of a large map's descriptors hardly any is in a cache.
+    if (t + kPrefetched < targets_in_view_.size())
+      __builtin_prefetch(&descriptorOf(targets_in_view_[t + kPrefetched]));
+    const int target = targets_in_view_[t];
     const auto k = static_cast<std::size_t>(target);
-    search(view, map.all()[static_cast<std::size_t>(visible_.index[k])].descriptor,
-           {visible_.pixel_px(k), radius_px_[k]}, target);
+    best_of_target_[k] =
+        windows_.search(descriptorOf(target), visible_.pixel_px(k), radius_px_[k], target);
   }
   for (const int target : targets_in_view_) {
     const int landmark = visible_.index[static_cast<std::size_t>(target)];
@@ -197,15 +203,17 @@ void Associator::matchMapFeatures(const FrameView& view, const FeatureMap& map,
   }
   // Entries whose track has ended are looked for by descriptor. A near point moves away from where
   // rotation alone puts it, hence the window.
+  windows_.build(view.idealPixels(), view.features().descriptor, feature_taken_);
+  const auto radius_px = static_cast<float>(config_.search_radius_px);
   for (std::size_t i = 0; i < map.size(); ++i) {
     const MapFeature& entry = map.all()[i];
     if (map.isRemoved(i) || featureOfTrack(entry.track_id) != kNobody) continue;
-    Window window;
-    if (!view.idealPixel(entry.ray.direction_map, entry.elevation, window.centre_px)) continue;
-    window.radius_px = static_cast<float>(config_.search_radius_px);
+    Eigen::Vector2f centre_px;
+    if (!view.idealPixel(entry.ray.direction_map, entry.elevation, centre_px)) continue;
     ++result.in_view;
     targets_in_view_.push_back(static_cast<int>(i));
-    search(view, entry.descriptor, window, static_cast<int>(i));
+    best_of_target_[i] =
+        windows_.search(entry.descriptor, centre_px, radius_px, static_cast<int>(i));
   }
   for (const int target : targets_in_view_) {
     const int feature = bestFeature(target);

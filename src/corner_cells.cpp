@@ -35,6 +35,12 @@ void CornerCells::reset(int width_px, int height_px, int cell_size_px) {
   for (int x = width_px - 1; x >= 0; --x) column_begin_[at(columnAt(x))] = x;
 }
 
+void CornersByCell::reserve(std::size_t corners) {
+  by_score_.reserve(corners);
+  order_.reserve(corners);
+  keep_.reserve(corners);
+}
+
 void CornersByCell::group(const std::vector<Corner>& corners, const CornerCells& cells) {
   corners_ = &corners;
   const int n = static_cast<int>(corners.size());
@@ -103,7 +109,8 @@ void CornersByCell::select(int budget, std::vector<Corner>& selected) {
   const int left = std::min(budget - taken(level), static_cast<int>(next_.size()));
   for (int i = 0; i < left; ++i) keep_[at(next_[at(i)])] = 1;
 
-  selected.resize(corners.size() + 1);  // appended to without a branch, one too many at the end
+  // Appended to without a branch, one too many at the end.
+  selected.resize(std::min(corners.size(), at(budget)) + 1);
   std::size_t count = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     selected[count] = corners[i];

@@ -36,6 +36,9 @@ class CornerCells {
 /// order.
 class CornersByCell {
  public:
+  /// Makes room for so many corners, so that no image with no more of them allocates.
+  void reserve(std::size_t corners);
+
   /// @param corners  in raster order; kept by reference until the next call
   void group(const std::vector<Corner>& corners, const CornerCells& cells);
 
@@ -51,7 +54,8 @@ class CornersByCell {
   /// Gives every cell an equal share of the budget and what some cells leave over in equal parts
   /// to those that have more, again and again; the last few, fewer than there are such cells, go
   /// to the strongest next corners.
-  /// @param selected  receives at most `budget` corners in raster order
+  /// @param selected  receives at most `budget` corners in raster order; has room for one more
+  ///   meanwhile
   void select(int budget, std::vector<Corner>& selected);
 
  private:

@@ -31,6 +31,7 @@ void CornerClimb::reset(int width_px, int height_px) {
   assert(width > 2 * kernels::kCircleRadiusPx && height > 2 * kernels::kCircleRadiusPx &&
          "image without corners");
   map_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+  written_.reserve(map_.size());  // what is never written to costs no memory
 
   // The ring around the testable pixels counts as scored, 0: no climb leaves them, without a test
   // at each step.

@@ -12,7 +12,7 @@
 
 namespace ardrone_vslam {
 
-/// Climbs from corners to the local maxima of the score (algorithm.md 2; thesis 3.2.2, 3.5, 3.6),
+/// Climbs from corners to the local maxima of the score (thesis 3.2.2, 3.5, 3.6),
 /// where not every pixel was tested: holds the scores of one image's pixels, computed on demand.
 /// (Where all were, the ends are the maxima that CornerMaxima finds.)
 class CornerClimb {

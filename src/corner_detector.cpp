@@ -17,7 +17,8 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr int kBorderPx = kernels::kCircleRadiusPx;
+constexpr int kBorderPx = CornerDetector::kBorder_px;
+static_assert(kBorderPx == kernels::kCircleRadiusPx);
 constexpr int kAllPasses = 16;
 /// From so many passes on vector kernels test all pixels all the same: that costs less than to
 /// score on demand those that the climbs ask for.
@@ -68,6 +69,7 @@ struct CornerDetector::State {
   std::vector<Corner> thinned;           ///< what suppression leaves of them
 
   void reset(const ImageView& image);
+  void reserve();
   template <class NextHits, class EndRow>
   void scan(const ImageView& image, int passes, const NextHits& nextHits, const EndRow& endRow);
   void keepMaxima(const ImageView& image, CornerMaxima::Ties ties);
@@ -100,6 +102,7 @@ void CornerDetector::detect(const ImageView& image, std::vector<Corner>& corners
     s.climbFromSamples(image);
     s.dropBelowThreshold();
   }
+  corners.reserve(static_cast<std::size_t>(s.config.features_per_frame) + 1);
   s.by_cell.group(s.thinned, s.cells);
   s.by_cell.select(s.config.features_per_frame, corners);
   s.thresholds.adapt(s.by_cell);
@@ -115,6 +118,20 @@ void CornerDetector::State::reset(const ImageView& image) {
   row_groups.resize(static_cast<std::size_t>(width_px));
   row_columns.resize(static_cast<std::size_t>(width_px + kernels::kMaximaPadding));
   row_scores.assign(static_cast<std::size_t>(width_px + kernels::kScorePadding), 0);
+  reserve();
+}
+
+/// Room for the richest image, so that none allocates but the first of its size. What is never
+/// written to costs address space only.
+void CornerDetector::State::reserve() {
+  const auto width = static_cast<std::size_t>(width_px);
+  const auto height = static_cast<std::size_t>(height_px);
+  const std::size_t maxima_at_most = (width + 1) / 2 * ((height + 1) / 2);  // no two are neighbours
+  thinned.reserve(maxima_at_most);
+  by_cell.reserve(maxima_at_most);
+  const bool climbs =
+      config.suppression == Suppression::kLocalClimb && config.sampling_passes < kAllPasses;
+  if (climbs) hits.reserve(width * height);
 }
 
 /// Tests the pixels of the first `passes` passes, row by row from the top.

@@ -66,11 +66,11 @@ void DescriptorIndex::append(int list, int id, const Descriptor& descriptor) {
 void DescriptorIndex::insert(const IndexEntry& entry) {
   assert(entry.id >= 0 && find(entry.id) == nullptr && "ids are positive and used once");
   append(nearestList(entry.descriptor), entry.id, entry.descriptor);
-  if (isSizeOutOfRange(size())) rebuild();
+  rebuildIfNeeded();
 }
 
 void DescriptorIndex::insert(const std::vector<IndexEntry>& entries) {
-  const bool will_rebuild = isSizeOutOfRange(size() + entries.size());
+  const bool will_rebuild = is_rebuilt_by_itself_ && isSizeOutOfRange(size() + entries.size());
   for (const IndexEntry& entry : entries) {
     assert(entry.id >= 0 && find(entry.id) == nullptr && "ids are positive and used once");
     append(will_rebuild ? 0 : nearestList(entry.descriptor), entry.id, entry.descriptor);
@@ -92,28 +92,48 @@ void DescriptorIndex::remove(int id) {
   }
   list.ids.pop_back();
   list.descriptors.pop_back();
-  if (isSizeOutOfRange(size())) rebuild();
+  rebuildIfNeeded();
+}
+
+void DescriptorIndex::rebuildIfNeeded() {
+  if (is_rebuilt_by_itself_ && isSizeOutOfRange(size())) rebuild();
+}
+
+std::vector<int> DescriptorIndex::centresOf(const std::vector<int>& ids) {
+  std::vector<std::pair<std::uint64_t, int>> sample;
+  sample.reserve(ids.size());
+  for (const int id : ids) sample.emplace_back(hashOf(id), id);
+  const std::size_t count = std::min(listsFor(ids.size()), sample.size());
+  const auto end = sample.begin() + static_cast<std::ptrdiff_t>(count);
+  std::nth_element(sample.begin(), end, sample.end());
+  std::sort(sample.begin(), end);
+  std::vector<int> chosen;
+  for (auto entry = sample.begin(); entry != end; ++entry) chosen.push_back(entry->second);
+  return chosen;
+}
+
+void DescriptorIndex::layOut(const std::vector<Descriptor>& centres) {
+  assert(!centres.empty() && "an index has at least one list");
+  centres_ = centres;
+  lists_.assign(centres.size(), List{});
+  place_of_id_.clear();
+  is_rebuilt_by_itself_ = false;
 }
 
 void DescriptorIndex::rebuild() {
-  std::vector<std::pair<std::uint64_t, Place>> sample;
-  sample.reserve(size());
-  for (const auto& [id, place] : place_of_id_) sample.emplace_back(hashOf(id), place);
-  const std::size_t count = listsFor(size());
-  const auto smaller = [](const auto& a, const auto& b) { return a.first < b.first; };
-  const auto end = sample.begin() + static_cast<std::ptrdiff_t>(std::min(count, sample.size()));
-  std::partial_sort(sample.begin(), end, sample.end(), smaller);
-  centres_.assign(count, Descriptor{});  // of an empty index: one list about any centre
-  for (auto chosen = sample.begin(); chosen != end; ++chosen) {
-    const List& list = lists_[static_cast<std::size_t>(chosen->second.list)];
-    centres_[static_cast<std::size_t>(chosen - sample.begin())] =
-        list.descriptors[static_cast<std::size_t>(chosen->second.position)];
-  }
-  const std::vector<List> old = std::exchange(lists_, std::vector<List>(count));
+  std::vector<int> ids;
+  ids.reserve(size());
+  for (const auto& entry : place_of_id_) ids.push_back(entry.first);
+  std::vector<Descriptor> centres;
+  for (const int id : centresOf(ids)) centres.push_back(*find(id));
+  centres.resize(listsFor(size()));  // of an empty index: one list about any centre
+  centres_ = std::move(centres);
+  const std::vector<List> old = std::exchange(lists_, std::vector<List>(centres_.size()));
   for (const List& list : old) {
     for (std::size_t k = 0; k < list.ids.size(); ++k)
       append(nearestList(list.descriptors[k]), list.ids[k], list.descriptors[k]);
   }
+  is_rebuilt_by_itself_ = true;
 }
 
 const Descriptor* DescriptorIndex::find(int id) const {

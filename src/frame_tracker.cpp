@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ardrone_vslam/descriptor_matcher.hpp"
-#include "ardrone_vslam/pixel_grid.hpp"
+#include "ardrone_vslam/window_search.hpp"
 
 namespace ardrone_vslam {
 
@@ -14,9 +14,8 @@ struct FrameTracker::State {
   FrameTrackerConfig config;
   MatcherConfig matcher;
   ImageFeatures previous;
-  PixelGrid grid;                    // of the previous frame
-  std::vector<BestTwo> of_present;   // best previous feature of each present one
-  std::vector<BestTwo> of_previous;  // and the other way round
+  WindowSearch windows;             // among the previous features
+  std::vector<BestTwo> of_present;  // best previous feature of each present one
   std::uint32_t next_id = 1;
 
   std::uint32_t takeId();
@@ -35,6 +34,12 @@ FrameTracker::FrameTracker(const FrameTrackerConfig& config, std::uint32_t first
 
 FrameTracker::~FrameTracker() = default;
 
+void FrameTracker::reserve(std::size_t features, int width_px, int height_px) {
+  state_->previous.reserve(features);
+  state_->of_present.reserve(features);
+  state_->windows.reserve(features, width_px, height_px);
+}
+
 std::uint32_t FrameTracker::nextTrackId() const {
   return state_->next_id;
 }
@@ -46,19 +51,12 @@ std::uint32_t FrameTracker::State::takeId() {
 }
 
 void FrameTracker::State::search(const ImageFeatures& features) {
-  grid.build(previous.pixel_px, previous.width_px, previous.height_px);
-  of_present.assign(features.size(), BestTwo{});
-  of_previous.assign(previous.size(), BestTwo{});
-  const auto radius = static_cast<float>(config.search_radius_px);
+  windows.build(previous.pixel_px, previous.descriptor);
+  const auto radius_px = static_cast<float>(config.search_radius_px);
+  of_present.resize(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
-    const Eigen::Vector2f& pixel = features.pixel_px[i];
-    grid.visit(pixel, radius, [&](int candidate) {
-      const auto j = static_cast<std::size_t>(candidate);
-      if ((previous.pixel_px[j] - pixel).squaredNorm() > radius * radius) return;
-      const int distance = hammingDistance(features.descriptor[i], previous.descriptor[j]);
-      of_present[i].offer(candidate, distance);
-      of_previous[j].offer(static_cast<int>(i), distance);
-    });
+    of_present[i] = windows.search(features.descriptor[i], features.pixel_px[i], radius_px,
+                                   static_cast<int>(i));
   }
 }
 
@@ -70,8 +68,7 @@ void FrameTracker::assign(ImageFeatures& features) {
   for (std::size_t i = 0; i < features.size(); ++i) {
     const BestTwo& best = s.of_present[i];
     const bool tracked =
-        accept(best, s.matcher) &&
-        s.of_previous[static_cast<std::size_t>(best.index)].index == static_cast<int>(i);
+        accept(best, s.matcher) && s.windows.nearestQuery(best.index) == static_cast<int>(i);
     if (tracked) {
       const auto j = static_cast<std::size_t>(best.index);
       constexpr auto kOldest = std::numeric_limits<std::uint16_t>::max();

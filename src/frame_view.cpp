@@ -4,13 +4,6 @@
 #include <algorithm>
 
 namespace ardrone_vslam {
-namespace {
-
-/// Cells of the grid along one side, at most; keeps its cost bounded for very wide lenses.
-constexpr float kMostCells = 256.F;
-
-}  // namespace
-
 void FrameView::reset(const ImageFeatures& features, const Eigen::Isometry3d& T_map_cam,
                       bool planar) {
   features_ = &features;
@@ -33,11 +26,6 @@ void FrameView::reset(const ImageFeatures& features, const Eigen::Isometry3d& T_
     lower_px_ = lower_px_.cwiseMin(ideal_px_.back());
     upper_px_ = upper_px_.cwiseMax(ideal_px_.back());
   }
-  for (Eigen::Vector2f& pixel : ideal_px_) pixel -= lower_px_;
-  const Eigen::Vector2f extent = upper_px_ - lower_px_;
-  const float cell_px = std::max(32.F, extent.maxCoeff() / kMostCells);
-  grid_.build(ideal_px_, static_cast<int>(extent.x()) + 1, static_cast<int>(extent.y()) + 1,
-              cell_px);
 }
 
 bool FrameView::idealPixel(const Eigen::Vector3d& direction_map, double elevation,

@@ -11,10 +11,13 @@ std::vector<InstructionSet> supportedInstructionSets() {
   sets.push_back(InstructionSet::kNeon);  // without it the program would not have been built so
 #endif
 #ifdef ARDRONE_VSLAM_WITH_AVX2
-  if (__builtin_cpu_supports("avx2")) {
+  // All that the kernels' files are compiled for: virtual machines may hide one of them.
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&
+      __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt")) {
     sets.push_back(InstructionSet::kAvx2);
-    if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("avx512vpopcntdq")) {
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vbmi") &&
+        __builtin_cpu_supports("avx512vpopcntdq")) {
       sets.push_back(InstructionSet::kAvx512);
     }
   }

@@ -2,6 +2,7 @@
 #include "ardrone_vslam/landmark_map.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace ardrone_vslam {
 
@@ -24,7 +25,7 @@ void LandmarkMap::remove(std::uint32_t id) {
   if (entry == index_of_id_.end()) return;
   const std::size_t hole = entry->second;
   index_of_id_.erase(entry);
-  if (index_is_built_) index_.remove(static_cast<int>(id));
+  if (index_is_laid_out_) index_.remove(static_cast<int>(id));
   if (hole + 1 != landmarks_.size()) {
     landmarks_[hole] = landmarks_.back();
     index_of_id_[landmarks_[hole].id] = hole;
@@ -44,9 +45,19 @@ void LandmarkMap::markStale(std::size_t index) {
   std::uint8_t& stale = stale_[index];
   if ((stale & kStaleColumns) == 0) stale_for_columns_.push_back(index);
   stale |= kStaleColumns;
-  if (!index_is_built_) return;
-  if ((stale & kStaleIndex) == 0) stale_for_index_.push_back(landmarks_[index].id);
+  if (index_is_laid_out_) markStaleForIndex(index);
+}
+
+void LandmarkMap::markStaleForIndex(std::size_t index) {
+  std::uint8_t& stale = stale_[index];
+  if ((stale & kStaleIndex) != 0) return;
   stale |= kStaleIndex;
+  stale_for_index_.push_back(landmarks_[index].id);
+  if (stale_for_index_.size() <= 2 * landmarks_.size() + kIndexStep) return;
+  // Most of it are landmarks that came and went while nobody needed the index.
+  const auto is_gone = [this](std::uint32_t id) { return index_of_id_.count(id) == 0; };
+  stale_for_index_.erase(std::remove_if(stale_for_index_.begin(), stale_for_index_.end(), is_gone),
+                         stale_for_index_.end());
 }
 
 const LandmarkColumns& LandmarkMap::columns(const Eigen::Vector3d& camera_map) {
@@ -63,28 +74,46 @@ const LandmarkColumns& LandmarkMap::columns(const Eigen::Vector3d& camera_map) {
   return columns_;
 }
 
-DescriptorIndex& LandmarkMap::index() {
-  if (!index_is_built_) {
-    std::vector<IndexEntry> entries;
-    entries.reserve(landmarks_.size());
-    for (const Landmark& landmark : landmarks_)
-      entries.push_back({static_cast<int>(landmark.id), landmark.descriptor});
-    index_.insert(entries);
-    index_is_built_ = true;
-    return index_;
+void LandmarkMap::layOutIndex() {
+  std::vector<int> ids;
+  ids.reserve(landmarks_.size());
+  for (const Landmark& landmark : landmarks_) ids.push_back(static_cast<int>(landmark.id));
+  std::vector<Descriptor> centres;
+  for (const int id : DescriptorIndex::centresOf(ids))
+    centres.push_back(find(static_cast<std::uint32_t>(id))->descriptor);
+  if (centres.empty()) centres.resize(1);
+  index_.layOut(centres);
+  index_is_laid_out_ = true;
+  stale_for_index_.clear();
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    stale_[i] = static_cast<std::uint8_t>(stale_[i] & ~kStaleIndex);
+    markStaleForIndex(i);
   }
-  for (const std::uint32_t id : stale_for_index_) {
-    const auto entry = index_of_id_.find(id);
+}
+
+bool LandmarkMap::advanceIndex() {
+  if (!index_is_laid_out_ || !index_.isRightSizeFor(landmarks_.size())) layOutIndex();
+  for (int step = 0; step < kIndexStep && !stale_for_index_.empty(); ++step) {
+    const auto entry = index_of_id_.find(stale_for_index_.back());
+    stale_for_index_.pop_back();
     if (entry == index_of_id_.end()) continue;
-    const Landmark& landmark = landmarks_[entry->second];
     std::uint8_t& stale = stale_[entry->second];
     stale = static_cast<std::uint8_t>(stale & ~kStaleIndex);
-    const Descriptor* known = index_.find(static_cast<int>(id));
-    if (known != nullptr && *known == landmark.descriptor) continue;
-    index_.remove(static_cast<int>(id));
-    index_.insert({static_cast<int>(id), landmark.descriptor});
+    enter(landmarks_[entry->second]);
   }
-  stale_for_index_.clear();
+  return stale_for_index_.empty();
+}
+
+void LandmarkMap::enter(const Landmark& landmark) {
+  const auto id = static_cast<int>(landmark.id);
+  const Descriptor* known = index_.find(id);
+  if (known != nullptr && *known == landmark.descriptor) return;
+  index_.remove(id);
+  index_.insert({id, landmark.descriptor});
+}
+
+DescriptorIndex& LandmarkMap::index() {
+  assert(index_is_laid_out_ && stale_for_index_.empty() && "the index is not up to date");
   return index_;
 }
 

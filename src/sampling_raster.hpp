@@ -3,7 +3,7 @@
 
 namespace ardrone_vslam {
 
-/// Pixel of each 4x4 block that a sampling pass tests (algorithm.md 2; thesis figure 3.10). The
+/// Pixel of each 4x4 block that a sampling pass tests (thesis figure 3.10). The
 /// blocks start at the image's pixel (0, 0). Every second row and column is done after 4 passes, a
 /// checkerboard after 8, all after 16.
 struct RasterOffset {

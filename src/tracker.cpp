@@ -1,9 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ardrone_vslam/tracker.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace ardrone_vslam {
+namespace {
+
+/// Cut off on each side, so that the detector, which cannot test the outermost pixels of what it is
+/// given, tests those that FREAK can describe: the corner budget, its cells and their thresholds
+/// are not spent on others.
+constexpr int kCut_px = kFreakBorder_px - CornerDetector::kBorder_px;
+
+/// @return without pixels if the image has none to describe
+ImageView describablePart(const ImageView& image) {
+  if (std::min(image.width_px, image.height_px) <= 2 * kCut_px) return {};
+  ImageView part = image;
+  part.data += kCut_px * image.stride_bytes + kCut_px;
+  part.width_px -= 2 * kCut_px;
+  part.height_px -= 2 * kCut_px;
+  return part;
+}
+
+}  // namespace
 
 struct Tracker::State {
   State(const TrackerConfig& config, const CameraIntrinsics& intrinsics,
@@ -20,12 +39,13 @@ struct Tracker::State {
   FrameTracker frame_tracker;
   bool use_attitude;
 
-  std::vector<Corner> corners;
+  std::vector<Corner> corners;            // in the describable part of the image
   std::vector<Eigen::Vector3f> bearings;  // of the keypoints
   std::vector<std::uint8_t> scores;       // of the keypoints
   std::vector<FreakKeypoint> keypoints;   // corners that have a bearing
   std::vector<int> described;             // indices into keypoints
 
+  void reserve(std::size_t budget);
   void keepCornersWithBearing();
   void collect(const ImageView& image, std::int64_t stamp_ns, ImageFeatures& features) const;
 };
@@ -34,6 +54,24 @@ Tracker::Tracker(const TrackerConfig& config, const CameraIntrinsics& camera,
                  std::uint32_t first_track_id) {
   validate(config);
   state_ = std::make_unique<State>(config, camera, first_track_id);
+  state_->reserve(static_cast<std::size_t>(config.corners.features_per_frame));
+}
+
+/// Room for the whole budget, so that a rich image after dull ones allocates nothing.
+void Tracker::State::reserve(std::size_t budget) {
+  const int width_px = camera.intrinsics().width_px;
+  const int height_px = camera.intrinsics().height_px;
+  bearings.reserve(budget);
+  scores.reserve(budget);
+  frame_tracker.reserve(budget, width_px, height_px);
+  // The describer's own buffers grow with what it is given: as much as it will ever be.
+  const std::vector<std::uint8_t> black(static_cast<std::size_t>(width_px) *
+                                        static_cast<std::size_t>(height_px));
+  std::vector<Descriptor> descriptors;
+  keypoints.assign(budget, {width_px / 2, height_px / 2});
+  described.reserve(budget);
+  describer.describe({black.data(), width_px, height_px, width_px}, keypoints, described,
+                     descriptors);
 }
 
 Tracker::~Tracker() = default;
@@ -56,9 +94,10 @@ void Tracker::process(const ImageView& image, std::int64_t stamp_ns, ImageFeatur
     if (hook) hook(stage);
   };
   features.clear();
+  features.reserve(s.keypoints.capacity());  // the corner budget
 
   enter(Stage::kDetect);
-  s.detector.detect(image, s.corners);
+  s.detector.detect(describablePart(image), s.corners);
   s.keepCornersWithBearing();
 
   enter(Stage::kDescribe);
@@ -76,9 +115,11 @@ void Tracker::State::keepCornersWithBearing() {
   bearings.clear();
   scores.clear();
   for (const Corner& corner : corners) {
-    const auto bearing = camera.bearing({corner.x_px, corner.y_px});
+    const int x_px = corner.x_px + kCut_px;
+    const int y_px = corner.y_px + kCut_px;
+    const auto bearing = camera.bearing({x_px, y_px});
     if (!bearing) continue;
-    keypoints.push_back({corner.x_px, corner.y_px});
+    keypoints.push_back({x_px, y_px});
     bearings.push_back(bearing->cast<float>());
     scores.push_back(corner.score);
   }

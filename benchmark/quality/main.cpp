@@ -5,6 +5,7 @@
 #include <iostream>
 #include <opencv2/core.hpp>
 
+#include "frames.hpp"
 #include "graf.hpp"
 #include "motions.hpp"
 #include "report.hpp"
@@ -39,7 +40,7 @@ QualityResults measure(bool quick) {
   results.sweep_images = source.what;
   std::cout << "sweeps over " << source.what << " ..." << std::endl;
   results.sweeps = runSweeps(source, kBudget, quick);
-  if (const auto folder = dataFolder()) {
+  if (const auto folder = bench::dataFolder()) {
     std::cout << "graf ..." << std::endl;
     results.graf.push_back(runGraf(*folder + "/graf", kBudget));
   } else {

@@ -6,6 +6,7 @@
 
 #include "ardrone_vslam/corner_detector.hpp"
 #include "feature_methods.hpp"
+#include "frames.hpp"
 #include "picture_changes.hpp"
 #include "world_sequence.hpp"
 #include "world_views.hpp"
@@ -46,16 +47,7 @@ std::vector<Motion> makeMotions() {
 
 /// The AR.Drone's front camera in the size of the thesis's videos.
 CameraIntrinsics motionCamera() {
-  CameraIntrinsics camera = arDroneFrontCamera();
-  const double x = static_cast<double>(kWidth_px) / camera.width_px;
-  const double y = static_cast<double>(kHeight_px) / camera.height_px;
-  camera.width_px = kWidth_px;
-  camera.height_px = kHeight_px;
-  camera.fx_px *= x;
-  camera.cx_px *= x;
-  camera.fy_px *= y;
-  camera.cy_px *= y;
-  return camera;
+  return bench::resized(arDroneFrontCamera(), kWidth_px, kHeight_px);
 }
 
 /// A motion's images and where they were taken.

@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "frames.hpp"
 #include "world_views.hpp"
 
 namespace ardrone_vslam::quality {
@@ -33,12 +34,6 @@ SourceImages renderImages(bool quick) {
 
 }  // namespace
 
-std::optional<std::string> dataFolder() {
-  const char* folder = std::getenv("ARDRONE_VSLAM_DATA");
-  if (folder == nullptr || *folder == '\0') return std::nullopt;
-  return folder;
-}
-
 cv::Mat readGrey(const std::string& path) {
   cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
   if (image.empty()) {
@@ -49,7 +44,7 @@ cv::Mat readGrey(const std::string& path) {
 }
 
 SourceImages sweepImages(bool quick) {
-  const auto folder = dataFolder();
+  const auto folder = bench::dataFolder();
   if (!folder) return renderImages(quick);
   SourceImages source;
   source.what = quick ? "lena (512x512)" : "mandrill, peppers and lena (512x512)";

@@ -2,14 +2,10 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace ardrone_vslam::quality {
-
-/// The folder that the environment variable ARDRONE_VSLAM_DATA names; nothing where it is unset.
-std::optional<std::string> dataFolder();
 
 /// An 8-bit grey picture. @throws std::runtime_error naming the file that cannot be read and the
 /// remedy

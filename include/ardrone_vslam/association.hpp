@@ -10,6 +10,7 @@
 #include "ardrone_vslam/global_matcher.hpp"
 #include "ardrone_vslam/landmark_map.hpp"
 #include "ardrone_vslam/parameters.hpp"
+#include "ardrone_vslam/window_search.hpp"
 
 namespace ardrone_vslam {
 
@@ -77,8 +78,7 @@ struct AssociationResult {
   std::vector<int> missed;  ///< targets in view without a match; none unless guided
 };
 
-/// Finds the landmarks and map features that a frame shows, and removes mismatches (algorithm.md 8,
-/// thesis 5.3).
+/// Finds the landmarks and map features that a frame shows, and removes mismatches (thesis 5.3).
 class Associator {
  public:
   explicit Associator(const AssociationConfig& config);
@@ -100,18 +100,12 @@ class Associator {
                         const std::vector<bool>& taken, AssociationResult& result);
 
  private:
-  struct Window {
-    Eigen::Vector2f centre_px = Eigen::Vector2f::Zero();  // ideal pixel
-    float radius_px = 0.F;
-  };
-
   void begin(const FrameView& view, std::size_t target_count);
   int featureOfTrack(std::uint32_t track_id) const;
-  void search(const FrameView& view, const Descriptor& descriptor, const Window& window,
-              int target);
   int bestFeature(int target) const;
   double margin_px(const FrameView& view, double position_variance_m2, double distance_m) const;
-  MatchMethod chooseMethod(const FrameView& view, const LandmarkColumns& columns);
+  bool windowsAreWide(const FrameView& view, const LandmarkColumns& columns);
+  MatchMethod chooseMethod(const FrameView& view, LandmarkMap& map, const LandmarkColumns& columns);
   void matchGuided(const FrameView& view, const LandmarkMap& map, const LandmarkColumns& columns,
                    AssociationResult& result);
   void matchGlobally(const FrameView& view, LandmarkMap& map, const LandmarkColumns& columns,
@@ -127,8 +121,8 @@ class Associator {
   std::vector<float> radius_px_;  // window of each visible landmark
   std::vector<float> sorted_radii_px_;
   // Targets are numbered as they are visited: visible landmarks, or the map's features.
+  WindowSearch windows_;  // of the features not taken by tracks
   std::vector<BestTwo> best_of_target_;
-  std::vector<BestTwo> best_of_feature_;
   std::vector<bool> feature_taken_;
   std::vector<bool> landmark_taken_;
   std::vector<int> targets_in_view_;

@@ -75,7 +75,7 @@ void visitParameters(CornerDetectorConfig& c, Visitor&& visit) {
         c.threshold_max);
 }
 
-/// FAST-s corners (algorithm.md 1, 2; thesis 3.1-3.6), thinned by non-maximum suppression and
+/// FAST-s corners (thesis 3.1-3.6), thinned by non-maximum suppression and
 /// spread over the image.
 ///
 /// A pixel is a corner at threshold t if arc_length_px circle pixels in a row are all brighter
@@ -93,6 +93,9 @@ void visitParameters(CornerDetectorConfig& c, Visitor&& visit) {
 /// time.
 class CornerDetector {
  public:
+  /// Pixels nearer to the border are not tested, as their circle of pixels is not in the image.
+  static constexpr int kBorder_px = 3;
+
   /// @param set  one of supportedInstructionSets(); the corners are the same with each
   /// @throws ConfigError listing every parameter out of its range, threshold_min above
   ///   threshold_max, and a `threshold` outside of threshold_min..threshold_max when it is to
@@ -109,7 +112,8 @@ class CornerDetector {
   ///   each at least 3 px from the border and with a score of at least its cell's threshold
   /// Cost: 0.16 ms with AVX2, 2.1 ms scalar, for 1242x375 px of a street, FAST-12, 16 passes, 1000
   /// corners (one core of a 2-core AMD EPYC virtual machine). Fewer passes: docs/data_path.md.
-  /// Allocates only while its buffers grow to the largest need so far.
+  /// Allocates for the first image of a size only, and if `corners` has no room for
+  /// `features_per_frame` + 1.
   void detect(const ImageView& image, std::vector<Corner>& corners);
 
  private:

@@ -38,6 +38,16 @@ class DescriptorIndex {
   /// Ids that are not there are ignored. O(1), but for a rebuild when the size has fallen to an
   /// eighth.
   void remove(int id);
+  /// The ids whose descriptors rebuild() of entries with these ids would choose as centres, in its
+  /// order. O(ids).
+  static std::vector<int> centresOf(const std::vector<int>& ids);
+  /// Empties the index and gives it these centres, at least one, for entries to come: filled one by
+  /// one, it is what rebuild() would make of them, without the whole cost at once. It is not
+  /// rebuilt by itself any more, as half filled it is too small and who fills it knows the number:
+  /// see isRightSizeFor().
+  void layOut(const std::vector<Descriptor>& centres);
+  /// Whether so many entries fill the lists as they should (see above).
+  bool isRightSizeFor(std::size_t entries) const { return !isSizeOutOfRange(entries); }
   /// Draws new centres from the present entries, which alone decide the result.
   /// Cost: entries x lists distances, 0.1 to 0.2 s for 100,000 entries (0.5 s without vectors).
   void rebuild();
@@ -66,6 +76,7 @@ class DescriptorIndex {
   };
 
   bool isSizeOutOfRange(std::size_t entries) const;
+  void rebuildIfNeeded();
   int nearestList(const Descriptor& descriptor);
   void append(int list, int id, const Descriptor& descriptor);
   void chooseLists(const Descriptor& query, std::size_t probes, int* chosen);
@@ -76,6 +87,7 @@ class DescriptorIndex {
   std::vector<Descriptor> centres_;
   std::vector<List> lists_;
   std::unordered_map<int, Place> place_of_id_;
+  bool is_rebuilt_by_itself_ = true;
   // Working memory, kept from call to call.
   std::vector<std::uint16_t> distances_bits_;
   std::vector<int> chosen_lists_;           // of each query, `probes` of them

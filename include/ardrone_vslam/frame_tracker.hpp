@@ -36,6 +36,9 @@ class FrameTracker {
   explicit FrameTracker(const FrameTrackerConfig& config, std::uint32_t first_track_id = 1);
   ~FrameTracker();
 
+  /// Makes room for so many features in images of this size, so that assign() does not allocate.
+  void reserve(std::size_t features, int width_px, int height_px);
+
   /// Fills `track_id` and `age_frames`; pixels and descriptors must be there. Mutual best matches
   /// within the search radius carry on their track, all others begin a new one. Keeps a copy for
   /// the next frame.

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "ardrone_vslam/pixel_grid.hpp"
 #include "ardrone_vslam/triangulation.hpp"
 
 namespace ardrone_vslam {
@@ -26,7 +25,7 @@ class FrameView {
   void reset(const ImageFeatures& features, const Eigen::Isometry3d& T_map_cam, bool planar);
 
   /// How well the position is known: its variance per axis, and whether drift is shared
-  /// (estimator.md, lesson 4).
+  /// (common drift, docs/data_path.md).
   void setPositionVariance(double variance_m2, bool common_drift) {
     position_variance_m2_ = variance_m2;
     common_drift_ = common_drift;
@@ -64,16 +63,8 @@ class FrameView {
   /// mode.
   double elevation(std::size_t index) const { return planar_ ? elevations_[index] : 0.0; }
 
-  /// Calls visit(feature index) for every feature within the radius of an ideal pixel, in a fixed
-  /// order.
-  template <class Visitor>
-  void visit(const Eigen::Vector2f& ideal_px, float radius_px, Visitor&& visitor) const {
-    grid_.visit(ideal_px - lower_px_, radius_px, [&](int index) {
-      const Eigen::Vector2f offset =
-          ideal_px_[static_cast<std::size_t>(index)] + lower_px_ - ideal_px;
-      if (offset.squaredNorm() <= radius_px * radius_px) visitor(index);
-    });
-  }
+  /// Of each feature; beyond 87 degrees off the axis as if it were there.
+  const std::vector<Eigen::Vector2f>& idealPixels() const { return ideal_px_; }
 
  private:
   const ImageFeatures* features_ = nullptr;
@@ -83,11 +74,10 @@ class FrameView {
   Eigen::Vector3d origin_map_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d R_cam_map_ = Eigen::Matrix3d::Identity();
   std::vector<Eigen::Vector3d> rays_map_;
-  std::vector<double> elevations_;                      // 2-D mode only
-  std::vector<Eigen::Vector2f> ideal_px_;               // relative to lower_px_
+  std::vector<double> elevations_;  // 2-D mode only
+  std::vector<Eigen::Vector2f> ideal_px_;
   Eigen::Vector2f lower_px_ = Eigen::Vector2f::Zero();  // box of all ideal pixels since the start
   Eigen::Vector2f upper_px_ = Eigen::Vector2f::Zero();
-  PixelGrid grid_;
 };
 
 }  // namespace ardrone_vslam

@@ -20,6 +20,10 @@ struct FreakKeypoint {
   float size_px = 7.F;
 };
 
+/// Keypoints of size 7 at least so far from the left and upper border, and one pixel less from the
+/// others, can be described.
+constexpr int kFreakBorder_px = 24;
+
 struct FreakConfig {
   bool oriented = true;
 };
@@ -32,7 +36,7 @@ void visitParameters(FreakConfig& c, Visitor&& visit) {
 }
 
 /// 512-bit FREAK (Alahi, Ortiz, Vandergheynst 2012), bit for bit the descriptor of OpenCV contrib's
-/// FREAK with its default pattern (scale 22, 4 octaves, scale normalised); algorithm.md 3, thesis
+/// FREAK with its default pattern (scale 22, 4 octaves, scale normalised); thesis
 /// ch. 4. Bits run coarse to fine: the first 128 compare the outer fields. Random pairs of real
 /// images differ in a median of 215 bits.
 ///

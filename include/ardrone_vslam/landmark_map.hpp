@@ -26,8 +26,8 @@ struct Landmark {
   double depth_deviation_m = 0;  ///< along the ray of its last triangulation
   Ray first_ray;                 ///< of the first view, by which it was triangulated
   double parallax_rad = 0;       ///< between the first view and the one of its last triangulation
-  double position_variance_m2 =
-      0;  ///< of the base position, per axis, when the landmark was made (P_a of lesson 4)
+  double position_variance_m2 = 0;  ///< of the base position, per axis, when the landmark was made
+                                    ///< (common drift, docs/data_path.md)
   Descriptor descriptor;
   double height_m =
       0;  ///< above the camera that saw it last; used in 2-D mode, where positions have no height
@@ -63,7 +63,7 @@ class LandmarkMap {
   /// All landmarks, dense; order changes only by remove (the last one takes the place).
   const std::vector<Landmark>& all() const { return landmarks_; }
   std::size_t size() const { return landmarks_.size(); }
-  /// For changes; they must be made before columns() or index() is called next.
+  /// For changes; they must be made before columns() or advanceIndex() is called next.
   /// @param index  into all()
   Landmark& at(std::size_t index);
   /// One more view in which the landmark should have been seen and was not. @return times_missed
@@ -74,14 +74,27 @@ class LandmarkMap {
   /// All landmarks as arrays for the projection near a camera, up to date; entry i belongs to
   /// all()[i]. O(changes since the last call); once in 256 m of flight O(size).
   const LandmarkColumns& columns(const Eigen::Vector3d& camera_map);
-  /// All descriptors, to be searched by nearness; its ids are the landmarks'. Built at the first
-  /// call, as most flights never need it; later calls catch up with the changes since.
+  /// Brings the index of all descriptors closer to the map: lays it out at the first call, as most
+  /// flights never need it, or when the map has outgrown it; then enters at most kIndexStep of the
+  /// landmarks that it lacks or that have changed. Cost: kIndexStep times one distance for each of
+  /// its lists.
+  /// @return whether index() is up to date now
+  bool advanceIndex();
+  static constexpr int kIndexStep = 5000;
+  /// Its ids are the landmarks'. @pre advanceIndex() has returned true since the last change
+  /// (asserted)
   DescriptorIndex& index();
+  /// Entries that advanceIndex() has yet to look at, also of landmarks removed since: at most twice
+  /// as many as there are landmarks, and kIndexStep.
+  std::size_t indexBacklog() const { return stale_for_index_.size(); }
 
  private:
   /// Which of the copies below a landmark has yet to be copied to.
   enum Stale : std::uint8_t { kStaleColumns = 1, kStaleIndex = 2 };
   void markStale(std::size_t index);
+  void markStaleForIndex(std::size_t index);
+  void layOutIndex();
+  void enter(const Landmark& landmark);
 
   LandmarkMapConfig config_;
   std::vector<Landmark> landmarks_;
@@ -90,7 +103,7 @@ class LandmarkMap {
 
   LandmarkColumns columns_;
   DescriptorIndex index_;
-  bool index_is_built_ = false;
+  bool index_is_laid_out_ = false;
   std::vector<std::uint8_t> stale_;             // of each landmark, bits of Stale
   std::vector<std::size_t> stale_for_columns_;  // indices into landmarks_, or beyond its end
   std::vector<std::uint32_t> stale_for_index_;  // ids, also of landmarks removed since

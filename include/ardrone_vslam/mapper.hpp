@@ -45,7 +45,7 @@ void visitParameters(MapperConfig& c, Visitor&& visit) {
       c.drop_unconfirmed_after);
 }
 
-/// Makes, refines and removes landmarks (algorithm.md 6, 7, 10; thesis 5.2, 5.4) from a pose that
+/// Makes, refines and removes landmarks (thesis 5.2, 5.4, algorithm 5) from a pose that
 /// is known.
 class Mapper {
  public:

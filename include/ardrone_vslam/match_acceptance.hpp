@@ -5,7 +5,7 @@
 
 namespace ardrone_vslam {
 
-/// When the nearest descriptor is taken as a match; algorithm.md 4. The defaults were measured with
+/// When the nearest descriptor is taken as a match (thesis 4.1.4). The defaults were measured with
 /// about 900 corners an image, FREAK, exact matching and no motion prior, one frame apart: the same
 /// point differs in a median of 56 bits (90 % within 131) on KITTI 03 and 40 (93) in the 7-Scenes
 /// kitchen; 3.4 % and 4.3 % of the matches are false, against 12 % and 9 % with the cross check

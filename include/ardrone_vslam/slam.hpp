@@ -62,8 +62,8 @@ constexpr double kFarthestCamera_m = 100;  ///< from base
 /// What cannot be the mounting of a camera, and what helps; empty when it can.
 std::string mountingFault(const Eigen::Isometry3d& T_base_cam);
 
-/// Features and observer states -> fused poses and a map (thesis algorithm 5 in the order of
-/// algorithm.md 10).
+/// Features and observer states -> fused poses and a map (thesis algorithm 5; where it departs from
+/// that: docs/data_path.md).
 class Slam {
  public:
   /// @param T_base_cam  mounting of the camera: optical frame to base

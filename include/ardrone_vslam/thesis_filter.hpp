@@ -109,7 +109,8 @@ class ThesisFilter {
   /// noise.
   void predict(const ObserverState& observer);
 
-  /// The camera's position by landmarks (6.1-6.4; `exact`: algorithm.md 9).
+  /// The camera's position by landmarks (6.1-6.4; `exact`: least squares over the
+  /// landmarks' rays, undamped along them).
   /// @param predicted_camera_map  p_hat of (6.2)
   /// @param angle_deviation_rad   sigma_a
   /// @return nothing for fewer than `min_landmarks`, or when they fix no position

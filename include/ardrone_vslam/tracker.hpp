@@ -52,6 +52,7 @@ class Tracker {
           std::uint32_t first_track_id = 1);
   ~Tracker();
 
+  /// Allocates in the first call only, and if `features` has no room for the corner budget.
   /// @param image  as large as the camera's calibration says (asserted)
   /// @param features  cleared and filled; corners whose descriptor or bearing does not exist are
   /// left out

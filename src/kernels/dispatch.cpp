@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernels/hamming_distances.hpp"
 #include "kernels/kernels.hpp"
 
 namespace ardrone_vslam::kernels {
@@ -21,6 +20,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_nearest = hammingNearestAvx2;
     kernels.hamming_mutual = hammingMutualAvx2;
     kernels.hamming_distances = hammingDistancesAvx2;
+    kernels.hamming_window = hammingWindowAvx2;
     kernels.project = projectAvx2;
   }
   if (set == InstructionSet::kAvx512) {
@@ -29,6 +29,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_mutual = hammingMutualAvx512;
     kernels.hamming_distances = hammingDistancesAvx512;
     kernels.project = projectAvx512;
+    kernels.hamming_window = hammingWindowAvx512;
   }
 #endif
 #ifdef ARDRONE_VSLAM_WITH_NEON
@@ -44,6 +45,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_nearest = hammingNearestNeon;
     kernels.hamming_mutual = hammingMutualNeon;
     kernels.hamming_distances = hammingDistancesNeon;
+    kernels.hamming_window = hammingWindowNeon;
     kernels.project = projectNeon;
   }
 #endif

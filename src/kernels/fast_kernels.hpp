@@ -6,7 +6,7 @@
 
 #include "kernels/fast_circle.hpp"
 
-// The pixel tests of FAST-s on raw pointers (algorithm.md 1; thesis 3.2-3.4). The scalar form is
+// The pixel tests of FAST-s on raw pointers (thesis 3.2-3.4). The scalar form is
 // the definition: every other form must give the same hits and scores.
 namespace ardrone_vslam::kernels {
 

@@ -8,14 +8,6 @@
 // every other form gives the same numbers.
 namespace ardrone_vslam::kernels {
 
-/// Hamming distances of one 512-bit descriptor to `count` others. The scalar form is the
-/// definition.
-/// @param query  8 words
-/// @param train  8 words for each descriptor, one after the other
-/// @param distances_bits  `count` distances, 0..512
-void hammingDistancesScalar(const std::uint64_t* query, const std::uint64_t* train,
-                            std::size_t count, std::uint16_t* distances_bits);
-
 constexpr int kHammingGroup = 16;
 constexpr int kHammingWords = 8;
 

@@ -4,7 +4,9 @@
 #include "ardrone_vslam/instruction_set.hpp"
 #include "kernels/fast_kernels.hpp"
 #include "kernels/freak_kernels.hpp"
+#include "kernels/hamming_distances.hpp"
 #include "kernels/hamming_kernels.hpp"
+#include "kernels/hamming_window.hpp"
 #include "kernels/project_kernels.hpp"
 
 namespace ardrone_vslam::kernels {
@@ -25,6 +27,7 @@ struct Kernels {
   decltype(&hammingDistancesScalar) hamming_distances = hammingDistancesScalar;
   decltype(&hammingNearestScalar) hamming_nearest = hammingNearestScalar;
   decltype(&hammingMutualScalar) hamming_mutual = hammingMutualScalar;
+  decltype(&hammingWindowScalar) hamming_window = hammingWindowScalar;
   decltype(&projectScalar) project = projectScalar;
 };
 

@@ -58,7 +58,7 @@ void expectEqual(const std::vector<Corner>& corners, const Positions& expected,
   }
 }
 
-/// Written out once more from algorithm.md 2, as the picture of the block: the pass that tests each
+/// Thesis figure 3.10 written out once more, as the picture of the block: the pass that tests each
 /// pixel.
 constexpr int kPassOfPixel[4][4] = {{1, 9, 3, 11}, {13, 5, 15, 7}, {4, 12, 2, 10}, {16, 8, 14, 6}};
 

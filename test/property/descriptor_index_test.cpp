@@ -206,6 +206,39 @@ TEST(DescriptorIndex, EntriesInsertedLaterAreFoundAsWellAsThoseOfARebuild) {
   EXPECT_LT(search(index, queries, 1)[0].distance_bits, 513) << "one probe finds something";
 }
 
+TEST(DescriptorIndex, LaidOutAndFilledItIsWhatARebuildMakes) {
+  std::mt19937_64 random(6);
+  const auto descriptors = clusteredDescriptors(3000, random);
+  const auto queries = queriesNear(descriptors, 300, random);
+  Content content;
+  std::vector<int> ids;
+  for (int i = 0; i < 3000; ++i) {
+    ids.push_back((i * 1237) % 3000);
+    content[i] = descriptors[static_cast<std::size_t>(i)];
+  }
+  DescriptorIndex rebuilt;
+  rebuilt.insert(entriesOf(content));
+
+  DescriptorIndex filled;
+  filled.insert({7, descriptors[7]});  // forgotten
+  std::vector<Descriptor> centres;
+  for (const int id : DescriptorIndex::centresOf(ids)) centres.push_back(content[id]);
+  filled.layOut(centres);
+  EXPECT_EQ(filled.size(), 0U);
+  for (const int id : ids) {
+    filled.insert({id, content[id]});
+    ASSERT_EQ(filled.listCount(), rebuilt.listCount()) << "not rebuilt on the way";
+    if (id % 3 != 0) continue;  // removed on the way, they come again
+    filled.remove(id);
+    filled.insert({id, content[id]});
+  }
+  EXPECT_TRUE(filled.isRightSizeFor(filled.size()));
+  EXPECT_FALSE(filled.isRightSizeFor(5000));
+  EXPECT_FALSE(filled.isRightSizeFor(300));
+  for (const int probes : {1, 3, kAllLists})
+    expectEqual(search(filled, queries, probes), search(rebuilt, queries, probes));
+}
+
 TEST(DescriptorIndex, AQuerysAnswerDoesNotDependOnTheOthers) {
   std::mt19937_64 random(4);
   const auto descriptors = clusteredDescriptors(2000, random);

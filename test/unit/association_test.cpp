@@ -194,6 +194,20 @@ TEST_F(AssociationTest, LandmarksBehindOutsideOrSeenFromElsewhereAreNotInView) {
   EXPECT_EQ(matchLandmarks().in_view, 1);
 }
 
+TEST_F(AssociationTest, LandmarksSeenFromMuchNearerOrFurtherAreNotInView) {
+  config_.max_distance_ratio = 4;
+  addLandmark(5, 0, builder_.randomDescriptor());
+  const auto inView = [this](double seen_distance_m) {
+    landmarks_.at(0).seen_distance_m = seen_distance_m;
+    return matchLandmarks().in_view;
+  };
+  EXPECT_EQ(inView(1.2), 0);
+  EXPECT_EQ(inView(1.3), 1);
+  EXPECT_EQ(inView(19.9), 1);
+  EXPECT_EQ(inView(20.1), 0);
+  EXPECT_EQ(inView(0), 1) << "not known";
+}
+
 TEST_F(AssociationTest, MapFeaturesByTrackWithinTheEpipolarPlane) {
   config_.epipolar_threshold_px = 2;
   storeRay({0, 0.5, 0}, {5, 0, 0}, 3);  // camera came from the left: epipolar lines are rows

@@ -53,7 +53,7 @@ TEST(FeatureMap, CapDropsTheOldestAndCountsOnlyWhatIsLeft) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(map.all()[i].track_id, i + 4);
 }
 
-// algorithm.md 10, step 5: after an epipolar mismatch the track's feature is stored anew.
+// After an epipolar mismatch (5.44) the track's feature is stored anew.
 TEST(FeatureMap, ATrackThatLeftItsPointNeverFindsTheOldEntryAgain) {
   FeatureMap map({});
   map.add(featureOf(5, 1));

@@ -8,6 +8,8 @@
 #include <set>
 #include <vector>
 
+#include "ardrone_vslam/freak.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -98,6 +100,7 @@ TEST(FreakPattern, EveryScalesFieldsStayInsideItsBorder) {
     }
   }
   EXPECT_EQ(pattern.border_px(0), 23);
+  EXPECT_EQ(kFreakBorder_px, pattern.border_px(0) + 1) << "where the tracker looks for corners";
 }
 
 TEST(FreakPattern, ScaleOfAKeypointsSize) {

@@ -24,7 +24,8 @@ class GlobalMatcherTest : public ::testing::Test {
   std::vector<DescriptorMatch> match(MatchMethod method, const std::vector<bool>& taken = {}) {
     std::vector<bool> marks = taken;
     marks.resize(builder_.features().size(), false);
-    return GlobalMatcher(config_, 1000).match(builder_.features(), marks, map_, method);
+    while (method == MatchMethod::kIndexed && !map_.advanceIndex()) continue;
+    return GlobalMatcher(config_, index_probes_).match(builder_.features(), marks, map_, method);
   }
   /// Both methods, which must agree when all lists are probed.
   std::vector<DescriptorMatch> matchBoth(const std::vector<bool>& taken = {}) {
@@ -41,6 +42,7 @@ class GlobalMatcherTest : public ::testing::Test {
   }
 
   MatcherConfig config_;
+  int index_probes_ = 1000;  // all lists
   test::ViewBuilder builder_;
   LandmarkMap map_{LandmarkMapConfig{}};
 };
@@ -99,6 +101,21 @@ TEST_F(GlobalMatcherTest, FollowsTheMapAsItChanges) {
     map_.at(390).descriptor = builder_.flipped(builder_.features().descriptor[0], round);
     EXPECT_EQ(matchBoth().size(), 2U) << round;
   }
+}
+
+TEST_F(GlobalMatcherTest, FewProbesFindFewerMatches) {
+  for (int i = 0; i < 3600; ++i) addLandmark(builder_.randomDescriptor());
+  for (std::size_t i = 0; i < 4000; i += 10)
+    addFeature(builder_.flipped(map_.all()[i].descriptor, 80));
+  const std::size_t with_all = match(MatchMethod::kIndexed).size();
+  EXPECT_EQ(with_all, 400U);
+  index_probes_ = 4;
+  const std::size_t with_some = match(MatchMethod::kIndexed).size();
+  index_probes_ = 1;
+  const std::size_t with_one = match(MatchMethod::kIndexed).size();
+  EXPECT_GT(with_one, 0U);
+  EXPECT_LT(with_one, with_some);
+  EXPECT_LT(with_some, with_all);
 }
 
 TEST_F(GlobalMatcherTest, EmptyMapsAndFramesMatchNothing) {

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/hamming_kernels.hpp"
+#include "kernels/hamming_distances.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -5,6 +5,8 @@
 
 #include <set>
 
+#include "support/point_world.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -65,6 +67,53 @@ TEST(LandmarkMap, OfEquallyOldOnesTheLowestIdsGo) {
   EXPECT_EQ(map.find(1), nullptr);
   EXPECT_EQ(map.find(2), nullptr);
   EXPECT_NE(map.find(3), nullptr);
+}
+
+TEST(LandmarkMapIndex, IsBuiltInStepsAndFollowsTheMap) {
+  test::PointWorld maker(1);
+  LandmarkMap map{LandmarkMapConfig{}};
+  const auto add = [&] {
+    Landmark landmark;
+    landmark.descriptor = maker.randomDescriptor();
+    return map.add(landmark);
+  };
+  constexpr int kStep = LandmarkMap::kIndexStep;
+  for (int i = 0; i < 2 * kStep + 10; ++i) add();
+  EXPECT_EQ(map.indexBacklog(), 0U) << "nobody has asked for it yet";
+  EXPECT_FALSE(map.advanceIndex());
+  EXPECT_FALSE(map.advanceIndex());
+  EXPECT_EQ(map.indexBacklog(), 10U);
+  map.remove(map.all()[5].id);  // whether indexed already or not
+  map.remove(map.all()[2 * kStep].id);
+  map.at(17).descriptor = maker.randomDescriptor();
+  EXPECT_TRUE(map.advanceIndex());
+  ASSERT_EQ(map.index().size(), map.size());
+  for (const Landmark& landmark : map.all())
+    ASSERT_EQ(*map.index().find(static_cast<int>(landmark.id)), landmark.descriptor);
+
+  for (int i = 0; i < 7 * kStep; ++i) add();  // outgrown: laid out anew
+  int steps = 1;
+  while (!map.advanceIndex()) ++steps;
+  EXPECT_EQ(steps, 10);
+  EXPECT_EQ(map.index().size(), map.size());
+}
+
+TEST(LandmarkMapIndex, ItsBacklogIsBoundedWhileNobodyNeedsIt) {
+  test::PointWorld maker(1);
+  LandmarkMap map{LandmarkMapConfig{}};
+  Landmark landmark;
+  for (int i = 0; i < 100; ++i) map.add(landmark);
+  EXPECT_TRUE(map.advanceIndex());
+  for (int i = 0; i < 100'000; ++i) {  // landmarks come and go
+    map.remove(map.all()[0].id);
+    landmark.descriptor = maker.randomDescriptor();
+    map.add(landmark);
+    ASSERT_LE(map.indexBacklog(), 2 * map.size() + LandmarkMap::kIndexStep);
+  }
+  while (!map.advanceIndex()) continue;
+  for (const Landmark& present : map.all())
+    ASSERT_EQ(*map.index().find(static_cast<int>(present.id)), present.descriptor);
+  EXPECT_EQ(map.index().size(), map.size());
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST(ThesisFilter, WorkedExampleOfThePrintedMean) {
   EXPECT_TRUE(fix->covariance.isApprox(deviation * deviation * Eigen::Matrix3d::Identity(), 1e-12));
 }
 
-// algorithm.md 9: observer 0.5 m off along the optical axis, 50 landmarks, 80 x 52 degrees.
+// The observer is 0.5 m off along the optical axis, 50 landmarks, 80 x 52 degrees.
 TEST(ThesisFilter, PrintedMeanIsDampedAlongTheRaysTheExactOneIsNot) {
   const Eigen::Vector3d predicted(0.5, 0, 0);
   ThesisFilterConfig config = printedOnly();

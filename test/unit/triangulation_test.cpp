@@ -108,7 +108,7 @@ TEST(EpipolarOffset, NoPlaneWithoutBaseline) {
   EXPECT_FALSE(epipolarOffset(ray, {{2, 2, 3}, {1, 0, 0}})) << "motion along the first ray";
 }
 
-// algorithm.md 6: at 2 degrees of parallax (5.19) says 0.024 m, which says nothing of the depth.
+// At 2 degrees of parallax (5.19) says 0.024 m, which says nothing of the depth.
 TEST(Deviation, OfTheDepthIsTheScatterOfNoisyRays) {
   const double parallax_rad = 2 * M_PI / 180;
   const double sigma_p_m = 0.01;

@@ -68,6 +68,44 @@ TEST_F(WidePriorTest, TheMethodFollowsTheWindows) {
   EXPECT_EQ(look(0.9).method, MatchMethod::kGuided);
 }
 
+TEST_F(WidePriorTest, LargeMapsAreSearchedExactlyUntilTheirIndexIsBuilt) {
+  config_.index_from_landmarks = 40;
+  Landmark elsewhere;
+  elsewhere.position_map << -50, 0, 0;
+  elsewhere.view_direction_map = -Eigen::Vector3d::UnitX();
+  elsewhere.seen_distance_m = 5;
+  for (int i = 0; i < 2 * LandmarkMap::kIndexStep; ++i) {
+    elsewhere.descriptor = builder_.randomDescriptor();
+    landmarks_.add(elsewhere);
+  }
+  EXPECT_EQ(look(0.1).method, MatchMethod::kGuided);
+  for (const MatchMethod expected :
+       {MatchMethod::kExact, MatchMethod::kExact, MatchMethod::kIndexed, MatchMethod::kIndexed}) {
+    const auto result = look(0.9);
+    EXPECT_EQ(result.method, expected);
+    EXPECT_EQ(result.matches.size(), 40U);
+  }
+  // Few changes are caught up with at once.
+  landmarks_.at(3).descriptor = builder_.randomDescriptor();
+  EXPECT_EQ(look(0.9).method, MatchMethod::kIndexed);
+  EXPECT_EQ(look(0.9).matches.size(), 39U);
+}
+
+TEST_F(WidePriorTest, FewProbesFindFewerMatches) {
+  config_.index_from_landmarks = 40;
+  for (int i = 0; i < 3000; ++i) {
+    Landmark landmark;
+    landmark.position_map << 50, 0, 0;
+    landmark.descriptor = builder_.randomDescriptor();
+    landmarks_.add(landmark);
+  }
+  for (Descriptor& descriptor : features_of_all_) descriptor = builder_.flipped(descriptor, 50);
+  config_.index_probes = 1000;
+  EXPECT_EQ(look(0.9).matches.size(), 40U);
+  config_.index_probes = 1;
+  EXPECT_LT(look(0.9).matches.size(), 40U);
+}
+
 TEST_F(WidePriorTest, MismatchesAreStillRemovedAndNobodyIsMissed) {
   config_.threshold_deviations = 1;
   config_.search_radius_px = 400;  // wide windows, though the prior is narrow

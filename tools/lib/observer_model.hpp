@@ -44,13 +44,13 @@ struct ObserverRun {
   double scale_error = 0;  ///< drawn; reported lengths are (1 + scale_error) times the true ones
 };
 
-/// Corrupts the true increments as `profile` says (evaluation.md) and integrates them with the
-/// corrupted attitude from the truth's first pose. States come every 1 / rate_hz from the truth's
-/// first stamp to the first one at or after its last, so that every image can be interpolated
-/// (where the profile has a delay the drone is taken to have stood that long before). `truth`
-/// gives the interpolated truth itself. Covariances are zero, as ardrone_autonomy's: none given.
-/// Bursts repeat stamps; without them stamps ascend strictly. Equal arguments give equal results
-/// on every machine with the same floating point. @pre truth not empty
+/// Corrupts the true increments as `profile` says (config/observer_profiles.yaml) and integrates
+/// them with the corrupted attitude from the truth's first pose. States come every 1 / rate_hz from
+/// the truth's first stamp to the first one at or after its last, so that every image can be
+/// interpolated (where the profile has a delay the drone is taken to have stood that long before).
+/// `truth` gives the interpolated truth itself. Covariances are zero, as ardrone_autonomy's: none
+/// given. Bursts repeat stamps; without them stamps ascend strictly. Equal arguments give equal
+/// results on every machine with the same floating point. @pre truth not empty
 ObserverRun simulateObserver(const Trajectory& truth, const ObserverProfile& profile,
                              std::uint64_t seed);
 
