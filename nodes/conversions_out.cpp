@@ -47,6 +47,8 @@ std::uint8_t stateOf(SlamState state) {
       return Status::OBSERVER_ONLY;
     case SlamState::kNotFinite:
       return Status::NOT_FINITE;
+    case SlamState::kTracking:
+      return Status::TRACKING;
   }
   assert(false && "a SlamState that Status.msg does not know");
   return Status::OBSERVER_ONLY;
@@ -149,7 +151,7 @@ PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isome
   message.fused_pose = toPoseWithCovariance(result);
   message.map_to_odom = toTransform(T_map_odom);
   message.deviation = result.deviation_m;
-  message.corrected = result.state == SlamState::kLocalised;
+  message.corrected = result.state == SlamState::kLocalised || result.state == SlamState::kTracking;
   return message;
 }
 

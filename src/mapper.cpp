@@ -67,6 +67,13 @@ void Mapper::widenBaseline(const FrameView& view, std::size_t feature, Landmark&
   landmark.depth_deviation_m = depth_deviation;
 }
 
+void Mapper::remember(const FrameView& view, const std::vector<Association>& matches,
+                      LandmarkMap& map) {
+  for (const Association& match : matches)
+    rememberSighting(view, static_cast<std::size_t>(match.feature),
+                     map.at(static_cast<std::size_t>(match.target)));
+}
+
 int Mapper::countMissed(const std::vector<int>& missed, LandmarkMap& map) const {
   std::vector<std::uint32_t> dropped;
   for (const int index : missed) {

@@ -6,46 +6,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "ardrone_vslam/association.hpp"
-#include "ardrone_vslam/frame_view.hpp"
-#include "ardrone_vslam/mapper.hpp"
-#include "ardrone_vslam/thesis_filter.hpp"
+#include "slam_state.hpp"
 
 namespace ardrone_vslam {
-
-struct Slam::State {
-  State(const SlamConfig& c, const Eigen::Isometry3d& T_base_camera)
-      : config(c),
-        T_base_cam(T_base_camera),
-        associator(c.association),
-        filter(c.thesis_filter),
-        mapper(c.mapper),
-        feature_map(c.feature_map),
-        landmark_map(c.landmark_map) {}
-
-  SlamConfig config;
-  Eigen::Isometry3d T_base_cam;
-  Associator associator;
-  ThesisFilter filter;
-  Mapper mapper;
-  FeatureMap feature_map;
-  LandmarkMap landmark_map;
-
-  bool started = false;
-  Eigen::Vector3d offset_map = Eigen::Vector3d::Zero();  // base -> camera, at the present attitude
-  FrameView view;
-  AssociationResult landmark_matches;
-  AssociationResult feature_matches;
-  std::vector<Sighting> sightings;
-  std::vector<bool> used;  // the frame's features that need not be stored
-  FrameResult result;
-
-  void predict(const ImageFeatures& features, const ObserverState& observer);
-  void setVariance();
-  void localise();
-  void refineAndMap();
-  void report(const ObserverState& observer);
-};
 
 bool isFinite(const FrameResult& r) {
   return r.T_map_base.matrix().allFinite() && r.T_odom_base.matrix().allFinite() &&
@@ -66,6 +29,10 @@ std::string mountingFault(const Eigen::Isometry3d& T_base_cam) {
 
 Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
   validate(config);
+  if (config.planar && config.estimator == Estimator::kConstraint)
+    throw ConfigError(
+        {"planar needs estimator thesis (or observer): the constraint filter has no "
+         "2-D mode"});
   const std::string fault = mountingFault(T_base_cam);
   if (!fault.empty()) throw std::invalid_argument("the camera's mounting: " + fault);
   state_ = std::make_unique<State>(config, T_base_cam);
@@ -78,6 +45,7 @@ const LandmarkMap& Slam::landmarks() const {
 }
 
 Eigen::Isometry3d Slam::T_map_odom() const {
+  if (state_->constraint) return state_->result.T_map_base * state_->result.T_odom_base.inverse();
   // Both poses have the observer's orientation, so that only the positions differ; this form stays
   // exact far from the origin.
   Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
@@ -100,7 +68,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const ObserverSt
 
   enter(Stage::kLocalise);
   s.predict(features, observer);
-  if (!s.filter.position_map().allFinite() || !s.filter.covariance().allFinite()) {
+  if (!s.poseAt(observer).matrix().allFinite() || !s.covariance().allFinite()) {
     s.landmark_matches = {};
     s.feature_matches = {};
     s.report(observer);  // which says so; nothing of it may reach the map
@@ -113,24 +81,45 @@ const FrameResult& Slam::process(const ImageFeatures& features, const ObserverSt
     enter(Stage::kAssociate);
     s.associator.matchLandmarks(s.view, s.landmark_map, s.landmark_matches);
     enter(Stage::kLocalise);
-    s.localise();
+    s.constraint ? s.fixByLandmarks() : s.localise();
     enter(Stage::kMap);
-    s.refineAndMap();
+    s.constraint ? s.useTracks(features) : s.refineAndMap();
   }
   s.report(observer);
   enter(Stage::kIdle);
   return s.result;
 }
 
+Eigen::Isometry3d Slam::State::poseAt(const ObserverState& observer) const {
+  Eigen::Isometry3d T_map_base = observer.T_odom_base;  // orientation: the observer's, drift-free
+  if (constraint) {
+    T_map_base.linear() = constraint->newest().R_map_base;
+    T_map_base.translation() = constraint->newest().position_map;
+  } else {
+    T_map_base.translation() = filter.position_map();
+  }
+  return T_map_base;
+}
+
+Matrix6d Slam::State::covariance() const {
+  if (constraint) return constraint->covariance();
+  const double attitude_rad = config.thesis_filter.attitude_deviation_deg * M_PI / 180;
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.topLeftCorner<3, 3>() = filter.covariance();
+  covariance.bottomRightCorner<3, 3>() = attitude_rad * attitude_rad * Eigen::Matrix3d::Identity();
+  return covariance;
+}
+
 void Slam::State::predict(const ImageFeatures& features, const ObserverState& observer) {
-  if (started) {
+  if (constraint) {
+    started ? constraint->predict(observer) : constraint->start(observer);
+  } else if (started) {
     filter.predict(observer);
   } else {
-    filter.start(observer.T_odom_base.translation(), observer);  // map equals odom
-    started = true;
+    filter.start(observer.T_odom_base.translation(), observer);
   }
-  Eigen::Isometry3d T_map_base = observer.T_odom_base;  // orientation: the observer's, drift-free
-  T_map_base.translation() = filter.position_map();
+  started = true;  // where map equalled odom
+  const Eigen::Isometry3d T_map_base = poseAt(observer);
   offset_map = T_map_base.linear() * T_base_cam.translation();
   Eigen::Isometry3d T_map_cam = T_map_base * T_base_cam;
   if (config.planar) {
@@ -142,8 +131,8 @@ void Slam::State::predict(const ImageFeatures& features, const ObserverState& ob
 }
 
 void Slam::State::setVariance() {
-  view.setPositionVariance(filter.deviation_m() * filter.deviation_m(),
-                           config.thesis_filter.common_drift);
+  view.setPositionVariance(covariance().topLeftCorner<3, 3>().trace() / 3,
+                           constraint || config.thesis_filter.common_drift);
 }
 
 void Slam::State::localise() {
@@ -189,22 +178,19 @@ void Slam::State::refineAndMap() {
 }
 
 void Slam::State::report(const ObserverState& observer) {
-  const double attitude_rad = config.thesis_filter.attitude_deviation_deg * M_PI / 180;
   result.stamp_ns = observer.stamp_ns;
   result.T_odom_base = observer.T_odom_base;
-  result.T_map_base = observer.T_odom_base;
-  result.T_map_base.translation() = filter.position_map();
-  result.covariance.topLeftCorner<3, 3>() = filter.covariance();
-  result.covariance.bottomRightCorner<3, 3>() =
-      attitude_rad * attitude_rad * Eigen::Matrix3d::Identity();
-  result.deviation_m = filter.deviation_m();
+  result.T_map_base = poseAt(observer);
+  result.covariance = covariance();
+  result.deviation_m = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace() / 3);
   if (config.estimator != Estimator::kObserver) {
     result.match_method = landmark_matches.method;
     result.landmarks_in_view = landmark_matches.in_view;
     result.landmark_candidates = landmark_matches.candidates;
     result.landmark_matches = static_cast<int>(landmark_matches.matches.size());
-    result.feature_candidates = feature_matches.candidates;
-    result.feature_matches = static_cast<int>(feature_matches.matches.size());
+    result.feature_candidates = constraint ? constraint->candidates() : feature_matches.candidates;
+    result.feature_matches =
+        constraint ? constraint->used() : static_cast<int>(feature_matches.matches.size());
   }
   result.landmarks = static_cast<int>(landmark_map.size());
   result.map_features = static_cast<int>(feature_map.size());
@@ -226,6 +212,8 @@ const char* explain(SlamState state) {
              "the pose follows the odometry";
     case SlamState::kObserverOnly:
       return "estimator is set to observer: the odometry is passed on without correction";
+    case SlamState::kTracking:
+      return "no place seen before is in view: the tracks correct the pose, its drift stays";
     case SlamState::kNotFinite:
       return "the pose is not finite and is not published; the map begins anew: check odometry, "
              "calibration and mounting for absurd values";

@@ -62,7 +62,7 @@ void addOptions(CLI::App& app, Options& o) {
       ->allow_extra_args(false)
       ->take_all();
   app.add_option("--estimator", o.estimator, "over the configuration")
-      ->check(CLI::IsMember({"thesis", "observer"}));
+      ->check(CLI::IsMember({"thesis", "constraint", "observer"}));
   app.add_option("--observer-profile", o.observer_profile,
                  "corrupt the truth like this (truth, wheel, drone, hover, harsh); default: the "
                  "input's own odometry, else wheel for a KITTI folder, drone for the others");

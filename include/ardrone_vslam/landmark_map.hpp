@@ -28,6 +28,9 @@ struct Landmark {
   double parallax_rad = 0;       ///< between the first view and the one of its last triangulation
   double position_variance_m2 = 0;  ///< of the base position, per axis, when the landmark was made
                                     ///< (common drift, docs/data_path.md)
+  std::uint32_t anchor_id = 0;      ///< constraint filter: the frame whose error it shares
+  Eigen::Matrix3d covariance_m2 =
+      Eigen::Matrix3d::Zero();  ///< constraint filter: beside that error
   Descriptor descriptor;
   double height_m =
       0;  ///< above the camera that saw it last; used in 2-D mode, where positions have no height

@@ -61,6 +61,10 @@ class Mapper {
   void refine(const FrameView& view, const std::vector<Association>& matches,
               LandmarkMap& map) const;
 
+  /// Marks matched landmarks as seen and leaves them where they are.
+  static void remember(const FrameView& view, const std::vector<Association>& matches,
+                       LandmarkMap& map);
+
   /// Counts the landmarks that should have been seen; drops those never confirmed. Invalidates
   /// landmark indices.
   /// @return landmarks removed

@@ -21,10 +21,11 @@ enum class SlamState {
   kFixRejected,   ///< the landmarks' position failed its gate: the pose is the observer's increment
   kObserverOnly,  ///< `estimator: observer`
   kNotFinite,     ///< a number overflowed: the pose is not to be used, the map is to begin anew
+  kTracking,      ///< constraint filter: tracks correct the pose, no place seen before is in view
 };
-constexpr std::array<const char*, 6> kSlamStateNames{"building_map",      "localised",
-                                                     "too_few_landmarks", "fix_rejected",
-                                                     "observer_only",     "not_finite"};
+constexpr std::array<const char*, 7> kSlamStateNames{
+    "building_map",  "localised",  "too_few_landmarks", "fix_rejected",
+    "observer_only", "not_finite", "tracking"};
 
 /// One frame's answer.
 struct FrameResult {
@@ -46,8 +47,9 @@ struct FrameResult {
   int landmarks_in_view = 0;    ///< landmarks that the prediction puts into the image
   int landmark_candidates = 0;  ///< landmark matches before the removal of mismatches
   int landmark_matches = 0;     ///< and after
-  int feature_candidates = 0;   ///< feature-map matches before the removal of mismatches
-  int feature_matches = 0;      ///< and after
+  /// Feature-map matches before the removal of mismatches; constraint filter: tracks with parallax.
+  int feature_candidates = 0;
+  int feature_matches = 0;  ///< and after; constraint filter: tracks used
   int new_landmarks = 0;
   int removed_landmarks = 0;
   int landmarks = 0;     ///< in the map, after this frame

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "ardrone_vslam/association.hpp"
+#include "ardrone_vslam/constraint_filter.hpp"
 #include "ardrone_vslam/feature_map.hpp"
 #include "ardrone_vslam/landmark_map.hpp"
 #include "ardrone_vslam/mapper.hpp"
@@ -13,10 +14,10 @@
 
 namespace ardrone_vslam {
 
-enum class Estimator { kThesis, kObserver };
+enum class Estimator { kThesis, kConstraint, kObserver };
 template <>
 struct EnumNames<Estimator> {
-  static constexpr std::array<const char*, 2> kNames{"thesis", "observer"};
+  static constexpr std::array<const char*, 3> kNames{"thesis", "constraint", "observer"};
 };
 
 /// Everything of the mapper / localiser.
@@ -26,6 +27,7 @@ struct SlamConfig {
   ObserverBufferConfig observer;
   AssociationConfig association;
   ThesisFilterConfig thesis_filter;
+  ConstraintFilterConfig constraint_filter;
   MapperConfig mapper;
   FeatureMapConfig feature_map;
   LandmarkMapConfig landmark_map;
@@ -33,9 +35,12 @@ struct SlamConfig {
 
 template <class Visitor>
 void visitParameters(SlamConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"estimator", "choice", 0, 0,
-                      "thesis: weighted mean and scalar fusion; observer: passes the odometry on"},
-        c.estimator);
+  visit(
+      ParameterInfo{
+          "estimator", "choice", 0, 0,
+          "thesis: weighted mean and scalar fusion; constraint: tracks and landmarks of earlier "
+          "visits correct pose and attitude; observer: passes the odometry on"},
+      c.estimator);
   visit(
       ParameterInfo{
           "planar", "switch", 0, 0,
@@ -44,6 +49,7 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
   visitParameters(c.observer, visit);
   visitParameters(c.association, visit);
   visitParameters(c.thesis_filter, visit);
+  visitParameters(c.constraint_filter, visit);
   visitParameters(c.mapper, visit);
   visitParameters(c.feature_map, visit);
   visitParameters(c.landmark_map, visit);

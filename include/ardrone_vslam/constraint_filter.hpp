@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/map_fix.hpp"
+#include "ardrone_vslam/parameters.hpp"
+#include "ardrone_vslam/track_constraint.hpp"
+#include "ardrone_vslam/track_window.hpp"
+#include "ardrone_vslam/window_state.hpp"
+
+namespace ardrone_vslam {
+
+struct ConstraintFilterConfig {
+  ObserverNoiseConfig observer;
+  double track_deviation_px = 1.5;
+  int window_frames = 12;
+  double keyframe_px = 15;
+  double keyframe_s = 2;
+  int min_track_views = 3;
+  double track_parallax_deviations = 6;
+  double baseline_uncertainty = 0.5;
+  double anchor_spacing = 0.3;
+  double anchor_turn_deg = 20;
+  int max_anchors = 32;
+  int min_fix_landmarks = 6;
+  int fix_independent_landmarks = 3;
+  double fix_min_age_s = 5;
+  double fix_drift_share = 1;
+  double fix_gate_deviations = 2;
+};
+
+template <class Visitor>
+void visitParameters(ConstraintFilterConfig& c, Visitor&& visit) {
+  visitParameters(c.observer, visit);
+  visit(ParameterInfo{"track_deviation_px", "px", 0.01, 100,
+                      "constraint filter: deviation of a track's rays"},
+        c.track_deviation_px);
+  visit(ParameterInfo{"window_frames", "frames", 3, 60,
+                      "constraint filter: frames of the window; a long track spans so many"},
+        c.window_frames);
+  visit(
+      ParameterInfo{"keyframe_px", "px", 0, 10000,
+                    "the window keeps a frame when the image has moved so far since the last one, "
+                    "its turning taken out, or when half of the tracks are lost"},
+      c.keyframe_px);
+  visit(ParameterInfo{"keyframe_s", "s", 0.001, 1e6, "or when so much time has passed"},
+        c.keyframe_s);
+  visit(ParameterInfo{"min_track_views", "frames", 2, 60,
+                      "tracks with fewer views in the window are not used"},
+        c.min_track_views);
+  visit(ParameterInfo{"track_parallax_deviations", "-", 0, 1000,
+                      "nor those with less parallax than this many deviations of a ray"},
+        c.track_parallax_deviations);
+  visit(ParameterInfo{"baseline_uncertainty", "-", 0.001, 1000,
+                      "nor those whose baseline is less well known across than this share of it"},
+        c.baseline_uncertainty);
+  visit(
+      ParameterInfo{"anchor_spacing", "-", 0.01, 100,
+                    "landmarks share the error of the frame they belong to; a new one begins after "
+                    "this share of the landmarks' distance"},
+      c.anchor_spacing);
+  visit(ParameterInfo{"anchor_turn_deg", "deg", 0.1, 180, "or after this turn"}, c.anchor_turn_deg);
+  visit(ParameterInfo{"max_anchors", "frames", 1, 1000,
+                      "so many such frames are told apart; the nearest ones become one beyond"},
+        c.max_anchors);
+  visit(ParameterInfo{"min_fix_landmarks", "landmarks", 4, 100000,
+                      "fewer landmarks of earlier visits that agree give no fix"},
+        c.min_fix_landmarks);
+  visit(ParameterInfo{"fix_independent_landmarks", "landmarks", 1, 1000000,
+                      "a fix is not taken as better than so many independent landmarks make it"},
+        c.fix_independent_landmarks);
+  visit(ParameterInfo{"fix_min_age_s", "s", 0, 1e6,
+                      "younger landmarks share the present drift and give no fix"},
+        c.fix_min_age_s);
+  visit(
+      ParameterInfo{"fix_drift_share", "-", 0, 1e6,
+                    "a fix waits until the drift's variance is so many times its own, so that the "
+                    "same landmarks do not count again and again"},
+      c.fix_drift_share);
+  visit(
+      ParameterInfo{"fix_gate_deviations", "-", 0.5, 1e6,
+                    "a fix that disagrees by more than this in the mean of its six coordinates is "
+                    "rejected"},
+      c.fix_gate_deviations);
+}
+
+/// A landmark as seen by the newest frame.
+struct LandmarkSighting {
+  Eigen::Vector3d bearing_base = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d point_map = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
+  std::uint32_t anchor_id = 0;
+};
+
+/// A used track: its point may become a landmark.
+struct UsedTrack {
+  FinishedTrack track;
+  TrackPoint point;
+  std::uint32_t anchor_id = 0;  ///< the frame whose error the point shares
+};
+
+enum class FixOutcome { kNone, kNotNeeded, kApplied, kRejected };
+
+/// Fuses the observer with the camera: every track constrains, once, the frames that saw it,
+/// without a landmark in the state; landmarks of earlier visits correct the drift since. Between
+/// keyframes only fixes are applied.
+class ConstraintFilter {
+ public:
+  ConstraintFilter(const ConstraintFilterConfig& config, const Eigen::Isometry3d& T_base_cam);
+
+  bool isStarted() const { return !state_.frames().empty(); }
+  void start(const ObserverState& observer);
+  void predict(const ObserverState& observer);
+  FixOutcome fix(const std::vector<LandmarkSighting>& sightings, double focal_length_px);
+  /// Takes in the newest frame's tracks; at a keyframe uses those that are complete.
+  /// @return the tracks used, good until the next call
+  const std::vector<UsedTrack>& track(const ImageFeatures& features);
+  /// A track belongs to a landmark.
+  void assignLandmark(std::uint32_t track_id, std::uint32_t landmark_id) {
+    tracks_.assignLandmark(track_id, landmark_id);
+  }
+
+  const WindowPose& newest() const { return state_.frames().back(); }
+  /// Of the newest pose: position [m^2], rotation vector [rad^2], axes of map.
+  Matrix6d covariance() const;
+  const WindowState& state() const { return state_; }
+  /// Of the last frame: tracks with enough parallax, and those of them that agreed and were used.
+  int candidates() const { return candidates_; }
+  int used() const { return static_cast<int>(used_.size()); }
+
+ private:
+  bool isKeyframe(const ImageFeatures& features) const;
+  bool hasKnownBaseline(const std::vector<TrackView>& views) const;
+  void chooseAnchor();
+  void useTracks(const std::vector<FinishedTrack>& finished, double sigma_a);
+  void dropOldest();
+  void joinAnchors();
+  std::optional<std::size_t> anchorOf(std::uint32_t anchor_id) const;
+
+  ConstraintFilterConfig config_;
+  Eigen::Vector3d camera_base_;
+  WindowState state_;
+  TrackWindow tracks_;
+  bool newest_is_keyframe_ = false;
+  std::vector<UsedTrack> used_;
+  int candidates_ = 0;
+  std::uint32_t anchor_id_ = 0;                       // of the frame that new points belong to
+  double point_distance_m_ = 0;                       // median of the last keyframe's points
+  std::unordered_set<std::uint32_t> anchors_in_use_;  // frames of the window that points belong to
+  std::unordered_map<std::uint32_t, std::uint32_t>
+      joined_anchors_;  // -> the one that stands for it
+};
+
+}  // namespace ardrone_vslam

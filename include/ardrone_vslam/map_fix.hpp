@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "ardrone_vslam/window_state.hpp"
+
+namespace ardrone_vslam {
+
+/// A landmark of an earlier visit, matched in the newest frame.
+struct MapSighting {
+  Eigen::Vector3d bearing_base = Eigen::Vector3d::UnitX();  ///< measured unit ray
+  Eigen::Vector3d point_map = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_m2 =
+      Eigen::Matrix3d::Zero();  ///< beside what its anchor's errors cause
+  std::size_t anchor = 0;       ///< index into WindowState::anchors()
+};
+
+/// The sightings that agree on one position, and where it is.
+struct SightingConsensus {
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();  ///< of base
+  std::vector<MapSighting> sightings;
+};
+
+/// Random sample consensus over pairs: with the attitude known two rays give the position. The
+/// samples are the same in every run. O(samples x sightings).
+/// @param angle_deviation_rad  sigma_a of a ray
+SightingConsensus agreeOnPosition(const WindowPose& predicted, const Eigen::Vector3d& camera_base,
+                                  const std::vector<MapSighting>& sightings,
+                                  double angle_deviation_rad);
+
+/// A correction of the newest pose by landmarks, as information on that pose, on the anchors and
+/// the scale.
+struct MapFix {
+  Information information;
+  Vector6d offset = Vector6d::Zero();      ///< of the pose: position, attitude
+  Matrix6d covariance = Matrix6d::Zero();  ///< of the offset, by the landmarks' and rays' noise
+  Matrix6d drift = Matrix6d::Zero();       ///< what the filter expects of the offset
+
+  /// offset' (drift + covariance)^-1 offset, chi-square with six degrees of freedom.
+  double distance() const;
+};
+
+/// @param independent  the landmarks' errors are alike in groups: their fix is not taken as better
+/// than so many independent ones make it
+MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
+             const SightingConsensus& consensus, double angle_deviation_rad, int independent);
+
+}  // namespace ardrone_vslam

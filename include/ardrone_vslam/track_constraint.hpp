@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "ardrone_vslam/window_state.hpp"
+
+namespace ardrone_vslam {
+
+/// One view of a point by a frame of the window.
+struct TrackView {
+  std::size_t frame = 0;                                    ///< index into WindowState::frames()
+  Eigen::Vector3d bearing_base = Eigen::Vector3d::UnitX();  ///< measured unit ray, axes of base
+};
+
+/// A point by all its views.
+struct TrackPoint {
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< by the noise of the rays alone
+  double parallax_rad = 0;                                  ///< largest angle to the first ray
+};
+
+/// Where a measured ray lies beside the predicted one, and how that changes with the errors of pose
+/// and point: residual = pose * (true pose - pose) + point * (true point - point), in the tangent
+/// plane of the PREDICTED ray (Jacobians at measured rays bias the motion).
+struct RayResidual {
+  Eigen::Vector2d residual = Eigen::Vector2d::Zero();                      ///< [rad]
+  Eigen::Matrix<double, 2, 6> pose = Eigen::Matrix<double, 2, 6>::Zero();  ///< position, attitude
+  Eigen::Matrix<double, 2, 3> point = Eigen::Matrix<double, 2, 3>::Zero();
+};
+
+/// @param camera_base  the camera's position in base
+/// @return nothing when the point is at the camera or more than 60 degrees off the ray
+std::optional<RayResidual> rayResidual(const WindowPose& pose, const Eigen::Vector3d& camera_base,
+                                       const Eigen::Vector3d& bearing_base,
+                                       const Eigen::Vector3d& point_map);
+
+/// Least-squares point of rays from given poses.
+/// @return nothing for fewer than two views, parallel rays, or a point behind a camera
+std::optional<TrackPoint> triangulateTrack(const std::vector<WindowPose>& frames,
+                                           const Eigen::Vector3d& camera_base,
+                                           const std::vector<TrackView>& views,
+                                           double angle_deviation_rad);
+
+/// What a track says of its frames when nothing is known of its point: 2 n - 3 rows of unit
+/// deviation.
+struct TrackConstraint {
+  std::vector<int> coordinates;  ///< of WindowState, six a view
+  Eigen::MatrixXd jacobian;
+  Eigen::VectorXd residual;
+
+  int degreesOfFreedom() const { return static_cast<int>(residual.size()); }
+  /// r' (H P H' + I)^-1 r.
+  double distance(const WindowState& state) const;
+  /// Adds weight H' H and weight H' r; the information's coordinates must be consecutive.
+  void addTo(Information& information, double weight) const;
+};
+
+/// @return nothing when a ray is too far off its prediction
+std::optional<TrackConstraint> constraintOf(const WindowState& state,
+                                            const Eigen::Vector3d& camera_base,
+                                            const std::vector<TrackView>& views,
+                                            const TrackPoint& point, double angle_deviation_rad);
+
+/// The value below which a chi-square variable lies in 95 % of the cases, within 1 % (Wilson and
+/// Hilferty 1931).
+double chiSquare95(int degrees_of_freedom);
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/observer_noise.hpp"
+
+namespace ardrone_vslam {
+
+/// A pose of base that the filter still estimates (a frame of the window), or whose error it only
+/// remembers (an anchor of landmarks).
+struct WindowPose {
+  std::uint32_t id = 0;  ///< ascending, never used again in one run
+  std::int64_t stamp_ns = 0;
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d R_map_base = Eigen::Matrix3d::Identity();
+  double speed_m_s = 0;  ///< smoothed; the speed error divided by it is an error of scale
+};
+
+/// Measurements r = H x + n of some error coordinates, compressed to H' W H and H' W r.
+struct Information {
+  std::vector<int> coordinates;  ///< of WindowState, ascending
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd vector;
+
+  explicit Information(std::vector<int> of_coordinates);
+};
+
+/// Mean and covariance of the constraint filter: a multi-state constraint Kalman filter (Mourikis
+/// and Roumeliotis, ICRA 2007) with consider states for the map (Schmidt 1966). Error coordinates:
+///   0-2   attitude of odom in map [rad]: the observer's slow attitude error
+///   3-5   velocity bias of the observer, axes of base [m/s]
+///   6     scale error: the observer reports (1 + s) times the way [-]
+///   7     slow error of the observer's speed along the way [m/s]
+///   then  the frames, oldest first: position of base [m], attitude [rad]
+///   then  the anchors: alike, and the speed error of their time, as landmarks share its scale
+/// Axes of map; attitude errors are rotation vectors on the left, R_true = exp(error) R.
+///
+/// One camera sees no scale: all constraints leave the window's dilation open. Two things keep
+/// rounds of linearisation from closing it: what errs along the way does so by a multiple of the
+/// step (coordinates 6 and 7), and the covariance's dilation is turned along whenever frames are
+/// corrected.
+class WindowState {
+ public:
+  static constexpr int kScale = 6;
+  static constexpr int kSpeed = 7;
+  static constexpr int kGlobals = 8;
+  static constexpr int kFrame = 6;
+  static constexpr int kAnchor = 7;
+
+  explicit WindowState(const ObserverNoiseConfig& config);
+
+  /// Map equals odom; the first frame is the window's only one.
+  void start(const ObserverState& observer);
+  /// Adds a frame by the observer's increment since the newest one.
+  void propagate(const ObserverState& observer);
+  /// What update() would add to the coordinates of the information; nothing when it is not finite.
+  std::optional<Eigen::VectorXd> preview(const Information& information) const;
+  /// Corrects globals and frames; anchors keep their poses, only what is known of their errors
+  /// changes. O(coordinates x size of the information).
+  /// @return false when the covariance is not positive or the result not finite; nothing is changed
+  bool update(const Information& information);
+
+  const std::vector<WindowPose>& frames() const { return frames_; }
+  const std::vector<WindowPose>& anchors() const { return anchors_; }
+  /// First coordinate of a frame; of frames().size(): one beyond the last frame.
+  int frameCoordinate(std::size_t frame) const {
+    return kGlobals + kFrame * static_cast<int>(frame);
+  }
+  int anchorCoordinate(std::size_t anchor) const {
+    return frameCoordinate(frames_.size()) + kAnchor * static_cast<int>(anchor);
+  }
+  void removeFrame(std::size_t frame);
+  /// The oldest frame leaves the window, its error is remembered.
+  void makeAnchorOfOldest();
+  void removeAnchor(std::size_t anchor);
+
+  const Eigen::Vector3d& velocityBias_m_s() const { return velocity_bias_m_s_; }
+  double scaleError() const { return scale_error_; }
+  /// Of all coordinates.
+  const Eigen::MatrixXd& covariance() const { return P_; }
+
+ private:
+  void propagateGlobals(const ObserverState& observer, double dt_s, double way_m);
+  void inject(const Eigen::VectorXd& error);
+
+  ObserverNoiseConfig config_;
+  ObserverState observer_;
+  std::uint32_t next_id_ = 1;
+  Eigen::Matrix3d R_map_odom_ = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d velocity_bias_m_s_ = Eigen::Vector3d::Zero();
+  double scale_error_ = 0;
+  double speed_error_m_s_ = 0;
+  double speed_m_s_ = 0;  // smoothed
+  std::vector<WindowPose> frames_;
+  std::vector<WindowPose> anchors_;
+  Eigen::MatrixXd P_;
+};
+
+}  // namespace ardrone_vslam

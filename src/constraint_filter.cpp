@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/constraint_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace ardrone_vslam {
+namespace {
+
+double squared(double value) {
+  return value * value;
+}
+
+/// A track that passed its gate, and how far it is trusted.
+struct Candidate {
+  const FinishedTrack* track;
+  TrackConstraint constraint;
+  double weight;
+};
+
+void sum(const std::vector<Candidate>& candidates, Information& information) {
+  information.matrix.setZero();
+  information.vector.setZero();
+  for (const Candidate& c : candidates) {
+    if (c.weight > 0) c.constraint.addTo(information, c.weight);
+  }
+}
+
+/// Wrong tracks may pass a gate as wide as the prior, but they do not agree with the others: their
+/// weight falls with what is left of their residual (Geman and McClure), at last to 0 or 1.
+/// @return whether the information is that of the tracks that agree
+bool agree(const WindowState& state, std::vector<Candidate>& candidates, Information& information) {
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds; ++round) {
+    sum(candidates, information);
+    const auto error = state.preview(information);
+    if (!error) return false;
+    for (Candidate& c : candidates) {
+      std::vector<int> at = c.constraint.coordinates;
+      for (int& coordinate : at) coordinate -= information.coordinates.front();
+      const double left =
+          (c.constraint.residual - c.constraint.jacobian * (*error)(at)).squaredNorm();
+      const int dof = c.constraint.degreesOfFreedom();
+      const bool is_last = round + 1 == kRounds;
+      c.weight = is_last ? (left < chiSquare95(dof) ? 1 : 0) : 1 / squared(1 + left / dof);
+    }
+  }
+  sum(candidates, information);
+  return true;
+}
+
+}  // namespace
+
+ConstraintFilter::ConstraintFilter(const ConstraintFilterConfig& config,
+                                   const Eigen::Isometry3d& T_base_cam)
+    : config_(config),
+      camera_base_(T_base_cam.translation()),
+      state_(config.observer),
+      tracks_(T_base_cam.linear()) {
+  validate(config);
+}
+
+void ConstraintFilter::start(const ObserverState& observer) {
+  state_.start(observer);
+}
+
+void ConstraintFilter::predict(const ObserverState& observer) {
+  state_.propagate(observer);
+  if (!newest_is_keyframe_) state_.removeFrame(state_.frames().size() - 2);
+  newest_is_keyframe_ = false;
+}
+
+Matrix6d ConstraintFilter::covariance() const {
+  const int at = state_.frameCoordinate(state_.frames().size() - 1);
+  return state_.covariance().block<6, 6>(at, at);
+}
+
+std::optional<std::size_t> ConstraintFilter::anchorOf(std::uint32_t id) const {
+  for (auto next = joined_anchors_.find(id); next != joined_anchors_.end();
+       next = joined_anchors_.find(id))
+    id = next->second;
+  const auto& anchors = state_.anchors();
+  const auto found = std::find_if(anchors.begin(), anchors.end(),
+                                  [id](const WindowPose& anchor) { return anchor.id == id; });
+  if (found == anchors.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - anchors.begin());
+}
+
+FixOutcome ConstraintFilter::fix(const std::vector<LandmarkSighting>& sightings,
+                                 double focal_length_px) {
+  const double sigma_a = config_.track_deviation_px / focal_length_px;
+  std::vector<MapSighting> old;
+  for (const LandmarkSighting& s : sightings) {
+    const auto anchor = anchorOf(s.anchor_id);
+    if (!anchor) continue;
+    const auto age_ns = newest().stamp_ns - state_.anchors()[*anchor].stamp_ns;
+    if (static_cast<double>(age_ns) * 1e-9 >= config_.fix_min_age_s)
+      old.push_back({s.bearing_base, s.point_map, s.covariance_m2, *anchor});
+  }
+  if (static_cast<int>(old.size()) < config_.min_fix_landmarks) return FixOutcome::kNone;
+  const SightingConsensus consensus = agreeOnPosition(newest(), camera_base_, old, sigma_a);
+  if (static_cast<int>(consensus.sightings.size()) < config_.min_fix_landmarks)
+    return FixOutcome::kNone;
+  const MapFix fix =
+      fixBy(state_, camera_base_, consensus, sigma_a, config_.fix_independent_landmarks);
+  if (fix.drift.topLeftCorner<3, 3>().trace() <
+      config_.fix_drift_share * fix.covariance.topLeftCorner<3, 3>().trace())
+    return FixOutcome::kNotNeeded;
+  if (!(fix.distance() < 6 * squared(config_.fix_gate_deviations))) return FixOutcome::kRejected;
+  return state_.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;
+}
+
+bool ConstraintFilter::isKeyframe(const ImageFeatures& features) const {
+  const auto& frames = state_.frames();
+  if (frames.size() < 2) return true;
+  const WindowPose& last = frames[frames.size() - 2];
+  if (static_cast<double>(newest().stamp_ns - last.stamp_ns) * 1e-9 > config_.keyframe_s)
+    return true;
+  const TrackWindow::Motion motion = tracks_.motionSince(last, newest(), features);
+  return motion.lost > motion.common || motion.common == 0 ||
+         motion.median_px > config_.keyframe_px;
+}
+
+const std::vector<UsedTrack>& ConstraintFilter::track(const ImageFeatures& features) {
+  used_.clear();
+  candidates_ = 0;
+  if (!isKeyframe(features)) return used_;
+  newest_is_keyframe_ = true;
+  tracks_.add(newest().id, features);
+  chooseAnchor();
+  const bool is_full = static_cast<int>(state_.frames().size()) > config_.window_frames;
+  useTracks(tracks_.takeFinished(state_.frames(), is_full),
+            config_.track_deviation_px / features.focal_length_px);
+  if (is_full) dropOldest();
+  return used_;
+}
+
+void ConstraintFilter::chooseAnchor() {
+  const auto& frames = state_.frames();
+  const auto anchor = std::find_if(frames.begin(), frames.end(),
+                                   [this](const WindowPose& f) { return f.id == anchor_id_; });
+  if (anchor != frames.end()) {
+    const double way_m = (newest().position_map - anchor->position_map).norm();
+    const double turn_rad =
+        Eigen::AngleAxisd(newest().R_map_base.transpose() * anchor->R_map_base).angle();
+    if (way_m < config_.anchor_spacing * point_distance_m_ &&
+        turn_rad < config_.anchor_turn_deg * M_PI / 180)
+      return;
+  }
+  anchor_id_ = newest().id;
+}
+
+bool ConstraintFilter::hasKnownBaseline(const std::vector<TrackView>& views) const {
+  const auto& P = state_.covariance();
+  const std::size_t first = views.front().frame;
+  const std::size_t last = views.back().frame;
+  const int i = state_.frameCoordinate(first);
+  const int j = state_.frameCoordinate(last);
+  const Eigen::Matrix3d relative =
+      P.block<3, 3>(i, i) + P.block<3, 3>(j, j) - P.block<3, 3>(i, j) - P.block<3, 3>(j, i);
+  const Eigen::Vector3d baseline =
+      state_.frames()[last].position_map - state_.frames()[first].position_map;
+  const double length_m2 = baseline.squaredNorm();
+  // Along it, it is a matter of scale, which does no harm.
+  const double across_m2 = relative.trace() - baseline.dot(relative * baseline) / length_m2;
+  return across_m2 < squared(config_.baseline_uncertainty) * length_m2;
+}
+
+void ConstraintFilter::useTracks(const std::vector<FinishedTrack>& finished, double sigma_a) {
+  std::vector<Candidate> candidates;
+  for (const FinishedTrack& track : finished) {
+    if (static_cast<int>(track.views.size()) < config_.min_track_views ||
+        !hasKnownBaseline(track.views))
+      continue;
+    const auto point = triangulateTrack(state_.frames(), camera_base_, track.views, sigma_a);
+    if (!point || point->parallax_rad < config_.track_parallax_deviations * sigma_a) continue;
+    auto constraint = constraintOf(state_, camera_base_, track.views, *point, sigma_a);
+    if (!constraint) continue;
+    ++candidates_;
+    const double distance = constraint->distance(state_);
+    const int dof = constraint->degreesOfFreedom();
+    if (!(distance < 2 * chiSquare95(dof))) continue;
+    candidates.push_back({&track, std::move(*constraint), 1 / squared(1 + distance / dof)});
+  }
+  if (candidates.empty()) return;
+
+  const int first = state_.frameCoordinate(0);
+  std::vector<int> coordinates(
+      static_cast<std::size_t>(state_.frameCoordinate(state_.frames().size()) - first));
+  std::iota(coordinates.begin(), coordinates.end(), first);
+  Information information(std::move(coordinates));
+  if (!agree(state_, candidates, information) || !state_.update(information)) return;
+
+  std::vector<double> distances_m;
+  for (const Candidate& c : candidates) {
+    if (c.weight == 0) continue;
+    tracks_.keepNewestView(c.track->track_id);
+    const auto point = triangulateTrack(state_.frames(), camera_base_, c.track->views, sigma_a);
+    if (!point) continue;
+    used_.push_back({*c.track, *point, anchor_id_});
+    distances_m.push_back((point->position_map - newest().position_map).norm());
+  }
+  if (used_.empty()) return;
+  anchors_in_use_.insert(anchor_id_);
+  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
+  std::nth_element(distances_m.begin(), middle, distances_m.end());
+  point_distance_m_ = *middle;
+}
+
+void ConstraintFilter::dropOldest() {
+  const std::uint32_t id = state_.frames().front().id;
+  tracks_.dropFrame(id);
+  if (anchors_in_use_.erase(id) == 0) {
+    state_.removeFrame(0);
+    return;
+  }
+  state_.makeAnchorOfOldest();
+  if (static_cast<int>(state_.anchors().size()) > config_.max_anchors) joinAnchors();
+}
+
+void ConstraintFilter::joinAnchors() {
+  const auto& anchors = state_.anchors();
+  std::size_t nearest = 1;
+  double shortest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < anchors.size(); ++i) {
+    const double way_m = (anchors[i].position_map - anchors[i - 1].position_map).norm();
+    if (way_m >= shortest_m) continue;
+    shortest_m = way_m;
+    nearest = i;
+  }
+  joined_anchors_[anchors[nearest].id] = anchors[nearest - 1].id;
+  state_.removeAnchor(nearest);
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/map_fix.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "ardrone_vslam/rotation.hpp"
+#include "ardrone_vslam/track_constraint.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kSamples = 40;
+constexpr double kInlier = 6;            // squared deviations of a ray's two angles, 95 %
+constexpr double kAttitude_rad = 0.005;  // of the predicted attitude, while looking for agreement
+constexpr double kTurn_rad = 0.02;       // keeps the turn of a fix by few landmarks regular
+
+/// A small linear congruential generator: the same samples on every machine.
+class Draws {
+ public:
+  std::size_t below(std::size_t count) {
+    state_ = state_ * 1664525U + 1013904223U;
+    return static_cast<std::size_t>((static_cast<std::uint64_t>(state_) * count) >> 32);
+  }
+
+ private:
+  std::uint32_t state_ = 12345;
+};
+
+/// Squared deviations between a ray and a landmark seen from a camera position.
+double offRay(const MapSighting& sighting, const Eigen::Vector3d& ray_map,
+              const Eigen::Vector3d& camera_map, double sigma_a) {
+  const Eigen::Vector3d offset = sighting.point_map - camera_map;
+  const double squared_m2 = offset.squaredNorm();
+  constexpr double kFar = 1e9;
+  if (!(ray_map.dot(offset) > 0)) return kFar;
+  const Eigen::Vector3d direction = offset / std::sqrt(squared_m2);
+  const double own_m2 =
+      sighting.covariance_m2.trace() - direction.dot(sighting.covariance_m2 * direction);
+  const double variance = sigma_a * sigma_a + kAttitude_rad * kAttitude_rad + own_m2 / squared_m2;
+  return ray_map.cross(direction).squaredNorm() / variance;
+}
+
+Eigen::Vector3d nearestToRays(const MapSighting& a, const Eigen::Vector3d& ray_a,
+                              const MapSighting& b, const Eigen::Vector3d& ray_b) {
+  const Eigen::Matrix3d across_a = Eigen::Matrix3d::Identity() - ray_a * ray_a.transpose();
+  const Eigen::Matrix3d across_b = Eigen::Matrix3d::Identity() - ray_b * ray_b.transpose();
+  return Eigen::Matrix3d(across_a + across_b)
+      .ldlt()
+      .solve(across_a * a.point_map + across_b * b.point_map);
+}
+
+/// Coordinates of a fix: scale, newest pose, anchors (each once, ascending).
+struct FixCoordinates {
+  std::vector<std::size_t> anchors;
+  std::vector<int> all;
+
+  FixCoordinates(const WindowState& state, const std::vector<MapSighting>& sightings) {
+    for (const MapSighting& sighting : sightings) anchors.push_back(sighting.anchor);
+    std::sort(anchors.begin(), anchors.end());
+    anchors.erase(std::unique(anchors.begin(), anchors.end()), anchors.end());
+    all.push_back(WindowState::kScale);
+    const int newest = state.frameCoordinate(state.frames().size() - 1);
+    for (int k = 0; k < WindowState::kFrame; ++k) all.push_back(newest + k);
+    for (const std::size_t anchor : anchors) {
+      for (int k = 0; k < WindowState::kAnchor; ++k)
+        all.push_back(state.anchorCoordinate(anchor) + k);
+    }
+  }
+
+  /// Where scale, pose and one anchor stand among all.
+  std::array<int, 14> of(std::size_t anchor) const {
+    const auto at = std::lower_bound(anchors.begin(), anchors.end(), anchor) - anchors.begin();
+    std::array<int, 14> places{};
+    for (int k = 0; k < 7; ++k) places[static_cast<std::size_t>(k)] = k;
+    for (int k = 0; k < 7; ++k)
+      places[static_cast<std::size_t>(7 + k)] = 7 + 7 * static_cast<int>(at) + k;
+    return places;
+  }
+};
+
+}  // namespace
+
+SightingConsensus agreeOnPosition(const WindowPose& predicted, const Eigen::Vector3d& camera_base,
+                                  const std::vector<MapSighting>& sightings,
+                                  double angle_deviation_rad) {
+  const Eigen::Vector3d lever = predicted.R_map_base * camera_base;
+  std::vector<Eigen::Vector3d> rays;
+  rays.reserve(sightings.size());
+  for (const MapSighting& s : sightings) rays.push_back(predicted.R_map_base * s.bearing_base);
+  const auto off = [&](std::size_t i, const Eigen::Vector3d& camera) {
+    return offRay(sightings[i], rays[i], camera, angle_deviation_rad);
+  };
+  const auto scoreOf = [&](const Eigen::Vector3d& camera) {
+    double score = 0;
+    for (std::size_t i = 0; i < sightings.size(); ++i)
+      score += std::max(0.0, 1 - off(i, camera) / kInlier);
+    return score;
+  };
+
+  Eigen::Vector3d best = predicted.position_map + lever;
+  double best_score = scoreOf(best);
+  Draws draws;
+  for (int k = 0; k < kSamples && sightings.size() >= 2; ++k) {
+    const std::size_t a = draws.below(sightings.size());
+    const std::size_t b = draws.below(sightings.size());
+    if (a == b) continue;
+    const Eigen::Vector3d camera = nearestToRays(sightings[a], rays[a], sightings[b], rays[b]);
+    if (!camera.allFinite()) continue;
+    const double score = scoreOf(camera);
+    if (score <= best_score) continue;
+    best_score = score;
+    best = camera;
+  }
+  SightingConsensus consensus;
+  consensus.position_map = best - lever;
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    if (off(i, best) < kInlier) consensus.sightings.push_back(sightings[i]);
+  }
+  return consensus;
+}
+
+double MapFix::distance() const {
+  return offset.dot(Matrix6d(drift + covariance).llt().solve(offset));
+}
+
+MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
+             const SightingConsensus& consensus, double angle_deviation_rad, int independent) {
+  const FixCoordinates coordinates(state, consensus.sightings);
+  MapFix fix{Information(coordinates.all)};
+  // Jacobians at the agreed position: the prediction may be far off.
+  WindowPose pose = state.frames().back();
+  Vector6d moved = Vector6d::Zero();
+  moved.head<3>() = consensus.position_map - pose.position_map;
+  pose.position_map = consensus.position_map;
+  for (const MapSighting& s : consensus.sightings) {
+    const auto ray = rayResidual(pose, camera_base, s.bearing_base, s.point_map);
+    if (!ray) continue;
+    const WindowPose& anchor = state.anchors()[s.anchor];
+    const Eigen::Vector3d from_anchor = s.point_map - anchor.position_map;
+    Eigen::Matrix<double, 2, 14> H;
+    H.col(0) = -ray->point * from_anchor;
+    H.middleCols<6>(1) = ray->pose;
+    H.middleCols<3>(7) = ray->point;
+    H.middleCols<3>(10) = -ray->point * skew(from_anchor);
+    H.col(13) = -ray->point * from_anchor / anchor.speed_m_s;
+    const Eigen::Matrix2d noise =
+        angle_deviation_rad * angle_deviation_rad * Eigen::Matrix2d::Identity() +
+        ray->point * s.covariance_m2 * ray->point.transpose();
+    const Eigen::Matrix<double, 14, 2> weighted = H.transpose() * noise.inverse();
+    const auto to = coordinates.of(s.anchor);
+    fix.information.matrix(to, to) += weighted * H;
+    fix.information.vector(to) += weighted * (ray->residual + ray->pose * moved);
+  }
+  const double share =
+      std::min(1.0, static_cast<double>(independent) /
+                        std::max(1.0, static_cast<double>(consensus.sightings.size())));
+  fix.information.matrix *= share;
+  fix.information.vector *= share;
+
+  Matrix6d on_pose = fix.information.matrix.block<6, 6>(1, 1);
+  on_pose.diagonal().tail<3>().array() += 1 / (kTurn_rad * kTurn_rad);
+  fix.covariance = on_pose.inverse();
+  const Eigen::MatrixXd J = fix.covariance * fix.information.matrix.middleRows<6>(1);
+  fix.offset = fix.covariance * fix.information.vector.segment<6>(1);
+  const Eigen::MatrixXd P = state.covariance()(coordinates.all, coordinates.all);
+  fix.drift = J * P * J.transpose();
+  return fix;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Localisation and mapping with `estimator: constraint`.
+#include "slam_state.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+Landmark landmarkOf(const UsedTrack& used, const FrameView& view) {
+  Landmark landmark;
+  const Eigen::Vector3d offset = used.point.position_map - view.origin_map();
+  const double variance_m2 = used.point.covariance_m2.trace();
+  landmark.position_map = used.point.position_map;
+  landmark.covariance_m2 = used.point.covariance_m2;
+  landmark.anchor_id = used.anchor_id;
+  landmark.deviation_m = std::sqrt(variance_m2 / 3);
+  landmark.depth_deviation_m = std::sqrt(variance_m2);
+  landmark.parallax_rad = used.point.parallax_rad;
+  landmark.position_variance_m2 = view.positionVariance_m2();
+  landmark.track_id = used.track.track_id;
+  landmark.descriptor = used.track.descriptor;
+  landmark.seen_distance_m = offset.norm();
+  landmark.view_direction_map = offset.normalized();
+  landmark.first_seen_ns = view.features().stamp_ns;
+  landmark.last_seen_ns = view.features().stamp_ns;
+  landmark.times_seen = static_cast<int>(used.track.views.size());
+  return landmark;
+}
+
+}  // namespace
+
+void Slam::State::fixByLandmarks() {
+  std::vector<LandmarkSighting> seen;
+  seen.reserve(landmark_matches.matches.size());
+  for (const Association& match : landmark_matches.matches) {
+    const Landmark& landmark = landmark_map.all()[static_cast<std::size_t>(match.target)];
+    const auto feature = static_cast<std::size_t>(match.feature);
+    seen.push_back({T_base_cam.linear() * view.features().bearing_cam[feature].cast<double>(),
+                    landmark.position_map, landmark.covariance_m2, landmark.anchor_id});
+  }
+  switch (constraint->fix(seen, view.focalLength_px())) {
+    case FixOutcome::kApplied:
+    case FixOutcome::kNotNeeded:
+      result.state = SlamState::kLocalised;
+      break;
+    case FixOutcome::kRejected:
+      result.state = SlamState::kFixRejected;
+      break;
+    case FixOutcome::kNone:
+      result.state = landmark_map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTracking;
+      break;
+  }
+}
+
+void Slam::State::useTracks(const ImageFeatures& features) {
+  const std::vector<UsedTrack>& used_tracks = constraint->track(features);
+  view.setOrigin(constraint->newest().position_map +
+                 constraint->newest().R_map_base * T_base_cam.translation());
+  setVariance();
+  Mapper::remember(view, landmark_matches.matches, landmark_map);
+  for (const Association& match : landmark_matches.matches) {
+    const Landmark& landmark = landmark_map.all()[static_cast<std::size_t>(match.target)];
+    constraint->assignLandmark(landmark.track_id, landmark.id);
+  }
+  // An image that shows nothing (dark, lens covered) says nothing about the landmarks either.
+  if (view.size() > 0)
+    result.removed_landmarks = mapper.countMissed(landmark_matches.missed, landmark_map);
+  for (const UsedTrack& one : used_tracks) {
+    if (landmark_map.find(one.track.landmark_id) != nullptr) continue;
+    constraint->assignLandmark(one.track.track_id, landmark_map.add(landmarkOf(one, view)));
+    ++result.new_landmarks;
+  }
+  result.removed_landmarks += landmark_map.enforceCap();
+}
+
+}  // namespace ardrone_vslam

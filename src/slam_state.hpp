@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "ardrone_vslam/association.hpp"
+#include "ardrone_vslam/constraint_filter.hpp"
+#include "ardrone_vslam/frame_view.hpp"
+#include "ardrone_vslam/mapper.hpp"
+#include "ardrone_vslam/slam.hpp"
+#include "ardrone_vslam/thesis_filter.hpp"
+
+namespace ardrone_vslam {
+
+struct Slam::State {
+  State(const SlamConfig& c, const Eigen::Isometry3d& T_base_camera)
+      : config(c),
+        T_base_cam(T_base_camera),
+        associator(c.association),
+        filter(c.thesis_filter),
+        mapper(c.mapper),
+        feature_map(c.feature_map),
+        landmark_map(c.landmark_map) {
+    if (c.estimator == Estimator::kConstraint) constraint.emplace(c.constraint_filter, T_base_cam);
+  }
+
+  SlamConfig config;
+  Eigen::Isometry3d T_base_cam;
+  Associator associator;
+  ThesisFilter filter;
+  std::optional<ConstraintFilter> constraint;  // instead of the filter above
+  Mapper mapper;
+  FeatureMap feature_map;
+  LandmarkMap landmark_map;
+
+  bool started = false;
+  Eigen::Vector3d offset_map = Eigen::Vector3d::Zero();  // base -> camera, at the present attitude
+  FrameView view;
+  AssociationResult landmark_matches;
+  AssociationResult feature_matches;
+  std::vector<Sighting> sightings;
+  std::vector<bool> used;  // the frame's features that need not be stored
+  FrameResult result;
+
+  void predict(const ImageFeatures& features, const ObserverState& observer);
+  void setVariance();
+  /// Pose of base by the filter in use.
+  Eigen::Isometry3d poseAt(const ObserverState& observer) const;
+  Matrix6d covariance() const;
+  void localise();
+  void refineAndMap();
+  void report(const ObserverState& observer);
+
+  // The same two steps by the constraint filter (slam_constraint.cpp).
+  void fixByLandmarks();
+  void useTracks(const ImageFeatures& features);
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/window_state.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "ardrone_vslam/rotation.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kAttitude = 0;
+constexpr int kBias = 3;
+constexpr double kSpeedSmoothing_s = 2;
+
+double squared(double value) {
+  return value * value;
+}
+
+double radians(double degrees) {
+  return degrees * M_PI / 180;
+}
+
+/// Indices first .. first + count - 1.
+std::vector<int> range(int first, int count) {
+  std::vector<int> indices(static_cast<std::size_t>(count));
+  std::iota(indices.begin(), indices.end(), first);
+  return indices;
+}
+
+Eigen::MatrixXd without(const Eigen::MatrixXd& P, int first, int count) {
+  std::vector<int> kept = range(0, first);
+  const std::vector<int> rest = range(first + count, static_cast<int>(P.rows()) - first - count);
+  kept.insert(kept.end(), rest.begin(), rest.end());
+  return P(kept, kept);
+}
+
+/// With `count` zero coordinates more before `at`.
+Eigen::MatrixXd widened(const Eigen::MatrixXd& P, int at, int count) {
+  const auto rest = P.rows() - at;
+  Eigen::MatrixXd wider = Eigen::MatrixXd::Zero(P.rows() + count, P.cols() + count);
+  wider.topLeftCorner(at, at) = P.topLeftCorner(at, at);
+  wider.topRightCorner(at, rest) = P.topRightCorner(at, rest);
+  wider.bottomLeftCorner(rest, at) = P.bottomLeftCorner(rest, at);
+  wider.bottomRightCorner(rest, rest) = P.bottomRightCorner(rest, rest);
+  return wider;
+}
+
+Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
+  return Eigen::Matrix3d::Identity() - unit * unit.transpose();
+}
+
+}  // namespace
+
+Information::Information(std::vector<int> of_coordinates) : coordinates(std::move(of_coordinates)) {
+  const auto size = static_cast<Eigen::Index>(coordinates.size());
+  matrix = Eigen::MatrixXd::Zero(size, size);
+  vector = Eigen::VectorXd::Zero(size);
+}
+
+WindowState::WindowState(const ObserverNoiseConfig& config) : config_(config) {
+  validate(config);
+}
+
+void WindowState::start(const ObserverState& observer) {
+  observer_ = observer;
+  R_map_odom_.setIdentity();
+  velocity_bias_m_s_.setZero();
+  scale_error_ = 0;
+  speed_error_m_s_ = 0;
+  speed_m_s_ = 0;
+  anchors_.clear();
+  frames_.assign(1, {next_id_++, observer.stamp_ns, observer.T_odom_base.translation(),
+                     observer.T_odom_base.linear(), config_.slow_speed_m_s});
+  P_ = Eigen::MatrixXd::Zero(kGlobals + kFrame, kGlobals + kFrame);
+  P_.diagonal().segment<3>(kBias).setConstant(squared(config_.velocity_bias_m_s));
+  P_(kScale, kScale) = squared(config_.scale_deviation);
+  P_(kSpeed, kSpeed) = squared(config_.velocity_bias_m_s);
+  // Yaw is zero by definition; roll and pitch may be off from the start.
+  const Eigen::Matrix3d tilt =
+      squared(radians(config_.tilt_deviation_deg)) * acrossOf(observer.T_odom_base.linear().col(2));
+  const int attitude = kGlobals + 3;
+  P_.block<3, 3>(kAttitude, kAttitude) = tilt;
+  P_.block<3, 3>(attitude, kAttitude) = tilt;
+  P_.block<3, 3>(kAttitude, attitude) = tilt;
+  P_.block<3, 3>(attitude, attitude) = tilt;
+  P_.diagonal().segment<3>(attitude).array() += squared(radians(config_.attitude_noise_deg));
+  P_.diagonal().segment<3>(kGlobals).setConstant(squared(config_.start_deviation_m));
+}
+
+void WindowState::propagate(const ObserverState& observer) {
+  const WindowPose last = frames_.back();
+  const double dt_s =
+      std::max(static_cast<double>(observer.stamp_ns - observer_.stamp_ns) * 1e-9, 0.0);
+  const Eigen::Vector3d step_odom =
+      observer.T_odom_base.translation() - observer_.T_odom_base.translation();
+  const double way_m = step_odom.norm();
+  if (dt_s > 0) {
+    const double share = speed_m_s_ > 0 ? dt_s / (dt_s + kSpeedSmoothing_s) : 1;
+    speed_m_s_ += share * (way_m / dt_s - speed_m_s_);
+  }
+
+  WindowPose next;
+  next.id = next_id_++;
+  next.stamp_ns = observer.stamp_ns;
+  next.speed_m_s = std::max(speed_m_s_, config_.slow_speed_m_s);
+  const Eigen::Vector3d step =
+      R_map_odom_ * step_odom * (1 - scale_error_ - speed_error_m_s_ / next.speed_m_s);
+  // Along the way the bias gives way to the speed error as the drone moves.
+  const double slow_m = config_.slow_speed_m_s * dt_s;
+  const double moving = way_m > 0 ? step.squaredNorm() / (step.squaredNorm() + slow_m * slow_m) : 0;
+  const Eigen::Vector3d along = step.normalized();
+  const Eigen::Matrix3d bias_to_step =
+      (Eigen::Matrix3d::Identity() - moving * along * along.transpose()) * R_map_odom_ *
+      observer_.T_odom_base.linear() * dt_s;
+  const Eigen::Vector3d moved = step - bias_to_step * velocity_bias_m_s_;
+  next.position_map = last.position_map + moved;
+
+  const int from = frameCoordinate(frames_.size() - 1);
+  const int to = frameCoordinate(frames_.size());
+  P_ = widened(P_, to, kFrame);
+  Eigen::Matrix<double, 3, kGlobals> F;
+  F.middleCols<3>(kAttitude) = -skew(moved);
+  F.middleCols<3>(kBias) = -bias_to_step;
+  F.col(kScale) = -moved;
+  F.col(kSpeed) = -moved / next.speed_m_s;
+  P_.middleRows<3>(to) = P_.middleRows<3>(from) + F * P_.topRows<kGlobals>();
+  P_.middleCols<3>(to) = P_.middleCols<3>(from) + P_.leftCols<kGlobals>() * F.transpose();
+  const std::optional<double> then = positionVariance_m2(observer_);
+  const std::optional<double> now = positionVariance_m2(observer);
+  P_.diagonal().segment<3>(to).array() +=
+      then && now && *now > *then
+          ? *now - *then
+          : squared(config_.walk_m_per_sqrt_m) * way_m + squared(config_.walk_m_per_sqrt_s) * dt_s;
+
+  propagateGlobals(observer, dt_s, way_m);
+  next.R_map_base = R_map_odom_ * observer.T_odom_base.linear();
+  P_.middleRows<3>(to + 3) = P_.middleRows<3>(kAttitude);
+  P_.middleCols<3>(to + 3) = P_.middleCols<3>(kAttitude);
+  P_.diagonal().segment<3>(to + 3).array() += squared(radians(config_.attitude_noise_deg));
+  frames_.push_back(next);
+  observer_ = observer;
+}
+
+void WindowState::propagateGlobals(const ObserverState& observer, double dt_s, double way_m) {
+  // Roll and pitch come back to the observer's, which gravity holds; yaw walks; biases fade.
+  const Eigen::Vector3d up = R_map_odom_ * observer.T_odom_base.linear().col(2);
+  const double keep_tilt = std::exp(-dt_s / config_.tilt_time_s);
+  const double keep_bias = std::exp(-dt_s / config_.velocity_bias_time_s);
+  R_map_odom_ =
+      rotationOf(-(1 - keep_tilt) * acrossOf(up) * rotationVectorOf(R_map_odom_)) * R_map_odom_;
+  velocity_bias_m_s_ *= keep_bias;
+  speed_error_m_s_ *= keep_bias;
+
+  Eigen::Matrix<double, kGlobals, kGlobals> F =
+      Eigen::Matrix<double, kGlobals, kGlobals>::Identity();
+  F.block<3, 3>(kAttitude, kAttitude) -= (1 - keep_tilt) * acrossOf(up);
+  F.diagonal().segment<3>(kBias).setConstant(keep_bias);
+  F(kSpeed, kSpeed) = keep_bias;
+  P_.topRows<kGlobals>() = (F * P_.topRows<kGlobals>()).eval();
+  P_.leftCols<kGlobals>() = (P_.leftCols<kGlobals>() * F.transpose()).eval();
+  const double tilt_variance =
+      squared(radians(config_.tilt_deviation_deg)) * (1 - keep_tilt * keep_tilt);
+  const double yaw_variance = squared(radians(config_.yaw_walk_deg_per_sqrt_s)) * dt_s +
+                              squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * way_m;
+  const double bias_variance = squared(config_.velocity_bias_m_s) * (1 - keep_bias * keep_bias);
+  P_.block<3, 3>(kAttitude, kAttitude) +=
+      tilt_variance * acrossOf(up) + yaw_variance * up * up.transpose();
+  P_.diagonal().segment<3>(kBias).array() += bias_variance;
+  P_(kSpeed, kSpeed) += bias_variance;
+}
+
+std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {
+  const Eigen::MatrixXd P_ww = P_(information.coordinates, information.coordinates);
+  Eigen::MatrixXd M = P_ww * information.matrix;
+  M.diagonal().array() += 1;
+  const Eigen::VectorXd error = M.partialPivLu().solve(P_ww * information.vector);
+  if (!error.allFinite()) return std::nullopt;
+  return error;
+}
+
+bool WindowState::update(const Information& information) {
+  const int active = frameCoordinate(frames_.size());
+  const std::vector<int>& w = information.coordinates;
+  const auto size = static_cast<Eigen::Index>(w.size());
+  // With P_ww = C C' and N = C' information C the posterior is P - G (I - (I + N)^-1) G', where
+  // G = P_w C'^-1: positive whatever the rank of the information.
+  constexpr double kRounding = 1e-14;
+  const Eigen::MatrixXd P_ww = P_(w, w);
+  const Eigen::LLT<Eigen::MatrixXd> prior(P_ww + kRounding * Eigen::MatrixXd::Identity(size, size));
+  if (prior.info() != Eigen::Success) return false;
+  const Eigen::MatrixXd C = prior.matrixL();
+  Eigen::MatrixXd M = C.transpose() * information.matrix * C;
+  M.diagonal().array() += 1;
+  const Eigen::LLT<Eigen::MatrixXd> inner(M);
+  if (inner.info() != Eigen::Success) return false;
+  const Eigen::MatrixXd P_w = P_(Eigen::all, w);
+  const Eigen::MatrixXd G = prior.matrixL().solve(P_w.transpose()).transpose();
+  const Eigen::VectorXd error = G.topRows(active) * inner.solve(C.transpose() * information.vector);
+  if (!error.allFinite()) return false;
+
+  const Eigen::MatrixXd gain =
+      Eigen::MatrixXd::Identity(size, size) - inner.solve(Eigen::MatrixXd::Identity(size, size));
+  P_.leftCols(active) -= G * (gain * G.topRows(active).transpose());
+  P_.topRightCorner(active, P_.cols() - active) =
+      P_.bottomLeftCorner(P_.rows() - active, active).transpose();
+  const Eigen::MatrixXd P_active = P_.topLeftCorner(active, active);
+  P_.topLeftCorner(active, active) = 0.5 * (P_active + P_active.transpose());
+  inject(error);
+  return true;
+}
+
+void WindowState::inject(const Eigen::VectorXd& error) {
+  R_map_odom_ = rotationOf(error.segment<3>(kAttitude)) * R_map_odom_;
+  velocity_bias_m_s_ += error.segment<3>(kBias);
+  scale_error_ += error(kScale);
+  speed_error_m_s_ += error(kSpeed);
+  // A scale error stretches the window as it now is, not as it was: the covariance must say so, or
+  // later constraints would take the difference for a sight of the scale.
+  const Eigen::Vector3d shift = error.segment<3>(frameCoordinate(frames_.size() - 1));
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(error.size(), 2);
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    const int at = frameCoordinate(i);
+    frames_[i].position_map += error.segment<3>(at);
+    frames_[i].R_map_base = rotationOf(error.segment<3>(at + 3)) * frames_[i].R_map_base;
+    T.block<3, 1>(at, 0) = error.segment<3>(at) - shift;
+    T.block<3, 1>(at, 1) = T.block<3, 1>(at, 0) / frames_[i].speed_m_s;
+  }
+  P_.topRows(error.size()) -= (T * P_.middleRows<2>(kScale)).eval();
+  P_.leftCols(error.size()) -= (P_.middleCols<2>(kScale) * T.transpose()).eval();
+}
+
+void WindowState::removeFrame(std::size_t frame) {
+  P_ = without(P_, frameCoordinate(frame), kFrame);
+  frames_.erase(frames_.begin() + static_cast<std::ptrdiff_t>(frame));
+}
+
+void WindowState::makeAnchorOfOldest() {
+  const int rest = frameCoordinate(1);
+  std::vector<int> order = range(0, kGlobals);
+  const std::vector<int> others = range(rest, static_cast<int>(P_.rows()) - rest);
+  const std::vector<int> oldest = range(kGlobals, kFrame);
+  order.insert(order.end(), others.begin(), others.end());
+  order.insert(order.end(), oldest.begin(), oldest.end());
+  order.push_back(kSpeed);
+  P_ = Eigen::MatrixXd(P_(order, order));
+  anchors_.push_back(frames_.front());
+  frames_.erase(frames_.begin());
+}
+
+void WindowState::removeAnchor(std::size_t anchor) {
+  P_ = without(P_, anchorCoordinate(anchor), kAnchor);
+  anchors_.erase(anchors_.begin() + static_cast<std::ptrdiff_t>(anchor));
+}
+
+}  // namespace ardrone_vslam

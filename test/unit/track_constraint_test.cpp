@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/track_constraint.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../../tools/lib/random_source.hpp"
+#include "ardrone_vslam/rotation.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+const Eigen::Vector3d kCamera_base(0.2, 0.05, -0.1);
+
+WindowPose poseAt(const Eigen::Vector3d& position_map, const Eigen::Vector3d& turn) {
+  WindowPose pose;
+  pose.position_map = position_map;
+  pose.R_map_base = rotationOf(turn);
+  return pose;
+}
+
+Eigen::Vector3d bearingTo(const Eigen::Vector3d& point_map, const WindowPose& pose) {
+  const Eigen::Vector3d offset = point_map - pose.position_map - pose.R_map_base * kCamera_base;
+  return (pose.R_map_base.transpose() * offset).normalized();
+}
+
+ObserverState observerAt(int frame, const Eigen::Vector3d& position) {
+  ObserverState state;
+  state.stamp_ns = 100'000'000LL * frame;
+  state.T_odom_base.translation() = position;
+  return state;
+}
+
+/// Frames that move sideways by 0.1 m, as the odometry says.
+WindowState sidewaysWindow(int frames) {
+  WindowState state((ObserverNoiseConfig()));
+  state.start(observerAt(0, {0, 0, 0}));
+  for (int i = 1; i < frames; ++i) state.propagate(observerAt(i, {0, 0.1 * i, 0.01 * (i % 2)}));
+  return state;
+}
+
+std::vector<TrackView> viewsOf(const Eigen::Vector3d& point_map, const WindowState& state,
+                               double noise_rad, RandomSource& random) {
+  std::vector<TrackView> views;
+  for (std::size_t i = 0; i < state.frames().size(); ++i) {
+    const Eigen::Vector3d exact = bearingTo(point_map, state.frames()[i]);
+    views.push_back({i, (exact + noise_rad * random.normal3()).normalized()});
+  }
+  return views;
+}
+
+TEST(RayResidual, JacobiansAreThoseOfSmallChanges) {
+  const WindowPose pose = poseAt({1, 2, 3}, {0.1, 0.2, 0.3});
+  const Eigen::Vector3d point(6, 3, 2.5);
+  const Eigen::Vector3d bearing = bearingTo(point, pose);  // residual zero: first order is exact
+  const auto at = rayResidual(pose, kCamera_base, bearing, point);
+  ASSERT_TRUE(at);
+  EXPECT_LT(at->residual.norm(), 1e-12);
+  constexpr double kStep = 1e-6;
+  for (int k = 0; k < 9; ++k) {
+    Eigen::Vector3d change = Eigen::Vector3d::Zero();
+    change(k % 3) = kStep;
+    // The estimate is wrong by -change, so the truth lies at +change of it.
+    WindowPose wrong_pose = pose;
+    Eigen::Vector3d wrong_point = point;
+    if (k < 3) {
+      wrong_pose.position_map -= change;
+    } else if (k < 6) {
+      wrong_pose.R_map_base = rotationOf(-change) * pose.R_map_base;
+    } else {
+      wrong_point -= change;
+    }
+    const auto moved = rayResidual(wrong_pose, kCamera_base, bearing, wrong_point);
+    ASSERT_TRUE(moved);
+    const Eigen::Vector2d analytic =
+        k < 6 ? Eigen::Vector2d(at->pose.col(k)) : Eigen::Vector2d(at->point.col(k - 6));
+    EXPECT_LT((moved->residual / kStep - analytic).norm(), 1e-5) << "coordinate " << k;
+  }
+}
+
+TEST(RayResidual, RefusesAPointBehindOrAtTheCamera) {
+  const WindowPose pose = poseAt({0, 0, 0}, {0, 0, 0});
+  EXPECT_FALSE(rayResidual(pose, kCamera_base, {1, 0, 0}, {-3, 0, 0}));
+  EXPECT_FALSE(rayResidual(pose, kCamera_base, {1, 0, 0}, kCamera_base));
+}
+
+TEST(TriangulateTrack, FindsThePointAndItsDeviation) {
+  const WindowState state = sidewaysWindow(8);
+  const Eigen::Vector3d point(4, 0.5, 0.3);
+  constexpr double kNoise_rad = 0.001;
+  RandomSource random(1);
+  double squared = 0;
+  constexpr int kRuns = 200;
+  for (int run = 0; run < kRuns; ++run) {
+    const auto found = triangulateTrack(state.frames(), kCamera_base,
+                                        viewsOf(point, state, kNoise_rad, random), kNoise_rad);
+    ASSERT_TRUE(found);
+    const Eigen::Vector3d error = found->position_map - point;
+    squared += error.dot(found->covariance_m2.inverse() * error);
+    EXPECT_NEAR(found->parallax_rad, std::atan2(0.7, 4), 0.02);
+  }
+  EXPECT_NEAR(squared / kRuns, 3, 0.6);
+}
+
+TEST(TriangulateTrack, HasNoPointForParallelOrSpreadingRays) {
+  const WindowState state = sidewaysWindow(3);
+  const std::vector<TrackView> parallel{{0, {1, 0, 0}}, {2, {1, 0, 0}}};
+  const auto far = triangulateTrack(state.frames(), kCamera_base, parallel, 0.001);
+  EXPECT_TRUE(!far || far->parallax_rad < 1e-3);
+  const std::vector<TrackView> spreading{{0, Eigen::Vector3d(1, -0.1, 0).normalized()},
+                                         {2, Eigen::Vector3d(1, 0.1, 0).normalized()}};
+  EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_base, spreading, 0.001));
+  EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_base, {{0, {1, 0, 0}}}, 0.001));
+}
+
+TEST(TrackConstraint, DoesNotSeeTheScaleNorWhereTheMapIs) {
+  const WindowState state = sidewaysWindow(6);
+  RandomSource random(2);
+  const auto views = viewsOf({3, 0.2, -0.4}, state, 0.002, random);
+  const auto point = triangulateTrack(state.frames(), Eigen::Vector3d::Zero(), views, 0.002);
+  ASSERT_TRUE(point);
+  const auto constraint = constraintOf(state, Eigen::Vector3d::Zero(), views, *point, 0.002);
+  ASSERT_TRUE(constraint);
+  EXPECT_EQ(constraint->degreesOfFreedom(), 2 * 6 - 3);
+  Eigen::VectorXd dilation = Eigen::VectorXd::Zero(constraint->jacobian.cols());
+  Eigen::VectorXd shift = dilation;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    dilation.segment<3>(6 * i) = state.frames()[static_cast<std::size_t>(i)].position_map;
+    shift.segment<3>(6 * i) = Eigen::Vector3d(1, 2, 3);
+  }
+  const double size = constraint->jacobian.norm();
+  EXPECT_LT((constraint->jacobian * dilation).norm(), 1e-9 * size);
+  EXPECT_LT((constraint->jacobian * shift).norm(), 1e-9 * size);
+}
+
+TEST(TrackConstraint, ItsDistanceIsAChiSquareForHonestRays) {
+  const WindowState state = sidewaysWindow(6);
+  constexpr double kNoise_rad = 0.001;
+  RandomSource random(3);
+  // Rays from the frames as they are believed to be: only the rays' noise is left, so that the
+  // distance with the frames' covariance in it is below its degrees of freedom and the bare one is
+  // equal to them.
+  double bare = 0;
+  constexpr int kRuns = 200;
+  int dof = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    const auto views = viewsOf({3, 0.2, -0.4}, state, kNoise_rad, random);
+    const auto point = triangulateTrack(state.frames(), kCamera_base, views, kNoise_rad);
+    ASSERT_TRUE(point);
+    const auto constraint = constraintOf(state, kCamera_base, views, *point, kNoise_rad);
+    ASSERT_TRUE(constraint);
+    dof = constraint->degreesOfFreedom();
+    bare += constraint->residual.squaredNorm();
+    EXPECT_LE(constraint->distance(state), constraint->residual.squaredNorm() + 1e-9);
+  }
+  EXPECT_NEAR(bare / kRuns, dof, 0.15 * dof);
+}
+
+TEST(ChiSquare95, IsThatOfTheTables) {
+  EXPECT_NEAR(chiSquare95(1), 3.841, 0.1);
+  EXPECT_NEAR(chiSquare95(3), 7.815, 0.05);
+  EXPECT_NEAR(chiSquare95(21), 32.67, 0.05);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

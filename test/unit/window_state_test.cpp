@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/window_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "../../tools/lib/random_source.hpp"
+#include "ardrone_vslam/rotation.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+ObserverState observerAt(int frame, const Eigen::Vector3d& position, double yaw_rad = 0) {
+  ObserverState state;
+  state.stamp_ns = 100'000'000LL * frame;
+  state.T_odom_base.translation() = position;
+  state.T_odom_base.linear() = rotationOf({0, 0, yaw_rad});
+  return state;
+}
+
+WindowState circling(int frames) {
+  WindowState state((ObserverNoiseConfig()));
+  for (int i = 0; i < frames; ++i) {
+    const double turn = 0.1 * i;
+    const ObserverState observer = observerAt(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
+    i == 0 ? state.start(observer) : state.propagate(observer);
+  }
+  return state;
+}
+
+std::vector<int> coordinatesFrom(int first, int end) {
+  std::vector<int> coordinates;
+  for (int k = first; k < end; ++k) coordinates.push_back(k);
+  return coordinates;
+}
+
+void expectHonest(const WindowState& state) {
+  const Eigen::MatrixXd& P = state.covariance();
+  EXPECT_LT((P - P.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(P);
+  EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-12);
+}
+
+TEST(WindowState, FollowsTheObserverAndGrowsLessSure) {
+  const WindowState state = circling(20);
+  EXPECT_LT(
+      (state.frames().back().position_map - Eigen::Vector3d(std::sin(1.9), 1 - std::cos(1.9), 0))
+          .norm(),
+      1e-9);
+  double last = 0;
+  for (std::size_t i = 0; i < state.frames().size(); ++i) {
+    const int at = state.frameCoordinate(i);
+    const double variance = state.covariance().block<3, 3>(at, at).trace();
+    EXPECT_GT(variance, last);
+    last = variance;
+  }
+  expectHonest(state);
+}
+
+TEST(WindowState, TheObserversOwnCovarianceIsUsedWhereItGivesOne) {
+  const auto grown = [](double variance_m2) {
+    WindowState state((ObserverNoiseConfig()));
+    ObserverState first = observerAt(0, {0, 0, 0});
+    ObserverState second = observerAt(1, {0, 0, 0});
+    if (variance_m2 > 0) {
+      first.covariance.diagonal().head<3>().setConstant(0.5);
+      second.covariance.diagonal().head<3>().setConstant(0.5 + variance_m2);
+    }
+    state.start(first);
+    state.propagate(second);
+    const int at = state.frameCoordinate(1);
+    return state.covariance()(at, at) - state.covariance()(at - 6, at - 6);
+  };
+  EXPECT_GT(grown(4.0) - grown(0), 3.9);
+}
+
+TEST(WindowState, AnUpdateIsTheKalmanUpdateInCoordinatesThatItDoesNotTurn) {
+  // Of the newest frame's position alone: nothing is stretched, so that the textbook's formula
+  // holds.
+  WindowState state = circling(1);
+  const Eigen::MatrixXd P = state.covariance();
+  const int at = state.frameCoordinate(0);
+  Information information(coordinatesFrom(at, at + 3));
+  constexpr double kVariance = 1e-6;
+  const Eigen::Vector3d innovation(0.001, -0.002, 0.0005);
+  information.matrix = Eigen::Matrix3d::Identity() / kVariance;
+  information.vector = innovation / kVariance;
+  const Eigen::Vector3d before = state.frames()[0].position_map;
+  ASSERT_TRUE(state.update(information));
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, P.rows());
+  H.middleCols<3>(at).setIdentity();
+  const Eigen::Matrix3d S = H * P * H.transpose() + kVariance * Eigen::Matrix3d::Identity();
+  const Eigen::MatrixXd K = P * H.transpose() * S.inverse();
+  EXPECT_LT((state.covariance() - (P - K * H * P)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((state.frames()[0].position_map - before - (K * innovation).segment<3>(at)).norm(),
+            1e-9);
+}
+
+TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
+  RandomSource random(4);
+  WindowState state = circling(12);
+  for (int round = 0; round < 60; ++round) {
+    Information information(
+        coordinatesFrom(state.frameCoordinate(0), state.frameCoordinate(state.frames().size())));
+    const auto size = information.vector.size();
+    for (int row = 0; row < 5; ++row) {
+      Eigen::VectorXd h(size);
+      for (Eigen::Index k = 0; k < size; ++k) h(k) = 100 * random.normal();
+      information.matrix += h * h.transpose();
+      information.vector += h * random.normal();
+    }
+    ASSERT_TRUE(state.update(information));
+    if (round % 4 == 0) state.makeAnchorOfOldest();
+    if (round % 10 == 9) state.removeAnchor(state.anchors().size() / 2);
+    const double turn = 0.1 * (12 + round);
+    state.propagate(observerAt(12 + round, {std::sin(turn), 1 - std::cos(turn), 0}, turn));
+    if (state.frames().size() > 12) state.removeFrame(3);
+    expectHonest(state);
+  }
+}
+
+TEST(WindowState, AnchorsKeepTheirPlaceWhateverIsLearned) {
+  WindowState state = circling(6);
+  state.makeAnchorOfOldest();
+  const Eigen::Vector3d place = state.anchors()[0].position_map;
+  const int anchor = state.anchorCoordinate(0);
+  const Eigen::MatrixXd own = state.covariance().block(anchor, anchor, 7, 7);
+  Information information(coordinatesFrom(anchor - 6, anchor + 7));
+  information.matrix = 1e6 * Eigen::MatrixXd::Identity(13, 13);
+  information.vector = Eigen::VectorXd::Constant(13, 1e3);
+  ASSERT_TRUE(state.update(information));
+  EXPECT_EQ(state.anchors()[0].position_map, place);
+  EXPECT_LT((state.covariance().block(anchor, anchor, 7, 7) - own).cwiseAbs().maxCoeff(), 1e-15);
+  expectHonest(state);
+}
+
+TEST(WindowState, TheScaleIsFoundByAPositionThatIsKnown) {
+  WindowState state((ObserverNoiseConfig()));
+  constexpr double kScale = 0.02;  // reported ways are too long
+  for (int i = 0; i <= 50; ++i) {
+    const ObserverState observer = observerAt(i, {(1 + kScale) * 0.2 * i, 0, 0});
+    i == 0 ? state.start(observer) : state.propagate(observer);
+    if (state.frames().size() > 2) state.removeFrame(0);
+  }
+  const double before = state.covariance()(WindowState::kScale, WindowState::kScale);
+  const int at = state.frameCoordinate(state.frames().size() - 1);
+  Information information(coordinatesFrom(at, at + 3));
+  information.matrix = 1e4 * Eigen::Matrix3d::Identity();
+  information.vector = 1e4 * (Eigen::Vector3d(10, 0, 0) - state.frames().back().position_map);
+  ASSERT_TRUE(state.update(information));
+  const double after = state.covariance()(WindowState::kScale, WindowState::kScale);
+  EXPECT_LT(after, 0.5 * before);
+  EXPECT_GT(state.scaleError(), 0.5 * kScale);
+  EXPECT_LT(state.scaleError(), 1.2 * kScale);
+}
+
+TEST(WindowState, NothingChangesWhenTheInformationIsNotFinite) {
+  WindowState state = circling(4);
+  const Eigen::MatrixXd P = state.covariance();
+  Information information(coordinatesFrom(state.frameCoordinate(0), state.frameCoordinate(1)));
+  information.vector.setConstant(std::nan(""));
+  EXPECT_FALSE(state.update(information));
+  EXPECT_EQ(state.covariance(), P);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
