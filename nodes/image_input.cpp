@@ -21,8 +21,11 @@ GreyImage toGrey(const sensor_msgs::ImageConstPtr& message) {
   if (message->width == 0 || message->height == 0 || message->data.empty()) {
     return refused("the image is empty; check the camera driver");
   }
+  namespace enc = sensor_msgs::image_encodings;
+  // cv_bridge knows no way from 8UC1 (no colour format) to mono8; the bytes are the same.
+  const bool is_grey = message->encoding == enc::TYPE_8UC1;
   try {
-    const auto shared = cv_bridge::toCvShare(message, sensor_msgs::image_encodings::MONO8);
+    const auto shared = cv_bridge::toCvShare(message, is_grey ? enc::TYPE_8UC1 : enc::MONO8);
     GreyImage image;
     image.pixels = shared->image;
     image.owner = shared;

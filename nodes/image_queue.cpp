@@ -23,6 +23,10 @@ bool ImageQueue::addImage(const AnyImage& image) {
   if (found != infos_.end()) {
     const sensor_msgs::CameraInfoConstPtr info = *found;
     infos_.erase(infos_.begin(), found + 1);  // those before it belong to no image
+    // Each topic comes in order: the images that still wait will get none any more.
+    counts_.without_info += images_.size();
+    images_.clear();
+    given_up_.clear();
     return addPair(image, info);
   }
   images_.push_back(image);
@@ -43,7 +47,7 @@ bool ImageQueue::addInfo(const sensor_msgs::CameraInfoConstPtr& info) {
   });
   if (found != images_.end()) {
     const AnyImage image = *found;
-    // Each topic comes in order: those before it will get none any more.
+    // As above: those before it will get none any more.
     counts_.without_info += static_cast<std::uint64_t>(found - images_.begin());
     images_.erase(images_.begin(), found + 1);
     given_up_.clear();

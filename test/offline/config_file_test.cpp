@@ -108,6 +108,18 @@ TEST_F(ConfigFile, KeysOfTheNodeletsArePassedOver) {
   EXPECT_EQ(faultsOf("tracker:\n  odom_frame: x\n").size(), 1U) << "in their own section only";
 }
 
+TEST_F(ConfigFile, RectifiedIsReadAsTheNodeletsReadIt) {
+  EXPECT_FALSE(load("").rectified);
+  for (const char* yes : {"true", "True", "yes", "on"}) {
+    EXPECT_TRUE(load(std::string("tracker:\n  rectified: ") + yes + "\n").rectified) << yes;
+  }
+  EXPECT_TRUE(load("", {"rectified=true"}).rectified) << "known without its section";
+  EXPECT_FALSE(load("tracker:\n  rectified: true\n", {"tracker/rectified=false"}).rectified);
+  const auto faults = faultsOf("", {"rectified=perhaps"});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_TRUE(contains(faults[0], "tracker/rectified is 'perhaps' but must be a switch"));
+}
+
 TEST_F(ConfigFile, FilesThatAreNoConfiguration) {
   EXPECT_EQ(faultsOf("just some words\n").size(), 1U);
   EXPECT_EQ(faultsOf("- a\n- list\n").size(), 1U);

@@ -76,6 +76,15 @@ TEST_F(ScriptUsage, PlayBagNamesTheBagThatIsNotThere) {
   expectOutput({"play_bag: " + bag + ": there is no such file", "full path"});
 }
 
+#if ARDRONE_VSLAM_MAKE_WORLD_WRITES_BAGS
+TEST_F(ScriptUsage, PlayBagNamesTheBagThatIsDamaged) {
+  folder_.write("text.bag", "no bag at all\n");
+  EXPECT_EQ(script("play_bag --clock --bags=" + folder_.file("text.bag")), 1);
+  expectOutput(
+      {"play_bag: " + folder_.file("text.bag") + ": is no readable bag", "rosbag reindex"});
+}
+#endif
+
 TEST_F(ScriptUsage, RecordRunCountsImagesWithoutPoseFromTheFirstAnsweredOne) {
   folder_.write("check.py",
                 "import importlib.machinery, importlib.util, sys\n"

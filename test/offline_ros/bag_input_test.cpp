@@ -37,7 +37,7 @@ TEST(BagInput, SoundBag) {
 }
 
 TEST(BagInput, EveryEncodingGivesGrey) {
-  for (const std::string encoding : {"mono8", "8UC1", "rgb8", "bgr8"}) {
+  for (const std::string encoding : {"mono8", "8UC1", "mono16", "rgb8", "bgr8"}) {
     BagRecipe recipe;
     recipe.encoding = encoding;
     const TestBag bag(recipe);

@@ -57,20 +57,21 @@ struct BagRecipe {
 };
 
 inline sensor_msgs::Image imageMessage(const BagRecipe& recipe, int index) {
-  const int channels = recipe.encoding == "mono8" || recipe.encoding == "8UC1" ||
+  const int channels = recipe.encoding.rfind("mono", 0) == 0 || recipe.encoding == "8UC1" ||
                                recipe.encoding.rfind("bayer", 0) == 0
                            ? 1
                            : 3;
   const cv::Mat grey = testImage(index, recipe.size_px.width, recipe.size_px.height);
   cv::Mat pixels = grey;
   if (channels == 3) cv::cvtColor(grey, pixels, cv::COLOR_GRAY2BGR);
+  if (recipe.encoding == "mono16") grey.convertTo(pixels, CV_16U, 257);
   sensor_msgs::Image message;
   message.header.stamp = ros::Time(recipe.image_stamps_s[static_cast<std::size_t>(index)]);
   message.header.frame_id = "cam";
   message.encoding = recipe.encoding;
   message.width = static_cast<std::uint32_t>(grey.cols);
   message.height = static_cast<std::uint32_t>(grey.rows);
-  message.step = static_cast<std::uint32_t>(channels * grey.cols);
+  message.step = static_cast<std::uint32_t>(pixels.elemSize()) * message.width;
   message.data.assign(pixels.data, pixels.data + pixels.total() * pixels.elemSize());
   return message;
 }

@@ -29,12 +29,14 @@ sensor_msgs::ImageConstPtr imageOf(const std::string& encoding,
 }
 
 TEST(ImageInput, MonoIsNotCopied) {
-  const auto message = imageOf("mono8", {77});
-  const GreyImage grey = toGrey(message);
-  EXPECT_EQ(grey.fault, "");
-  EXPECT_EQ(grey.view().data, message->data.data());
-  EXPECT_EQ(grey.view().at(3, 5), 77);
-  EXPECT_EQ(grey.view().width_px, static_cast<int>(kWidth));
+  for (const auto* encoding : {"mono8", "8UC1"}) {
+    const auto message = imageOf(encoding, {77});
+    const GreyImage grey = toGrey(message);
+    EXPECT_EQ(grey.fault, "") << encoding;
+    EXPECT_EQ(grey.view().data, message->data.data());
+    EXPECT_EQ(grey.view().at(3, 5), 77);
+    EXPECT_EQ(grey.view().width_px, static_cast<int>(kWidth));
+  }
 }
 
 TEST(ImageInput, PaddedRows) {

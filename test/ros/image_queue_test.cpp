@@ -95,6 +95,19 @@ TEST_F(ImageQueueTest, ImagesBeforeTheFirstInfoAreCountedApart) {
   EXPECT_EQ(takeAll(), std::vector<int>{5});
 }
 
+TEST_F(ImageQueueTest, AnImageWithAStampOfItsOwnIsCountedWhicheverOfTheNextPairComesFirst) {
+  addPairs({1});
+  addImages({7});  // no camera_info has this stamp
+  addInfos({2, 3});
+  addImages({3});
+  EXPECT_EQ(queue_.counts().without_info, 1U);
+  addImages({8, 4});
+  addInfos({4});
+  EXPECT_EQ(queue_.counts().without_info, 2U);
+  EXPECT_EQ(queue_.counts().waiting, 3U) << "the pairs";
+  EXPECT_EQ(takeAll(), (std::vector<int>{1, 3, 4}));
+}
+
 TEST_F(ImageQueueTest, AnInfoThatComesTooLateShowsThatTheImageWasInTheWay) {
   addImages({1, 2, 3, 4, 5});
   addInfos({2, 3, 4, 5});

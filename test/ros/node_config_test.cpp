@@ -28,7 +28,7 @@ std::string loadingFault(const std::string& section, const std::vector<std::stri
   {
     std::ofstream file(path);
     file << section << ":\n";
-    for (const auto& key : keys) file << "  " << key << ": 1\n";
+    for (const auto& key : keys) file << "  " << key << ": true\n";  // `rectified` is read
   }
   std::string fault;
   try {

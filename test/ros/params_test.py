@@ -4,6 +4,7 @@
 only warned of, with the name that was meant."""
 import signal
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -58,6 +59,16 @@ class Params(unittest.TestCase):
         self.assertIn("did you mean threshold?", output)
         self.assertIn("queue_size=7", output)
         self.assertIn("threshold=35", output)
+
+    def test_launch_file_leaves_the_transport_to_the_configuration(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as config:
+            config.write("tracker: {image_transport: compressed}")
+            config.flush()
+            for argument, transport in [([], "compressed"), (["image_transport:=raw"], "raw")]:
+                dumped = subprocess.run(
+                    ["roslaunch", "--dump-params", rospy.get_param("~launch"), "config:=" + config.name, *argument],
+                    stdout=subprocess.PIPE, text=True, timeout=30, check=True).stdout
+                self.assertIn("/vslam/tracker/image_transport: " + transport, dumped)
 
     def test_help_and_version(self):
         for executable in ["tracker_node", "mapper_node"]:

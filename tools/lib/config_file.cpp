@@ -98,6 +98,20 @@ bool hasParameter(Config config, const std::string& key) {
   return found;
 }
 
+/// Keys that the nodelets read beside the stages' parameters (topics, frames); the offline tools
+/// pass over them, but for `rectified`.
+bool isNodeKey(const std::string& section, const std::string& key) {
+  return section == "tracker" ? hasParameter(TrackerNodeConfig{}, key)
+                              : hasParameter(MapperNodeConfig{}, key);
+}
+
+/// Of a key written without its section.
+std::string sectionOf(const std::string& key) {
+  if (hasParameter(TrackerConfig{}, key)) return "tracker";
+  const bool is_mappers = hasParameter(SlamConfig{}, key) || isNodeKey("mapper", key);
+  return !is_mappers && isNodeKey("tracker", key) ? "tracker" : "mapper";
+}
+
 void applyOverride(const std::string& text, std::map<std::string, Section>& sections,
                    std::vector<std::string>& faults) {
   const auto equals = text.find('=');
@@ -108,19 +122,12 @@ void applyOverride(const std::string& text, std::map<std::string, Section>& sect
   std::string key = text.substr(0, equals);
   const std::string value = text.substr(equals + 1);
   const auto slash = key.find('/');
-  std::string section = hasParameter(TrackerConfig{}, key) ? "tracker" : "mapper";
+  std::string section = sectionOf(key);
   if (slash != std::string::npos) {
     section = key.substr(0, slash);
     key = key.substr(slash + 1);
   }
   sections[section][key] = value;
-}
-
-/// Keys that the nodelets read beside the stages' parameters (topics, frames); the offline tools
-/// pass over them.
-bool isNodeKey(const std::string& section, const std::string& key) {
-  return section == "tracker" ? hasParameter(TrackerNodeConfig{}, key)
-                              : hasParameter(MapperNodeConfig{}, key);
 }
 
 template <class Config>
@@ -161,8 +168,8 @@ PipelineConfig loadConfig(const std::string& path, const std::vector<std::string
   auto sections = readSections(path, faults);
   for (const auto& text : overrides) applyOverride(text, sections, faults);
   PipelineConfig config;
-  const auto rectified = sections["tracker"].find("rectified");
-  if (rectified != sections["tracker"].end()) config.rectified = rectified->second == "true";
+  const ParameterInfo rectified{"rectified", "switch", 0, 0, ""};
+  SectionReader{"tracker", &sections["tracker"], &faults}(rectified, config.rectified);
   readSection("tracker", sections, config.tracker, faults);
   readSection("mapper", sections, config.mapper, faults);
   for (const auto& section : sections) {

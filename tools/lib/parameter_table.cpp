@@ -75,7 +75,8 @@ std::string parameterTable() {
   out << kHead;
   writeTable<TrackerConfig>("tracker: images to features", out);
   writeTable<SlamConfig>("mapper: features and odometry to poses and map", out);
-  writeTable<TrackerNodeConfig>("tracker, read by its nodelet only", out);
+  writeTable<TrackerNodeConfig>(
+      "tracker, read by its nodelet, and `rectified` by the offline tools (bags)", out);
   writeTable<MapperNodeConfig>("mapper, read by its nodelet only", out);
   writeTable<PathNodeConfig>("path nodelet", out);
   return out.str();

@@ -16,7 +16,7 @@ namespace enc = sensor_msgs::image_encodings;
 
 const std::vector<std::string>& encodings() {
   static const std::vector<std::string> kEncodings{
-      enc::MONO8, enc::TYPE_8UC1,   enc::RGB8,        enc::BGR8,        enc::RGBA8,
+      enc::MONO8, enc::TYPE_8UC1,   enc::MONO16,      enc::RGB8,        enc::BGR8,       enc::RGBA8,
       enc::BGRA8, enc::BAYER_RGGB8, enc::BAYER_BGGR8, enc::BAYER_GBRG8, enc::BAYER_GRBG8};
   return kEncodings;
 }
@@ -34,8 +34,10 @@ std::string supportedEncodings() {
 }
 
 bool isWhole(const sensor_msgs::Image& message) {
-  const auto channels = static_cast<std::uint64_t>(enc::numChannels(message.encoding));
-  return message.width > 0 && message.height > 0 && message.step >= channels * message.width &&
+  const auto pixel_bits = static_cast<std::uint64_t>(enc::numChannels(message.encoding)) *
+                          static_cast<std::uint64_t>(enc::bitDepth(message.encoding));
+  return message.width > 0 && message.height > 0 &&
+         message.step >= pixel_bits / 8 * message.width &&
          message.data.size() == std::uint64_t{message.step} * message.height;
 }
 
