@@ -17,10 +17,11 @@ constexpr std::size_t kWarmUpSteps = 1;
 ///   counter that goes up by one and returns how many things (corners, keypoints, queries) it did
 /// @param share  what the report shows beside the time, 0..1: recall, share of corners; may be
 ///   empty
+/// @return for settings of this side alone
 template <class Setup>
-void side(const std::string& row, const std::string& who, Setup setup,
-          const std::function<double()>& share = {}) {
-  benchmark::RegisterBenchmark((row + "/" + who).c_str(), [setup, share](benchmark::State& state) {
+benchmark::internal::Benchmark* side(const std::string& row, const std::string& who, Setup setup,
+                                     const std::function<double()>& share = {}) {
+  return benchmark::RegisterBenchmark((row + "/" + who).c_str(), [setup, share](benchmark::State& state) {
     auto step = setup();
     std::size_t i = 0;
     while (i < kWarmUpSteps) step(i++);

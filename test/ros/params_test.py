@@ -40,7 +40,7 @@ class Params(unittest.TestCase):
         self.assert_refused("mapper_node", [
             "__name:=bad_mapper", "_odometry_wait_s:=-1", "_estimator:=kalman"], [
                 "odometry_wait_s is -1 but must be between 0 and 60",
-                "/bad_mapper/estimator is 'kalman' but must be one of: thesis, observer"])
+                "/bad_mapper/estimator is 'kalman' but must be one of: thesis, constraint, observer"])
 
     def test_unknown_parameter_is_warned_of(self):
         process = start("tracker_node", "__name:=odd_tracker", "_thresold:=30",
