@@ -155,7 +155,7 @@ auto openCv() {
 }  // namespace
 
 void addGuidedRows() {
-  // One whole round: the poses see from 8,000 to 16,000 landmarks.
+  // One whole round each: the poses see different numbers of landmarks.
   side("guided_100k", "ours", ours())->Iterations(kPoses);
   side("guided_100k", "cv::BFMatcher, mask", openCv())->Iterations(kPoses);
 }

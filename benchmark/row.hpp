@@ -21,15 +21,16 @@ constexpr std::size_t kWarmUpSteps = 1;
 template <class Setup>
 benchmark::internal::Benchmark* side(const std::string& row, const std::string& who, Setup setup,
                                      const std::function<double()>& share = {}) {
-  return benchmark::RegisterBenchmark((row + "/" + who).c_str(), [setup, share](benchmark::State& state) {
-    auto step = setup();
-    std::size_t i = 0;
-    while (i < kWarmUpSteps) step(i++);
-    std::size_t items = 0;
-    for (auto _ : state) items += step(i++);
-    state.SetItemsProcessed(static_cast<std::int64_t>(items));
-    if (share) state.counters["share"] = share();
-  });
+  return benchmark::RegisterBenchmark((row + "/" + who).c_str(),
+                                      [setup, share](benchmark::State& state) {
+                                        auto step = setup();
+                                        std::size_t i = 0;
+                                        while (i < kWarmUpSteps) step(i++);
+                                        std::size_t items = 0;
+                                        for (auto _ : state) items += step(i++);
+                                        state.SetItemsProcessed(static_cast<std::int64_t>(items));
+                                        if (share) state.counters["share"] = share();
+                                      });
 }
 
 }  // namespace ardrone_vslam::bench
