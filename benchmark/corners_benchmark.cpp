@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kThreshold = 35;
 constexpr int kAllCorners = 20000;
+constexpr int kBriskThreshold = 60;  // as many keypoints as our budget on KITTI
 
 /// The same work as cv::FAST: one threshold, every corner, 3x3 suppression.
 CornerDetectorConfig likeOpenCv(int arc_length_px) {
@@ -59,6 +60,12 @@ void addRowsOn(const std::string& suffix, const Frames& (*frames)()) {
   // As the tracker uses it: budget spread over cells, thresholds that adapt.
   side("detector" + suffix, "ours", ours({}, frames));
   side("detector" + suffix, "our scalar form", ours({}, frames, InstructionSet::kScalar));
+  // Beside detectors that work on a pyramid: as many keypoints, not the same ones.
+  const int budget = CornerDetectorConfig{}.features_per_frame;
+  side("detector_orb" + suffix, "ours", ours({}, frames));
+  side("detector_orb" + suffix, "cv::ORB", openCv(cv::ORB::create(budget), frames));
+  side("detector_brisk" + suffix, "ours", ours({}, frames));
+  side("detector_brisk" + suffix, "cv::BRISK", openCv(cv::BRISK::create(kBriskThreshold), frames));
 }
 
 }  // namespace

@@ -21,6 +21,10 @@ ABOUT = {
     "fast12_320x240": "the same, 320x240",
     "fast9_agast_kitti": "FAST-9 beside AGAST",
     "fast9_agast_320x240": "the same, 320x240",
+    "detector_orb_kitti": "the tracker's detector beside ORB's, which also works on smaller images",
+    "detector_orb_320x240": "the same, 320x240",
+    "detector_brisk_kitti": "beside BRISK's, which does so, too",
+    "detector_brisk_320x240": "the same, 320x240",
     "detector_kitti": "FAST-12 as the tracker runs it: 1000 corners spread over cells, adapting thresholds",
     "detector_320x240": "the same, 320x240",
     "freak_kitti": "FREAK with its integral image, 600 keypoints",
@@ -75,7 +79,8 @@ def read_sides(path):
     runs = {}
     for run in data["benchmarks"]:
         if run.get("run_type") != "aggregate":
-            runs.setdefault(tuple(run["run_name"].split("/", 1)), []).append(run)
+            row, who = run["run_name"].split("/iterations:")[0].split("/", 1)
+            runs.setdefault((row, who), []).append(run)
     sides = {}
     for (row, who), repetitions in runs.items():
         time_ns = statistics.median(r["cpu_time"] for r in repetitions)
