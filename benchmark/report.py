@@ -153,7 +153,8 @@ def wanted_table(rows, context):
         missed = r["ratio"] < least
         lines.append(f"| {name} | {least} | {r['ratio']:.1f}{', **missed**' if missed else ''} |")
         if missed:
-            profiles += ["", f"**{name}**, where the time goes: {PROFILES.get(name.replace("_avx2", ""), 'no profile has been taken yet.')}"]
+            profile = PROFILES.get(name.replace("_avx2", ""), "no profile has been taken yet.")
+            profiles += ["", f"**{name}**, where the time goes: {profile}"]
     return "\n".join(lines + profiles)
 
 
