@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Localisation and mapping with `estimator: constraint`.
+#include <cmath>
+
 #include "slam_state.hpp"
 
 namespace ardrone_vslam {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -115,7 +116,6 @@ class ConstraintFilter {
  public:
   ConstraintFilter(const ConstraintFilterConfig& config, const Eigen::Isometry3d& T_base_cam);
 
-  bool isStarted() const { return !state_.frames().empty(); }
   void start(const ObserverState& observer);
   void predict(const ObserverState& observer);
   FixOutcome fix(const std::vector<LandmarkSighting>& sightings, double focal_length_px);

@@ -31,7 +31,8 @@ class GlobalMatcher {
       : config_(config), index_probes_(index_probes) {}
 
   /// @param taken  the frame's features that are not to be matched
-  /// @param method  kExact, or kIndexed if the map's index is up to date; both give the same but for what the index misses
+  /// @param method  kExact, or kIndexed if the map's index is up to date; both give the same but
+  /// for what the index misses
   /// @return matches that accept() holds for and, with cross_check, that are the best from both
   ///   sides: query is the feature, train the index of the landmark; by ascending feature. Valid
   ///   until the next call.

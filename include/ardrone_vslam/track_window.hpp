@@ -47,8 +47,6 @@ class TrackWindow {
   /// The oldest frame leaves the window.
   void dropFrame(std::uint32_t frame_id);
 
-  std::size_t size() const { return tracks_.size(); }
-
  private:
   struct Sighting {
     std::uint32_t frame_id;

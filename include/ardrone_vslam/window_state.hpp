@@ -80,7 +80,6 @@ class WindowState {
   void makeAnchorOfOldest();
   void removeAnchor(std::size_t anchor);
 
-  const Eigen::Vector3d& velocityBias_m_s() const { return velocity_bias_m_s_; }
   double scaleError() const { return scale_error_; }
   /// Of all coordinates.
   const Eigen::MatrixXd& covariance() const { return P_; }
