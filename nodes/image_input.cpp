@@ -4,7 +4,7 @@
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
 
-#include <opencv2/imgcodecs.hpp>
+#include "decode_image.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -38,10 +38,10 @@ GreyImage toGrey(const sensor_msgs::ImageConstPtr& message) {
 }
 
 GreyImage toGrey(const sensor_msgs::CompressedImageConstPtr& message) {
-  std::string fault;
+  std::string fault = isCutOff(message->data) ? " (cut off before its end)" : "";
   try {
     GreyImage image;
-    if (!message->data.empty()) image.pixels = cv::imdecode(message->data, cv::IMREAD_GRAYSCALE);
+    image.pixels = decodeGrey(message->data);
     if (!image.pixels.empty()) return image;
   } catch (const cv::Exception& e) {
     fault = std::string(" (") + e.what() + ")";

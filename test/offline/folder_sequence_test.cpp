@@ -101,7 +101,12 @@ TEST(KittiFolder, DamagedAndOddImagesAreNamed) {
   makeKittiFolder(folder, 4);
   folder.write("image_0/000002.png", "no image");
   cv::imwrite(folder.file("image_0/000003.png"), testImage(3, 40, 24));
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", testImage(1), jpeg);
+  folder.write("image_0/000001.png", std::string(jpeg.begin(), jpeg.end() - 20));
   const auto sequence = openFolder(folder.path());
+  expectError([&] { sequence->image(1); },
+              {"image_0/000001.png", "cannot be decoded", "truncated"});
   expectError([&] { sequence->image(2); }, {"image_0/000002.png", "cannot be decoded", "replace"});
   expectError([&] { sequence->image(3); },
               {"image_0/000003.png", "40x24", "calib.txt", "32x24", "calibration"});

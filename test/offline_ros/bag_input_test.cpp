@@ -3,6 +3,7 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <std_msgs/String.h>
 
 #include <iterator>
@@ -147,6 +148,26 @@ TEST(BagInput, IncompleteImagesAndBackwardStampsAreDroppedAndCounted) {
     bag.write("/cam/image", ros::Time(9), message);
   });
   expectWarning(*incomplete.open(), {"/cam/image", "1 images are incomplete"});
+}
+
+TEST(BagInput, HalfACompressedImageIsDroppedAndCounted) {
+  const TestBag bag(BagRecipe(), [](rosbag::Bag& more) {
+    sensor_msgs::CompressedImage message;
+    message.header.frame_id = "cam";
+    for (const double stamp_s : {1.0, 1.1, 1.2}) {
+      message.header.stamp = ros::Time(stamp_s);
+      cv::imencode(".jpg", testImage(0), message.data);
+      if (stamp_s == 1.1) message.data.resize(message.data.size() - 20);
+      more.write("/other/image/compressed", message.header.stamp, message);
+    }
+    more.write("/other/camera_info", ros::Time(1), BagRecipe().camera_info);
+  });
+  BagReadOptions options;
+  options.image_topic = "/other/image/compressed";
+  const auto sequence = bag.open(options);
+  EXPECT_EQ(sequence->size(), 2u);
+  expectWarning(*sequence,
+                {"/other/image/compressed", "1 images are incomplete or cannot be decoded"});
 }
 
 TEST(BagInput, OdometryThatIsWrongIsDroppedAndCounted) {

@@ -114,6 +114,18 @@ TEST(ImageInput, CompressedFaultsAreNamed) {
   }
 }
 
+TEST(ImageInput, HalfACompressedImageIsRefused) {
+  for (const auto* extension : {".png", ".jpg"}) {
+    auto message = boost::make_shared<sensor_msgs::CompressedImage>();
+    cv::imencode(extension, cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(90)), message->data);
+    message->data.resize(message->data.size() - 20);
+    const GreyImage grey = toGrey(sensor_msgs::CompressedImageConstPtr(message));
+    EXPECT_TRUE(grey.pixels.empty()) << extension;
+    EXPECT_NE(grey.fault.find("cannot be decoded (cut off before its end)"), std::string::npos)
+        << grey.fault;
+  }
+}
+
 TEST(DebugImage, CirclesTellTheAge) {
   const cv::Mat grey(40, 60, CV_8UC1, cv::Scalar(50));
   ImageFeatures features;

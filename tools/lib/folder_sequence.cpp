@@ -2,17 +2,21 @@
 #include "folder_sequence.hpp"
 
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
+#include "../../nodes/decode_image.hpp"  // no ROS
 #include "kitti_folder.hpp"
 #include "tum_folder.hpp"
 
 namespace ardrone_vslam {
 
 cv::Mat readGreyImage(const std::string& path) {
-  cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
+  cv::Mat image = decodeGrey(bytes);
   if (image.empty()) {
     throw std::runtime_error(path +
                              ": cannot be decoded as an image; replace the file (truncated, or not "

@@ -6,8 +6,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
+
+#include "../../nodes/decode_image.hpp"  // no ROS
 
 namespace ardrone_vslam {
 namespace {
@@ -52,8 +53,7 @@ cv::Mat greyImage(const sensor_msgs::Image& message) {
 }
 
 cv::Mat greyImage(const sensor_msgs::CompressedImage& message) {
-  if (message.data.empty()) return {};
-  return cv::imdecode(message.data, cv::IMREAD_GRAYSCALE);
+  return decodeGrey(message.data);
 }
 
 }  // namespace ardrone_vslam

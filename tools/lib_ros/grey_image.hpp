@@ -19,7 +19,7 @@ bool isWhole(const sensor_msgs::Image& message);
 
 /// 8-bit grey copy. @pre supported encoding, whole message
 cv::Mat greyImage(const sensor_msgs::Image& message);
-/// 8-bit grey; empty when the data cannot be decoded (png, jpeg).
+/// 8-bit grey; empty when the data (png, jpeg) cannot be decoded or is cut off.
 cv::Mat greyImage(const sensor_msgs::CompressedImage& message);
 
 }  // namespace ardrone_vslam
