@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "earlier_run.hpp"
 #include "parameter_table.hpp"
 #include "profile_option.hpp"
 #include "progress_line.hpp"
@@ -55,7 +56,10 @@ void addOptions(CLI::App& app, Options& o) {
       },
       "print all parameters (docs/parameters.md) and exit");
   app.add_option("input", o.input, "a bag, or a KITTI or TUM-like folder")->required();
-  app.add_option("--out", o.out, "folder for trajectories, frames.csv, landmarks.csv, summary.json")
+  app.add_option(
+         "--out", o.out,
+         "folder for trajectories, frames.csv, landmarks.csv, summary.json; with --seeds in "
+         "seed_N/ each. What an earlier run left there is removed, other files are kept")
       ->required();
   app.add_option("--config", o.config, "yaml with sections tracker and mapper (config/*.yaml)");
   app.add_option("--set", o.overrides, "key=value over the configuration; may be repeated")
@@ -176,6 +180,7 @@ int run(const Options& o) {
                      [&progress](std::size_t done) { progress.update(done); });
   }
 
+  removeEarlierRun(o.out);
   std::vector<Json> summaries;
   std::vector<std::string> faults;
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -188,8 +193,7 @@ int run(const Options& o) {
     const RunLabel label{sequence->name(), observers[i].profile, observers[i].seed,
                          nameOf(config.mapper.estimator)};
     summaries.push_back(summaryOf(results[i], evaluation, label));
-    const std::string folder =
-        o.seeds.empty() ? o.out : o.out + "/seed_" + std::to_string(*label.seed);
+    const std::string folder = o.seeds.empty() ? o.out : seedFolder(o.out, *label.seed);
     writeRun(folder, results[i], evaluation, summaries.back());
   }
   if (o.seeds.empty()) {

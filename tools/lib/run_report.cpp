@@ -274,6 +274,10 @@ void writeText(const std::string& path, const std::string& text) {
         path + ": cannot be written; check that the folder exists and the disk has room");
 }
 
+std::string seedFolder(const std::string& folder, std::uint64_t seed) {
+  return folder + "/seed_" + std::to_string(seed);
+}
+
 void writeRun(const std::string& folder, const RunResult& run, const RunEvaluation& evaluation,
               const Json& summary) {
   std::error_code error;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -49,9 +51,15 @@ nlohmann::ordered_json summaryOf(const RunResult& run, const RunEvaluation& eval
 /// worse.
 nlohmann::ordered_json summaryOfSeeds(const std::vector<nlohmann::ordered_json>& summaries);
 
-/// Writes observer.tum, fused.tum, truth.tum (if known), frames.csv, landmarks.csv and summary.json
-/// into the folder, which is made. @throws std::runtime_error naming the file that cannot be
-/// written
+/// All that a run writes.
+constexpr std::array<const char*, 6> kRunFiles{"observer.tum", "fused.tum",     "truth.tum",
+                                               "frames.csv",   "landmarks.csv", "summary.json"};
+
+/// Where the files of one of several seeds go.
+std::string seedFolder(const std::string& folder, std::uint64_t seed);
+
+/// Writes kRunFiles (truth.tum if it is known) into the folder, which is made. @throws
+/// std::runtime_error naming the file that cannot be written
 void writeRun(const std::string& folder, const RunResult& run, const RunEvaluation& evaluation,
               const nlohmann::ordered_json& summary);
 
