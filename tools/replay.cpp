@@ -201,7 +201,7 @@ int run(const Options& o) {
   } else {
     const Json all = summaryOfSeeds(summaries);
     writeText(o.out + "/summary.json", all.dump(2) + "\n");
-    printSeeds(all);
+    printSeeds(all, std::cout);
   }
   std::cout << "written to " << o.out << '\n';
   for (const std::string& text : faults) std::cerr << "replay: " << text << '\n';

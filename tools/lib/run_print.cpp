@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run_print.hpp"
 
+#include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <string>
 
 namespace ardrone_vslam {
@@ -11,6 +13,25 @@ using Json = nlohmann::ordered_json;
 
 std::string shown(const Json& value) {
   return value.is_null() ? "-" : value.dump();
+}
+
+/// What a run, or one of several, does not have is a dash.
+void printRow(const std::string& name, const Json& numbers, std::ostream& out) {
+  out << std::setw(6) << name;
+  const auto cell = [&](const char* key, int width, int digits) {
+    std::ostringstream text;
+    if (numbers.contains(key) && numbers[key].is_number()) {
+      text << std::fixed << std::setprecision(digits) << numbers[key].get<double>();
+    } else {
+      text << '-';
+    }
+    out << std::setw(width) << text.str();
+  };
+  cell("observer_ate_rmse_m", 19, 4);
+  cell("fused_ate_rmse_m", 16, 4);
+  cell("ratio", 7, 3);
+  cell("ratio_scale_removed", 21, 3);
+  out << '\n';
 }
 
 }  // namespace
@@ -25,18 +46,11 @@ void printSummary(const Json& summary) {
   std::cout << '\n';
 }
 
-void printSeeds(const Json& summary) {
-  std::cout << "seed, observer_ate_rmse_m, fused_ate_rmse_m, ratio, ratio_scale_removed\n";
-  for (const Json& run : summary["runs"]) {
-    std::cout << shown(run["seed"]);
-    for (const char* name :
-         {"observer_ate_rmse_m", "fused_ate_rmse_m", "ratio", "ratio_scale_removed"}) {
-      std::cout << ", " << shown(run[name]);
-    }
-    std::cout << '\n';
-  }
+void printSeeds(const Json& summary, std::ostream& out) {
+  out << "  seed  observer RMSE [m]  fused RMSE [m]  ratio  ratio_scale_removed\n";
+  for (const Json& run : summary["runs"]) printRow(run["seed"].dump(), run, out);
   for (const char* kind : {"median", "worst"})
-    std::cout << kind << ": " << summary[kind].dump() << '\n';
+    printRow(kind, summary.value(kind, Json::object()), out);
 }
 
 }  // namespace ardrone_vslam
