@@ -103,6 +103,19 @@ TEST_F(ConfigFile, UnknownKeysGetAHint) {
   EXPECT_TRUE(contains(faults[0], "tracker/features_per_frame"));
 }
 
+TEST_F(ConfigFile, AnOverrideThatIsNoParameterIsNamedAsItWasTyped) {
+  const auto faultOf = [this](const std::string& typed) {
+    const auto faults = faultsOf("", {typed});
+    return faults.size() == 1 ? faults[0] : std::string("no single fault");
+  };
+  EXPECT_EQ(faultOf("foo=1").rfind("--set 'foo=1': foo is not a parameter", 0), 0U);
+  EXPECT_FALSE(contains(faultOf("foo=1"), "mapper")) << faultOf("foo=1");
+  EXPECT_TRUE(contains(faultOf("feature_per_frame=3"),
+                       "feature_per_frame is not a parameter; did you mean "
+                       "tracker/features_per_frame"));
+  EXPECT_TRUE(contains(faultOf("tracker/foo=1"), "tracker/foo is not a parameter"));
+}
+
 TEST_F(ConfigFile, KeysOfTheNodeletsArePassedOver) {
   EXPECT_NO_THROW(load("tracker:\n  rectified: true\nmapper:\n  odom_frame: \"\"\n"));
   EXPECT_EQ(faultsOf("tracker:\n  odom_frame: x\n").size(), 1U) << "in their own section only";

@@ -13,6 +13,8 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr const char* kListOfAll = " (docs/parameters.md and --list-parameters name all)";
+
 using Section = std::map<std::string, std::string>;  // key -> value as written
 
 /// Takes the values out of a section, parameter by parameter; what is left over is unknown.
@@ -105,11 +107,27 @@ bool isNodeKey(const std::string& section, const std::string& key) {
                               : hasParameter(MapperNodeConfig{}, key);
 }
 
-/// Of a key written without its section.
+template <class Config>
+void addNames(Config config, std::set<std::string>& names) {
+  visitParameters(config, [&](const ParameterInfo& info, auto&) { names.insert(info.name); });
+}
+
+/// Over both sections.
+std::string hintFor(const std::string& written) {
+  std::set<std::string> names;
+  addNames(TrackerConfig{}, names);
+  addNames(SlamConfig{}, names);
+  const std::string nearest = nearestName(written, names);
+  if (nearest.empty()) return {};
+  return std::string("; did you mean ") +
+         (hasParameter(TrackerConfig{}, nearest) ? "tracker/" : "mapper/") + nearest;
+}
+
+/// Of a key written without its section; empty when no section has it.
 std::string sectionOf(const std::string& key) {
   if (hasParameter(TrackerConfig{}, key)) return "tracker";
-  const bool is_mappers = hasParameter(SlamConfig{}, key) || isNodeKey("mapper", key);
-  return !is_mappers && isNodeKey("tracker", key) ? "tracker" : "mapper";
+  if (hasParameter(SlamConfig{}, key) || isNodeKey("mapper", key)) return "mapper";
+  return isNodeKey("tracker", key) ? "tracker" : "";
 }
 
 void applyOverride(const std::string& text, std::map<std::string, Section>& sections,
@@ -127,23 +145,12 @@ void applyOverride(const std::string& text, std::map<std::string, Section>& sect
     section = key.substr(0, slash);
     key = key.substr(slash + 1);
   }
+  if (section.empty()) {
+    faults.push_back("--set '" + text + "': " + key + " is not a parameter" + hintFor(key) +
+                     kListOfAll);
+    return;
+  }
   sections[section][key] = value;
-}
-
-template <class Config>
-void addNames(Config config, std::set<std::string>& names) {
-  visitParameters(config, [&](const ParameterInfo& info, auto&) { names.insert(info.name); });
-}
-
-/// Over both sections: --set puts a key that it does not know into one.
-std::string hintFor(const std::string& written) {
-  std::set<std::string> names;
-  addNames(TrackerConfig{}, names);
-  addNames(SlamConfig{}, names);
-  const std::string nearest = nearestName(written, names);
-  if (nearest.empty()) return {};
-  return std::string("; did you mean ") +
-         (hasParameter(TrackerConfig{}, nearest) ? "tracker/" : "mapper/") + nearest;
 }
 
 template <class Config>
@@ -155,7 +162,7 @@ void readSection(const char* name, std::map<std::string, Section>& sections, Con
   for (const auto& leftover : values) {
     if (isNodeKey(name, leftover.first)) continue;
     faults.push_back(std::string(name) + "/" + leftover.first + " is not a parameter" +
-                     hintFor(leftover.first) + " (docs/parameters.md lists all)");
+                     hintFor(leftover.first) + kListOfAll);
   }
   const auto range_faults = rangeFaults(config);
   faults.insert(faults.end(), range_faults.begin(), range_faults.end());
