@@ -90,7 +90,7 @@ std::unique_ptr<Sequence> openInput(const Options& o, const PipelineConfig& conf
     o.bag.refuseForFolder(o.input);
     return openFolder(o.input);
   }
-  auto bag = openBag(o.input, o.bag.read(config.rectified));
+  auto bag = openBag(o.input, o.bag.read(config));
   for (const std::string& warning : bag->warnings()) std::cerr << "replay: " << warning << '\n';
   return bag;
 #else

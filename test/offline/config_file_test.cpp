@@ -133,6 +133,12 @@ TEST_F(ConfigFile, RectifiedIsReadAsTheNodeletsReadIt) {
   EXPECT_TRUE(contains(faults[0], "tracker/rectified is 'perhaps' but must be a switch"));
 }
 
+TEST_F(ConfigFile, TheBaseFrameIsReadAsTheNodeletsReadIt) {
+  EXPECT_EQ(load("mapper:\n  base_frame: \"\"\n").base_frame, "");
+  EXPECT_EQ(load("mapper:\n  base_frame: body\n").base_frame, "body");
+  EXPECT_EQ(load("mapper:\n  base_frame: body\n", {"base_frame=mount"}).base_frame, "mount");
+}
+
 TEST_F(ConfigFile, FilesThatAreNoConfiguration) {
   EXPECT_EQ(faultsOf("just some words\n").size(), 1U);
   EXPECT_EQ(faultsOf("- a\n- list\n").size(), 1U);

@@ -244,6 +244,19 @@ TEST(BagInput, NoTransformToTheCamera) {
   EXPECT_TRUE(TestBag{BagRecipe()}.open(options)->T_base_cam().isApprox(forwardCamera()));
 }
 
+TEST(BagInput, OdometryThatDoesNotNameItsBaseIsRefusedAsByTheMapper) {
+  BagRecipe recipe;
+  for (auto& message : recipe.odometry) message.child_frame_id.clear();
+  const TestBag bag(recipe);
+  bag.expectRefused({"test.bag, /odom", "no child_frame_id", "--base-frame", "mapper/base_frame"});
+  BagReadOptions options;
+  options.base_frame = "mount";
+  EXPECT_TRUE(bag.open(options)->T_base_cam().isApprox(forwardCamera()));
+  recipe.odometry.clear();
+  EXPECT_TRUE(TestBag(recipe).open()->T_base_cam().isApprox(forwardCamera()))
+      << "without odometry base is the camera's parent";
+}
+
 TEST(BagInput, TopicsMissingSeveralOrOfAnotherType) {
   const TestBag bag(BagRecipe(), [](rosbag::Bag& more) {
     auto image = imageMessage(BagRecipe(), 0);

@@ -132,6 +132,36 @@ TEST_F(ToolUsage, RecordedOdometryDoesNotRunBackwards) {
   expectOutput({"replay: ", bag.path(), "cannot run backwards", "--observer-profile"});
 }
 
+TEST_F(ToolUsage, TheConfigurationsBaseFrameHolds) {
+  const TestBag bag{BagRecipe()};
+  folder_.write("body.yaml", "mapper: {base_frame: body}\n");
+  const std::string from_body = "no transform from the base frame 'body' to the camera frame 'cam'";
+  const std::string config = " --config " + path("body.yaml");
+  EXPECT_EQ(replay(bag.path() + config), 1);
+  expectOutput({from_body});
+  EXPECT_EQ(replay(bag.path() + config + " --base-frame nothing"), 1);
+  expectOutput({"no transform from the base frame 'nothing'"});
+  // The tiny images show no corner: nothing is wrong with the frames.
+  EXPECT_EQ(replay(bag.path() + config + " --set base_frame=mount"), 1);
+  expectOutput({"no image shows a corner"});
+}
+
+TEST_F(ToolUsage, ARunLeavesNothingOfTheOneBefore) {
+  const std::string flight =
+      ARDRONE_VSLAM_SOURCE_DIR "/bags/laps_20s.bag --frames 0:20 --observer-profile drone";
+  const auto has = [this](const std::string& name) {
+    return std::filesystem::exists(path("run/" + name));
+  };
+  EXPECT_EQ(replay(flight + " --seeds 1:3"), 0) << output();
+  expectOutput({"  seed  observer RMSE [m]", "\nmedian", "\n worst"});
+  EXPECT_TRUE(has("seed_3/fused.tum") && has("summary.json") && !has("fused.tum"));
+  folder_.write("run/notes.txt", "");
+  EXPECT_EQ(replay(flight), 0) << output();
+  EXPECT_TRUE(has("fused.tum") && has("notes.txt") && !has("seed_3"));
+  EXPECT_EQ(replay(flight + " --seeds 2:2"), 0) << output();
+  EXPECT_TRUE(has("seed_2/fused.tum") && has("notes.txt") && !has("fused.tum"));
+}
+
 TEST_F(ToolUsage, ADeviceIsNoBag) {
   EXPECT_EQ(replay("/dev/null"), 1);
   expectOutput({"replay: /dev/null", "device"});

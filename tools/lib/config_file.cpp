@@ -31,6 +31,8 @@ struct SectionReader {
     values->erase(entry);
     if constexpr (std::is_enum_v<T>) {
       readChoice(info, text, value);
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      value = text;
     } else {
       try {
         value = YAML::Load(text).as<T>();
@@ -101,7 +103,7 @@ bool hasParameter(Config config, const std::string& key) {
 }
 
 /// Keys that the nodelets read beside the stages' parameters (topics, frames); the offline tools
-/// pass over them, but for `rectified`.
+/// pass over them, but for `rectified` and `base_frame`.
 bool isNodeKey(const std::string& section, const std::string& key) {
   return section == "tracker" ? hasParameter(TrackerNodeConfig{}, key)
                               : hasParameter(MapperNodeConfig{}, key);
@@ -177,6 +179,8 @@ PipelineConfig loadConfig(const std::string& path, const std::vector<std::string
   PipelineConfig config;
   const ParameterInfo rectified{"rectified", "switch", 0, 0, ""};
   SectionReader{"tracker", &sections["tracker"], &faults}(rectified, config.rectified);
+  const ParameterInfo base_frame{"base_frame", "name", 0, 0, ""};
+  SectionReader{"mapper", &sections["mapper"], &faults}(base_frame, config.base_frame);
   readSection("tracker", sections, config.tracker, faults);
   readSection("mapper", sections, config.mapper, faults);
   for (const auto& section : sections) {

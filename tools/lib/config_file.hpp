@@ -16,6 +16,7 @@ struct PipelineConfig {
   SlamConfig mapper;
   bool rectified =
       false;  ///< tracker/rectified: a bag's images are rectified, its camera_info's P holds
+  std::string base_frame;  ///< mapper/base_frame, of a bag; empty: the odometry's child_frame_id
 };
 
 /// Reads the file (an empty path: the defaults), then applies each "key=value" or

@@ -16,7 +16,9 @@ void BagOptions::addTo(CLI::App& app) {
   add("--odometry-topic", bag_.odometry_topic, "of a bag; default: the only one there is");
   add("--truth-topic", bag_.truth_topic, "of a bag; default: the one called truth");
   add("--camera-frame", bag_.camera_frame, "of a bag; default: the images' frame_id");
-  add("--base-frame", bag_.base_frame, "of a bag; default: the odometry's child_frame_id");
+  add("--base-frame", bag_.base_frame,
+      "of a bag; default: mapper/base_frame of the configuration, else the odometry's "
+      "child_frame_id");
   add("--camera", camera_yaml_, "calibration to use instead of a bag's camera_info");
 }
 
@@ -30,9 +32,10 @@ void BagOptions::refuseForFolder(const std::string& folder) const {
                    " is for bags only; leave it out (a folder's files say it)");
 }
 
-BagReadOptions BagOptions::read(bool rectified) const {
+BagReadOptions BagOptions::read(const PipelineConfig& config) const {
   BagReadOptions options = bag_;
-  options.rectified = rectified;
+  options.rectified = config.rectified;
+  if (options.base_frame.empty()) options.base_frame = config.base_frame;
   if (!camera_yaml_.empty()) options.camera = readCameraYaml(camera_yaml_);
   return options;
 }

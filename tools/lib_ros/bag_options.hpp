@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bag_sequence.hpp"
+#include "config_file.hpp"
 
 namespace ardrone_vslam {
 
@@ -15,8 +16,9 @@ class BagOptions {
   void addTo(CLI::App& app);
   /// @throws UsageError naming the options that were given although the input is a folder
   void refuseForFolder(const std::string& folder) const;
-  /// @param rectified  of the configuration. @throws std::runtime_error for a wrong --camera file
-  BagReadOptions read(bool rectified) const;
+  /// @param config  says what the command line does not. @throws std::runtime_error for a wrong
+  /// --camera file
+  BagReadOptions read(const PipelineConfig& config) const;
 
  private:
   BagReadOptions bag_;

@@ -73,6 +73,11 @@ class BagFile : public BagSequence {
     BagOdometry odometry = readOdometry(bag_, topics.odometry, warnings_);
     truth_ = readTruth(bag_, topics.truth, warnings_);
     const std::string base = options.base_frame.empty() ? odometry.base_frame : options.base_frame;
+    if (base.empty() && !odometry.states.empty() && !options.T_base_cam) {
+      throw std::runtime_error(path + ", " + topics.odometry +
+                               ": names no child_frame_id; name the base frame by --base-frame or "
+                               "the parameter mapper/base_frame");
+    }
     const std::string camera =
         options.camera_frame.empty() ? images_->frame() : options.camera_frame;
     T_base_cam_ =

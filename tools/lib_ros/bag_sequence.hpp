@@ -17,7 +17,8 @@ struct BagReadOptions {
   std::string odometry_topic;  ///< nav_msgs/Odometry
   std::string truth_topic;     ///< PoseStamped, PoseWithCovarianceStamped or Odometry, of base
   std::string camera_frame;    ///< empty: the images' frame_id
-  std::string base_frame;  ///< empty: the odometry's child_frame_id, else the camera's tf parent
+  /// Empty: the odometry's child_frame_id; in a bag without odometry the camera's tf parent.
+  std::string base_frame;
   bool rectified = false;  ///< the images are rectified: camera_info's P without distortion
   std::optional<CameraIntrinsics> camera;       ///< instead of camera_info
   std::optional<Eigen::Isometry3d> T_base_cam;  ///< instead of tf
