@@ -120,6 +120,7 @@ void MapperNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
       case ObserverBuffer::Push::kAccepted:
         takeFrameNames(*odometry);
         noteCovariance(*checked.value);
+        noteSpeed(*checked.value);
         return processReady();
       case ObserverBuffer::Push::kNotFinite:
         fault = "it is not finite";
@@ -214,6 +215,7 @@ void MapperNodelet::beginMapAnew(const std::string& why) {
   ++totals_.restarts;
   slam_.reset();
   standstill_.reset();
+  speed_ = {};
   answered_ns_ = 0;
   outputs_->clear();
 }

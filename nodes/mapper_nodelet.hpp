@@ -13,6 +13,7 @@
 #include "mapper_outputs.hpp"
 #include "mounting.hpp"
 #include "node_config.hpp"
+#include "speed_watch.hpp"
 #include "stage_clock.hpp"
 #include "stamp_guard.hpp"
 #include "standstill_watch.hpp"
@@ -34,6 +35,8 @@ class MapperNodelet : public nodelet::Nodelet {
   bool acceptFeatures(const Features& features);
   /// Says once that the odometry's covariance counts as not given, and why.
   void noteCovariance(const ObserverState& state);
+  /// Says once that the odometry is too fast to be in metres.
+  void noteSpeed(const ObserverState& state);
   void takeFrameNames(const nav_msgs::Odometry& odometry);
   /// Works on every image whose odometry has come.
   void processReady();
@@ -71,6 +74,7 @@ class MapperNodelet : public nodelet::Nodelet {
   std::unique_ptr<Slam> slam_;
   Eigen::Isometry3d T_base_cam_ = Eigen::Isometry3d::Identity();  // as slam_ has it
   StandstillWatch standstill_;
+  SpeedWatch speed_;
   StampGuard stamps_;
   GapCounter gaps_;
   StageClock stage_clock_;

@@ -21,6 +21,14 @@ void MapperNodelet::noteCovariance(const ObserverState& state) {
   NODELET_WARN_STREAM(odometry_sub_.getTopic() << ": " << covariance_fault_);
 }
 
+void MapperNodelet::noteSpeed(const ObserverState& state) {
+  if (speed_.absurd_m_s() > 0) return;
+  speed_.see(state);
+  if (speed_.absurd_m_s() == 0) return;
+  NODELET_WARN_STREAM(
+      explainSpeed("the odometry on " + odometry_sub_.getTopic(), speed_.absurd_m_s()));
+}
+
 void MapperNodelet::publishStatus(const FrameResult& result, const Features& features) {
   Status status;
   toStatus(result, frames_.map, status);
@@ -29,6 +37,9 @@ void MapperNodelet::publishStatus(const FrameResult& result, const Features& fea
     if (limiter_.allows(status.reason, ros::SteadyTime::now().toSec())) {
       NODELET_WARN_STREAM(status.reason);
     }
+  } else if (status.reason.empty() && speed_.absurd_m_s() > 0) {
+    status.reason =
+        explainSpeed("the odometry on " + odometry_sub_.getTopic(), speed_.absurd_m_s());
   }
   for (std::size_t i = 0; i < kStageCount; ++i) {
     status.stage.emplace_back(kStageNames[i]);
@@ -100,9 +111,10 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
   const bool is_stuck = latest_.state == Status::WAITING_FOR_ODOMETRY ||
                         latest_.state == Status::WAITING_FOR_EXTRINSICS ||
                         latest_.state == Status::NOT_FINITE || standstill_.isStuck();
-  const bool is_well = latest_.state == Status::LOCALISED ||
-                       latest_.state == Status::BUILDING_MAP ||
-                       latest_.state == Status::OBSERVER_ONLY;
+  const bool is_well =
+      (latest_.state == Status::LOCALISED || latest_.state == Status::BUILDING_MAP ||
+       latest_.state == Status::OBSERVER_ONLY) &&
+      speed_.absurd_m_s() == 0;
   const auto level = is_stuck  ? DiagnosticStatus::ERROR
                      : is_well ? DiagnosticStatus::OK
                                : DiagnosticStatus::WARN;
@@ -113,6 +125,10 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
   wrapper.add("images without odometry", totals_.dropped_no_odometry);
   wrapper.add("odometry messages refused", totals_.odometry_refused);
   if (!covariance_fault_.empty()) wrapper.add("odometry covariance", covariance_fault_);
+  if (speed_.absurd_m_s() > 0) {
+    wrapper.add("odometry speed",
+                explainSpeed("the odometry on " + odometry_sub_.getTopic(), speed_.absurd_m_s()));
+  }
   wrapper.add("results not finite", totals_.results_not_finite);
   wrapper.add("landmarks", latest_.landmarks);
   wrapper.add("landmark matches", latest_.landmark_matches);

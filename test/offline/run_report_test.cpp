@@ -249,6 +249,16 @@ TEST(RunReport, PosesThatNeverMoveAreAFaultWhenTheImagesTravel) {
   EXPECT_NE(observer.faults[0].find("flight: the odometry never moves"), std::string::npos);
 }
 
+TEST(RunReport, OdometryThatIsTooFastForMetresIsAWarning) {
+  RunResult run = someRun();
+  run.absurd_speed_m_s = 850;
+  const RunVerdict verdict = judgeRun("flight", run, evaluate(run, straightTruth()), false);
+  EXPECT_TRUE(verdict.faults.empty());
+  ASSERT_EQ(verdict.warnings.size(), 1U);
+  for (const char* part : {"flight: ", "850 m/s", "metres are expected"})
+    EXPECT_NE(verdict.warnings[0].find(part), std::string::npos) << part;
+}
+
 TEST(RunReport, ARunWithoutLandmarksSaysWhyThatMayBe) {
   RunResult run = someRun();
   run.landmarks.clear();

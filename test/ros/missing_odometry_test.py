@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """What is missing is said by name, with the remedy, in `status` and in the diagnostics: first the
-features, then the odometry, then the camera's mounting; once all is there, poses come."""
+features, then the odometry, then the camera's mounting; once all is there, poses come. Odometry that
+is not in metres is said, too."""
 import os
 import sys
 import time
@@ -78,6 +79,19 @@ class MissingOdometry(unittest.TestCase):
             return any("mapper" in s.name and s.level == DiagnosticStatus.OK for s in array.status)
         self.assertIsNotNone(self.keep_sending(drone, True, lambda _: any(
             is_well(array) for array in diagnostics.all())))
+
+        for _ in range(25):  # 2.5 s by its stamps, as if in millimetres
+            drone.next()
+            odometry = drone.odometry()
+            odometry.pose.pose.position.x = 300 * odometry.header.stamp.to_sec()
+            drone.send(odometry)
+
+        def is_told(array):
+            return any("mapper" in s.name and s.level == DiagnosticStatus.WARN and
+                       any(v.key == "odometry speed" and "metres are expected" in v.value for v in s.values)
+                       for s in array.status)
+        self.assertIsNotNone(diagnostics.wait(is_told))
+        self.assertIsNotNone(drone.log.wait(lambda log: "/odometry moves at 300 m/s" in log.msg))
 
 
 if __name__ == "__main__":

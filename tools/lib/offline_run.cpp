@@ -92,8 +92,12 @@ bool BackEnd::observerAt(std::int64_t stamp_ns, ObserverState& state) {
   auto lookup = buffer_.at(stamp_ns, state);
   while ((lookup == ObserverBuffer::Lookup::kEmpty || lookup == ObserverBuffer::Lookup::kNotYet) &&
          next_ < observer_.size()) {
-    if (buffer_.push(observer_[next_++]) != ObserverBuffer::Push::kAccepted)
+    const ObserverState& next = observer_[next_++];
+    if (buffer_.push(next) == ObserverBuffer::Push::kAccepted) {
+      speed_.see(next);
+    } else {
       ++run_.observer_states_refused;
+    }
     lookup = buffer_.at(stamp_ns, state);
   }
   return lookup == ObserverBuffer::Lookup::kFound;
@@ -115,6 +119,7 @@ void BackEnd::process(const TrackedFrame& frame) {
 
 RunResult BackEnd::finish() {
   run_.images_travel = watch_.isStuck();
+  run_.absurd_speed_m_s = speed_.absurd_m_s();
   run_.landmarks = slam_.landmarks().all();
   return std::move(run_);
 }

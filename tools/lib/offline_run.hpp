@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "../../nodes/standstill_watch.hpp"  // no ROS
+#include "../../nodes/speed_watch.hpp"  // no ROS
+#include "../../nodes/standstill_watch.hpp"
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/stages.hpp"
@@ -39,7 +40,8 @@ struct RunResult {
   int observer_states_refused = 0;  ///< not finite, out of bounds, duplicate or backward stamps
   /// The tracks moved for seconds on end by more than the observer's turning explains.
   bool images_travel = false;
-  double scale_error = 0;  ///< the one drawn for the observer
+  double absurd_speed_m_s = 0;  ///< of the observer, when it is too fast to be in metres
+  double scale_error = 0;       ///< the one drawn for the observer
 };
 
 /// Called with the number of images done, from the calling thread.
@@ -68,6 +70,7 @@ class BackEnd {
   Slam slam_;
   Eigen::Isometry3d T_base_cam_;
   StandstillWatch watch_;  ///< sees an observer that only turns: what moves then is the images
+  SpeedWatch speed_;
   ObserverBuffer buffer_;
   const std::vector<ObserverState>& observer_;
   std::size_t next_ = 0;

@@ -95,6 +95,9 @@ RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEval
     verdict.warnings.push_back(std::to_string(run.frames_without_observer) +
                                " images have no odometry at their stamp and are left out");
   }
+  if (run.absurd_speed_m_s > 0) {
+    verdict.warnings.push_back(name + ": " + explainSpeed("the odometry", run.absurd_speed_m_s));
+  }
   if (run.landmarks.empty()) {
     verdict.warnings.push_back(
         "no landmark came out, so the poses are the odometry's: images too dark, blurred or plain, "
