@@ -14,6 +14,7 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/landmark_map.hpp"
+#include "ardrone_vslam/late_fusion.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "camera_info_conversion.hpp"
@@ -31,6 +32,10 @@ ros::Time toRosTime(std::int64_t stamp_ns);
 /// Pose of base in odom with a normalised quaternion, within rangeFault's bounds. The covariance is
 /// the message's, also one that counts as not given (covarianceFault).
 Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry);
+
+/// Poses with normalised quaternions, within faultOf(LateCorrection)'s bounds. The frames are not
+/// looked at.
+Checked<LateCorrection> toLateCorrection(const PoseCorrection& message);
 
 /// @return what is wrong with the message (sizes, values not finite, bearings not of unit length),
 /// or nothing
@@ -61,6 +66,8 @@ geometry_msgs::PoseWithCovarianceStamped toPoseMessage(const FrameResult& result
 /// @param observer  at the same stamp
 nav_msgs::Odometry toOdometryMessage(const FrameResult& result, const Frames& frames,
                                      const ObserverState& observer);
+/// Live odometry seen from map; the twist (of base, axes of base) is the observer's.
+nav_msgs::Odometry toOdometryMessage(const MapState& state, const Frames& frames);
 PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
                                    const Frames& frames);
 /// Fills the state and the counts of one frame; leaves stage times and totals alone.

@@ -34,6 +34,22 @@ Matrix6d toMatrix(const boost::array<double, 36>& row_major) {
   return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(row_major.data());
 }
 
+/// Its quaternion is normalised.
+Checked<Eigen::Isometry3d> toIsometry(const geometry_msgs::Pose& pose) {
+  const Eigen::Vector3d p(pose.position.x, pose.position.y, pose.position.z);
+  const Eigen::Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y,
+                             pose.orientation.z);
+  if (!p.allFinite()) return {std::nullopt, "its position is not finite"};
+  if (!q.coeffs().allFinite()) return {std::nullopt, "its orientation is not finite"};
+  if (!(std::abs(q.norm() - 1) < kQuaternionTolerance)) {
+    return {std::nullopt, text("its orientation has norm ", q.norm(),
+                               " where a unit quaternion is asked for; fill the orientation")};
+  }
+  Eigen::Isometry3d T_a_b(q.normalized());
+  T_a_b.translation() = p;
+  return {T_a_b, {}};
+}
+
 /// @return the fault
 std::string faultOf(const geometry_msgs::TwistWithCovariance& twist) {
   const auto& v = twist.twist.linear;
@@ -59,17 +75,9 @@ ros::Time toRosTime(std::int64_t stamp_ns) {
 }
 
 Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
-  const auto& pose = odometry.pose.pose;
-  const Eigen::Vector3d p(pose.position.x, pose.position.y, pose.position.z);
-  const Eigen::Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y,
-                             pose.orientation.z);
+  const auto T_odom_base = toIsometry(odometry.pose.pose);
+  if (!T_odom_base.value) return {std::nullopt, T_odom_base.fault};
   const auto& covariance = odometry.pose.covariance;
-  if (!p.allFinite()) return {std::nullopt, "its position is not finite"};
-  if (!q.coeffs().allFinite()) return {std::nullopt, "its orientation is not finite"};
-  if (!(std::abs(q.norm() - 1) < kQuaternionTolerance)) {
-    return {std::nullopt, text("its orientation has norm ", q.norm(),
-                               " where a unit quaternion is asked for; fill the orientation")};
-  }
   if (!allFinite(covariance)) {
     return {std::nullopt, "its pose covariance is not finite; all zeros stand for 'unknown'"};
   }
@@ -79,8 +87,7 @@ Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
   if (odometry.header.stamp.isZero()) return {std::nullopt, "its stamp is zero; set header.stamp"};
   ObserverState state;
   state.stamp_ns = toNanoseconds(odometry.header.stamp);
-  state.T_odom_base.translation() = p;
-  state.T_odom_base.linear() = q.normalized().toRotationMatrix();
+  state.T_odom_base = *T_odom_base.value;
   state.covariance = toMatrix(covariance);
   const auto& twist = odometry.twist.twist;
   state.twist_base << twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.x,
@@ -89,6 +96,22 @@ Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
   const std::string range_fault = rangeFault(state);
   if (!range_fault.empty()) return {std::nullopt, range_fault};
   return {state, {}};
+}
+
+Checked<LateCorrection> toLateCorrection(const PoseCorrection& message) {
+  if (message.header.stamp.isZero()) return {std::nullopt, "its stamp is zero; set header.stamp"};
+  const auto T_odom_base = toIsometry(message.observer_pose);
+  if (!T_odom_base.value) return {std::nullopt, "observer_pose: " + T_odom_base.fault};
+  const auto T_map_base = toIsometry(message.fused_pose.pose);
+  if (!T_map_base.value) return {std::nullopt, "fused_pose: " + T_map_base.fault};
+  LateCorrection correction;
+  correction.stamp_ns = toNanoseconds(message.header.stamp);
+  correction.T_odom_base = *T_odom_base.value;
+  correction.T_map_base = *T_map_base.value;
+  correction.covariance = toMatrix(message.fused_pose.covariance);
+  const std::string fault = faultOf(correction);
+  if (!fault.empty()) return {std::nullopt, fault};
+  return {correction, {}};
 }
 
 std::string faultOf(const Features& m) {

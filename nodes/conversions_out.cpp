@@ -33,6 +33,17 @@ geometry_msgs::PoseWithCovariance toPoseWithCovariance(const FrameResult& result
   return pose;
 }
 
+void fillTwist(const Vector6d& twist, const Matrix6d& covariance,
+               geometry_msgs::TwistWithCovariance& message) {
+  message.twist.linear.x = twist[0];
+  message.twist.linear.y = twist[1];
+  message.twist.linear.z = twist[2];
+  message.twist.angular.x = twist[3];
+  message.twist.angular.y = twist[4];
+  message.twist.angular.z = twist[5];
+  toRowMajor(covariance, message.covariance);
+}
+
 std::uint8_t stateOf(SlamState state) {
   switch (state) {
     case SlamState::kBuildingMap:
@@ -131,14 +142,17 @@ nav_msgs::Odometry toOdometryMessage(const FrameResult& result, const Frames& fr
   message.header = headerOf(result.stamp_ns, frames.map);
   message.child_frame_id = frames.base;
   message.pose = toPoseWithCovariance(result);
-  const Vector6d& twist = observer.twist_base;
-  message.twist.twist.linear.x = twist[0];
-  message.twist.twist.linear.y = twist[1];
-  message.twist.twist.linear.z = twist[2];
-  message.twist.twist.angular.x = twist[3];
-  message.twist.twist.angular.y = twist[4];
-  message.twist.twist.angular.z = twist[5];
-  toRowMajor(observer.twist_covariance, message.twist.covariance);
+  fillTwist(observer.twist_base, observer.twist_covariance, message.twist);
+  return message;
+}
+
+nav_msgs::Odometry toOdometryMessage(const MapState& state, const Frames& frames) {
+  nav_msgs::Odometry message;
+  message.header = headerOf(state.stamp_ns, frames.map);
+  message.child_frame_id = frames.base;
+  message.pose.pose = toPose(state.T_map_base);
+  toRowMajor(state.covariance, message.pose.covariance);
+  fillTwist(state.twist_base, state.twist_covariance, message.twist);
   return message;
 }
 

@@ -73,6 +73,18 @@ void visitParameters(MapperNodeConfig& c, Visitor&& visit) {
         c.queue_size);
 }
 
+struct ObserverFusionNodeConfig {
+  std::string map_frame = "map";
+  std::string base_frame;  // empty: the odometry's child_frame_id
+};
+
+template <class Visitor>
+void visitParameters(ObserverFusionNodeConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"map_frame", "name", 0, 0, "as the mapper's"}, c.map_frame);
+  visit(ParameterInfo{"base_frame", "name", 0, 0, "empty: the odometry's child_frame_id"},
+        c.base_frame);
+}
+
 struct PathNodeConfig {
   int max_poses = 100000;
   double publish_hz = 2.0;

@@ -85,6 +85,8 @@ class ObserverBuffer {
 
   void clear() { states_.clear(); }
   bool empty() const { return states_.empty(); }
+  /// Oldest first.
+  const std::deque<ObserverState>& states() const { return states_; }
   std::int64_t newestStamp_ns() const { return states_.empty() ? 0 : states_.back().stamp_ns; }
 
  private:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "ardrone_vslam/late_fusion.hpp"
 #include "parameter_table.hpp"
 #include "support/sequence_folders.hpp"
 
@@ -121,6 +122,15 @@ TEST_F(ConfigFile, KeysOfTheNodeletsArePassedOver) {
   EXPECT_EQ(faultsOf("tracker:\n  odom_frame: x\n").size(), 1U) << "in their own section only";
 }
 
+TEST_F(ConfigFile, TheSectionOfObserverFusionIsCheckedThoughNotUsed) {
+  EXPECT_NO_THROW(
+      load("observer_fusion:\n  map_frame: world\n  observer_buffer_s: 3\n  scale_deviation: 0\n"));
+  const auto faults = faultsOf("observer_fusion:\n  observer_bufer_s: 3\n  scale_deviation: 2\n");
+  ASSERT_EQ(faults.size(), 2U) << ::testing::PrintToString(faults);
+  EXPECT_TRUE(contains(faults[0], "did you mean observer_fusion/observer_buffer_s"));
+  EXPECT_TRUE(contains(faults[1], "scale_deviation is 2 but must be between"));
+}
+
 TEST_F(ConfigFile, RectifiedIsReadAsTheNodeletsReadIt) {
   EXPECT_FALSE(load("").rectified);
   for (const char* yes : {"true", "True", "yes", "on"}) {
@@ -164,6 +174,8 @@ TEST(ParameterTable, NamesEveryParameterWithItsDefault) {
   };
   visitParameters(config.tracker, expectRow);
   visitParameters(config.mapper, expectRow);
+  LateFusionConfig late_fusion;
+  visitParameters(late_fusion, expectRow);
   EXPECT_TRUE(contains(table, "| `mean` | printed | choice | printed, exact | "));
   EXPECT_TRUE(contains(table, "| `planar` | false | switch | true, false | "));
   EXPECT_TRUE(contains(table, "| `max_landmarks` | 200000 | landmarks | 10 to 10000000 | "));

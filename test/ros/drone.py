@@ -52,6 +52,18 @@ class Recorder:
         return self._subscriber.get_num_connections() > 0
 
 
+def matrix(position, q):
+    """4x4 transform of a position and a quaternion."""
+    x, y, z, w = q.x, q.y, q.z, q.w
+    result = np.eye(4)
+    result[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+    result[:3, 3] = [position.x, position.y, position.z]
+    return result
+
+
 def play(recorders):
     """Lets the paused player of replay.launch begin, once all recorders are connected."""
     end_s = time.monotonic() + TIMEOUT_S

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "ardrone_vslam/late_fusion.hpp"
 #include "config_file.hpp"
 #include "params.hpp"
 
@@ -43,6 +44,7 @@ std::string loadingFault(const std::string& section, const std::vector<std::stri
 TEST(NodeConfig, OfflineToolsPassOverTheNodesKeys) {
   EXPECT_EQ(loadingFault("tracker", namesOf(TrackerNodeConfig{})), "");
   EXPECT_EQ(loadingFault("mapper", namesOf(MapperNodeConfig{})), "");
+  EXPECT_EQ(loadingFault("observer_fusion", namesOf(ObserverFusionNodeConfig{})), "");
 }
 
 TEST(NodeConfig, OfflineToolsRefuseOtherKeys) {
@@ -58,6 +60,7 @@ TEST(NodeConfig, NoNameIsUsedTwiceInANode) {
   };
   check(namesOf(TrackerNodeConfig{}), namesOf(TrackerConfig{}));
   check(namesOf(MapperNodeConfig{}), namesOf(SlamConfig{}));
+  check(namesOf(ObserverFusionNodeConfig{}), namesOf(LateFusionConfig{}));
 }
 
 TEST(NodeConfig, ShippedFilesLoad) {

@@ -42,6 +42,12 @@ class Params(unittest.TestCase):
                 "odometry_wait_s is -1 but must be between 0 and 60",
                 "/bad_mapper/estimator is 'kalman' but must be one of: thesis, constraint, observer"])
 
+    def test_observer_fusion_lists_all_faults(self):
+        self.assert_refused("observer_fusion_node", [
+            "__name:=bad_fusion", "_observer_buffer_s:=0", "_scale_deviation:=much"], [
+                "observer_buffer_s is 0 but must be between 0.1 and 600",
+                "/bad_fusion/scale_deviation is 'much' but must be a number"])
+
     def test_unknown_parameter_is_warned_of(self):
         process = start("tracker_node", "__name:=odd_tracker", "_thresold:=30",
                         "_queue_size:=7")
@@ -70,8 +76,16 @@ class Params(unittest.TestCase):
                     stdout=subprocess.PIPE, text=True, timeout=30, check=True).stdout
                 self.assertIn("/vslam/tracker/image_transport: " + transport, dumped)
 
+    def test_launch_file_gives_observer_fusion_the_mappers_frames(self):
+        dumped = subprocess.run(
+            ["roslaunch", "--dump-params", rospy.get_param("~launch"), "map_frame:=world", "base_frame:=body"],
+            stdout=subprocess.PIPE, text=True, timeout=30, check=True).stdout
+        for node in ["mapper", "observer_fusion"]:
+            self.assertIn("/vslam/%s/map_frame: world" % node, dumped)
+            self.assertIn("/vslam/%s/base_frame: body" % node, dumped)
+
     def test_help_and_version(self):
-        for executable in ["tracker_node", "mapper_node"]:
+        for executable in ["tracker_node", "mapper_node", "observer_fusion_node"]:
             for argument, code, said in [("--help", 0, "Usage"), ("--version", 0, "ardrone_vslam "),
                                          ("--bogus", 2, "--bogus")]:
                 process = start(executable, argument)

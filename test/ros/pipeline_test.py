@@ -20,21 +20,9 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from drone import Recorder, play  # noqa: E402
+from drone import Recorder, matrix, play  # noqa: E402
 
 PLAY_TIMEOUT_S = 150
-
-
-def matrix(position, q):
-    """4x4 transform of a position and a quaternion."""
-    x, y, z, w = q.x, q.y, q.z, q.w
-    result = np.eye(4)
-    result[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
-    result[:3, 3] = [position.x, position.y, position.z]
-    return result
 
 
 class Pipeline(unittest.TestCase):

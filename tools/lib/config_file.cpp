@@ -9,11 +9,13 @@
 #include <set>
 
 #include "../../nodes/node_config.hpp"  // the structs alone: no ROS
+#include "ardrone_vslam/late_fusion.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr const char* kListOfAll = " (docs/parameters.md and --list-parameters name all)";
+constexpr const char* kObserverFusion = "observer_fusion";
 
 using Section = std::map<std::string, std::string>;  // key -> value as written
 
@@ -105,8 +107,9 @@ bool hasParameter(Config config, const std::string& key) {
 /// Keys that the nodelets read beside the stages' parameters (topics, frames); the offline tools
 /// pass over them, but for `rectified` and `base_frame`.
 bool isNodeKey(const std::string& section, const std::string& key) {
-  return section == "tracker" ? hasParameter(TrackerNodeConfig{}, key)
-                              : hasParameter(MapperNodeConfig{}, key);
+  if (section == "tracker") return hasParameter(TrackerNodeConfig{}, key);
+  if (section == kObserverFusion) return hasParameter(ObserverFusionNodeConfig{}, key);
+  return hasParameter(MapperNodeConfig{}, key);
 }
 
 template <class Config>
@@ -114,9 +117,14 @@ void addNames(Config config, std::set<std::string>& names) {
   visitParameters(config, [&](const ParameterInfo& info, auto&) { names.insert(info.name); });
 }
 
-/// Over both sections.
-std::string hintFor(const std::string& written) {
+/// Over tracker and mapper, whose keys are often put into the wrong one; observer_fusion's own.
+std::string hintFor(const std::string& section, const std::string& written) {
   std::set<std::string> names;
+  if (section == kObserverFusion) {
+    addNames(LateFusionConfig{}, names);
+    const std::string nearest = nearestName(written, names);
+    return nearest.empty() ? nearest : "; did you mean " + section + "/" + nearest;
+  }
   addNames(TrackerConfig{}, names);
   addNames(SlamConfig{}, names);
   const std::string nearest = nearestName(written, names);
@@ -148,7 +156,7 @@ void applyOverride(const std::string& text, std::map<std::string, Section>& sect
     key = key.substr(slash + 1);
   }
   if (section.empty()) {
-    faults.push_back("--set '" + text + "': " + key + " is not a parameter" + hintFor(key) +
+    faults.push_back("--set '" + text + "': " + key + " is not a parameter" + hintFor("", key) +
                      kListOfAll);
     return;
   }
@@ -164,7 +172,7 @@ void readSection(const char* name, std::map<std::string, Section>& sections, Con
   for (const auto& leftover : values) {
     if (isNodeKey(name, leftover.first)) continue;
     faults.push_back(std::string(name) + "/" + leftover.first + " is not a parameter" +
-                     hintFor(leftover.first) + kListOfAll);
+                     hintFor(name, leftover.first) + kListOfAll);
   }
   const auto range_faults = rangeFaults(config);
   faults.insert(faults.end(), range_faults.begin(), range_faults.end());
@@ -183,8 +191,13 @@ PipelineConfig loadConfig(const std::string& path, const std::vector<std::string
   SectionReader{"mapper", &sections["mapper"], &faults}(base_frame, config.base_frame);
   readSection("tracker", sections, config.tracker, faults);
   readSection("mapper", sections, config.mapper, faults);
+  if (sections.count(kObserverFusion) > 0) {
+    LateFusionConfig late_fusion;  // of no use offline, but its keys are checked all the same
+    readSection(kObserverFusion, sections, late_fusion, faults);
+  }
   for (const auto& section : sections) {
-    faults.push_back("unknown section '" + section.first + "'; known are tracker and mapper");
+    faults.push_back("unknown section '" + section.first +
+                     "'; known are tracker, mapper and observer_fusion");
   }
   if (!faults.empty()) throw ConfigError(faults);
   return config;

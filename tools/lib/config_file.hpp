@@ -10,7 +10,7 @@
 namespace ardrone_vslam {
 
 /// What config/*.yaml holds: sections `tracker` and `mapper`, the same files that roslaunch loads
-/// for the nodelets.
+/// for the nodelets. A section `observer_fusion` is checked and not used.
 struct PipelineConfig {
   TrackerConfig tracker;
   SlamConfig mapper;

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "../../nodes/node_config.hpp"  // the structs alone: no ROS
+#include "ardrone_vslam/late_fusion.hpp"
 #include "config_file.hpp"
 
 namespace ardrone_vslam {
@@ -17,7 +18,8 @@ constexpr const char* kHead =
     "Made by `rosrun ardrone_vslam replay --list-parameters > docs/parameters.md`; edit the "
     "*Config structs, not this page.\n"
     "\n"
-    "A configuration file (`config/*.yaml`) has two sections, `tracker:` and `mapper:`. The launch "
+    "A configuration file (`config/*.yaml`) has two sections, `tracker:` and `mapper:`, and may "
+    "have a third, `observer_fusion:`. The launch "
     "files load each into the private namespace of its nodelet; the offline programs read the same "
     "file by `--config FILE` and single values by `--set name=value`. What is not given keeps its "
     "default. A value outside its range, of the wrong type or of an unknown name is refused with "
@@ -78,6 +80,8 @@ std::string parameterTable() {
   writeTable<TrackerNodeConfig>(
       "tracker, read by its nodelet, and `rectified` by the offline tools (bags)", out);
   writeTable<MapperNodeConfig>("mapper, read by its nodelet only", out);
+  writeTable<ObserverFusionNodeConfig>("observer_fusion, read by its nodelet only", out);
+  writeTable<LateFusionConfig>("observer_fusion: odometry and corrections to odometry in map", out);
   writeTable<PathNodeConfig>("path nodelet", out);
   return out.str();
 }

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/observer_noise.hpp"
+#include "ardrone_vslam/parameters.hpp"
+
+namespace ardrone_vslam {
+
+/// How long odometry is kept, and how the raw odometry errs between a correction's stamp and now;
+/// names and defaults are those of the constraint filter.
+struct LateFusionConfig {
+  ObserverBufferConfig observer;
+  double walk_m_per_sqrt_m = ObserverNoiseConfig{}.walk_m_per_sqrt_m;
+  double walk_m_per_sqrt_s = ObserverNoiseConfig{}.walk_m_per_sqrt_s;
+  double velocity_bias_m_s = ObserverNoiseConfig{}.velocity_bias_m_s;
+  double scale_deviation = ObserverNoiseConfig{}.scale_deviation;
+  double tilt_deviation_deg = ObserverNoiseConfig{}.tilt_deviation_deg;
+  double tilt_time_s = ObserverNoiseConfig{}.tilt_time_s;
+  double yaw_walk_deg_per_sqrt_s = ObserverNoiseConfig{}.yaw_walk_deg_per_sqrt_s;
+  double yaw_walk_deg_per_sqrt_m = ObserverNoiseConfig{}.yaw_walk_deg_per_sqrt_m;
+};
+
+template <class Visitor>
+void visitParameters(LateFusionConfig& c, Visitor&& visit) {
+  visitParameters(c.observer, visit);
+  visit(ParameterInfo{"walk_m_per_sqrt_m", "m/sqrt(m)", 0, 10,
+                      "white odometry noise per square root of the way since the correction, where "
+                      "the observer gives no covariance"},
+        c.walk_m_per_sqrt_m);
+  visit(ParameterInfo{"walk_m_per_sqrt_s", "m/sqrt(s)", 0, 10, "the same per square root of time"},
+        c.walk_m_per_sqrt_s);
+  visit(ParameterInfo{"velocity_bias_m_s", "m/s", 0, 10,
+                      "slow error of the odometry's velocity, per axis"},
+        c.velocity_bias_m_s);
+  visit(ParameterInfo{"scale_deviation", "-", 0, 1, "constant scale error of the odometry"},
+        c.scale_deviation);
+  visit(ParameterInfo{"tilt_deviation_deg", "deg", 0, 45,
+                      "slow error of the odometry's roll and pitch"},
+        c.tilt_deviation_deg);
+  visit(ParameterInfo{"tilt_time_s", "s", 0.1, 1e6, "time constant of that error"}, c.tilt_time_s);
+  visit(ParameterInfo{"yaw_walk_deg_per_sqrt_s", "deg/sqrt(s)", 0, 45,
+                      "drift of the odometry's yaw with time"},
+        c.yaw_walk_deg_per_sqrt_s);
+  visit(ParameterInfo{"yaw_walk_deg_per_sqrt_m", "deg/sqrt(m)", 0, 45, "the same with the way"},
+        c.yaw_walk_deg_per_sqrt_m);
+}
+
+/// What the mapper says of one image: base was at T_map_base where the observer said T_odom_base.
+struct LateCorrection {
+  std::int64_t stamp_ns = 0;  ///< the image's
+  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
+  /// Of T_map_base: position [m^2], rotation vector [rad^2], axes of map.
+  Matrix6d covariance = Matrix6d::Zero();
+};
+
+/// What is wrong with a correction (not finite, out of bounds, covariance that is none), and what
+/// helps; empty when nothing is.
+std::string faultOf(const LateCorrection& correction);
+
+/// The observer's state of one instant, seen from map.
+struct MapState {
+  std::int64_t stamp_ns = 0;  ///< the odometry's
+  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();
+  /// Position [m^2], rotation vector [rad^2], axes of map; symmetric, positive semi-definite.
+  Matrix6d covariance = Matrix6d::Zero();
+  Vector6d twist_base = Vector6d::Zero();  ///< the observer's, as in ObserverState
+  Matrix6d twist_covariance = Matrix6d::Zero();
+};
+
+/// Applies corrections, which are late by the image's way through camera and mapper, to the live
+/// odometry: T_map_odom is that of the newest correction, and all odometry since its stamp is seen
+/// through it. The odometry's relative motion stays as it is, so a correction is exact however late
+/// it comes.
+class LateFusion {
+ public:
+  enum class Answer {
+    kUsed,
+    kNotYet,    ///< no odometry at or after the stamp has come: to be offered again when it has
+    kTooOld,    ///< before the oldest odometry that is kept
+    kGap,       ///< the odometry has a hole at the stamp
+    kNotAfter,  ///< not after the correction in use
+    kOtherOdometry,  ///< its T_odom_base is not where the odometry was
+    kBad             ///< faultOf(correction) says what
+  };
+  /// A correction whose observer pose is further off the odometry belongs to another one:
+  /// interpolation across some lost messages costs less.
+  static constexpr double kLargestDifference_m = 0.1;
+  static constexpr double kLargestDifference_rad = 0.1;
+
+  /// @throws ConfigError
+  explicit LateFusion(const LateFusionConfig& config);
+
+  /// Appends odometry; one that is refused changes nothing. O(1).
+  ObserverBuffer::Push push(const ObserverState& state);
+
+  /// Only with kUsed it changes anything. O(odometry since the stamp).
+  Answer correct(const LateCorrection& correction);
+
+  /// The newest odometry in map; nothing before the first correction or without odometry.
+  std::optional<MapState> newest() const;
+
+  /// All odometry from the correction's stamp on, oldest first, re-propagated by it.
+  std::vector<MapState> sinceCorrection() const;
+
+  /// Forgets odometry and correction: time or the odometry began anew.
+  void clear();
+
+  bool hasCorrection() const { return correction_.has_value(); }
+  /// @pre hasCorrection()
+  std::int64_t correctionStamp_ns() const { return correction_->stamp_ns; }
+  const Eigen::Isometry3d& T_map_odom() const { return T_map_odom_; }
+  std::int64_t newestStamp_ns() const { return buffer_.newestStamp_ns(); }
+
+ private:
+  MapState inMap(const ObserverState& state, double way_m) const;
+  /// What the odometry's error can have grown by since the correction's stamp.
+  Matrix6d growth(const ObserverState& state, double way_m) const;
+
+  LateFusionConfig config_;
+  ObserverBuffer buffer_;
+  std::optional<LateCorrection> correction_;
+  ObserverState at_correction_;  // the odometry at its stamp
+  Eigen::Isometry3d T_map_odom_ = Eigen::Isometry3d::Identity();
+  double way_m_ = 0;  // of the odometry since then
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "observer_fusion_nodelet.hpp"
+
+#include <nav_msgs/Path.h>
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "frame_names.hpp"
+#include "params.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr std::uint32_t kOdometryQueue = 2000;  // 10 s at 200 Hz, in and out
+constexpr std::uint32_t kCorrectionQueue = 100;
+constexpr std::size_t kMostWaiting = 1000;
+
+}  // namespace
+
+void ObserverFusionNodelet::onInit() {
+  readParameters();
+  ros::NodeHandle& nh = getNodeHandle();
+  frames_.map = withTfPrefix(tf_prefix_, node_config_.map_frame);
+  live_pub_ = nh.advertise<nav_msgs::Odometry>("odometry_live", kOdometryQueue);
+  repropagated_pub_ = nh.advertise<nav_msgs::Path>("repropagated", 10);
+  diagnostics_ =
+      std::make_unique<diagnostic_updater::Updater>(nh, getPrivateNodeHandle(), getName());
+  diagnostics_->setHardwareID("none");
+  diagnostics_->add("observer_fusion", this, &ObserverFusionNodelet::diagnose);
+  second_timer_ = nh.createWallTimer(ros::WallDuration(1.0),
+                                     [this](const ros::WallTimerEvent&) { onSecond(); });
+  const auto no_delay = ros::TransportHints().tcpNoDelay();
+  odometry_sub_ =
+      nh.subscribe("odometry", kOdometryQueue, &ObserverFusionNodelet::onOdometry, this, no_delay);
+  correction_sub_ = nh.subscribe("correction", kCorrectionQueue,
+                                 &ObserverFusionNodelet::onCorrection, this, no_delay);
+}
+
+void ObserverFusionNodelet::readParameters() {
+  ParamReader reader(getPrivateNodeHandle());
+  reader.read(node_config_);
+  reader.read(config_);
+  for (const auto& sentence : reader.unknownKeys()) NODELET_WARN_STREAM(sentence);
+  try {
+    reader.finish();
+    fusion_ = std::make_unique<LateFusion>(config_);
+  } catch (const ConfigError& e) {
+    NODELET_FATAL_STREAM(getName() << ": " << e.what());
+    throw;
+  }
+  std::string key;
+  if (getPrivateNodeHandle().searchParam("tf_prefix", key)) {
+    getPrivateNodeHandle().getParam(key, tf_prefix_);
+  }
+  NODELET_INFO_STREAM("ardrone_vslam " ARDRONE_VSLAM_VERSION " observer_fusion: "
+                      << reader.summary()
+                      << (tf_prefix_.empty() ? "" : " tf_prefix=" + tf_prefix_));
+}
+
+void ObserverFusionNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
+  has_odometry_ = true;
+  if (!push(*odometry)) return;
+  const std::string& base = node_config_.base_frame;
+  frames_.base = withTfPrefix(tf_prefix_, base.empty() ? odometry->child_frame_id : base);
+  const bool is_corrected = useWaiting();
+  if (const auto state = fusion_->newest()) live_pub_.publish(toOdometryMessage(*state, frames_));
+  if (is_corrected) publishRepropagated();
+}
+
+bool ObserverFusionNodelet::push(const nav_msgs::Odometry& odometry) {
+  const auto checked = toObserverState(odometry);
+  if (!checked.value) {
+    refuseOdometry(checked.fault);
+    return false;
+  }
+  const ObserverState& state = *checked.value;
+  if (fusion_->newestStamp_ns() - state.stamp_ns >= StampGuard::kRestart_ns) {
+    ++restarts_;
+    NODELET_WARN_STREAM(
+        "stamps on " << odometry_sub_.getTopic()
+                     << " jumped back (a bag plays again?): odometry and correction are forgotten, "
+                        "nothing is published until the next correction");
+    fusion_->clear();
+    waiting_.clear();
+  }
+  switch (fusion_->push(state)) {
+    case ObserverBuffer::Push::kAccepted:
+      return true;
+    case ObserverBuffer::Push::kNotFinite:
+      refuseOdometry("it is not finite");
+      break;
+    case ObserverBuffer::Push::kOutOfRange:
+      refuseOdometry(rangeFault(state));
+      break;
+    case ObserverBuffer::Push::kDuplicateStamp:
+      refuseOdometry("its stamp is that of the message before");
+      break;
+    case ObserverBuffer::Push::kBackwardStamp:
+      refuseOdometry("its stamp is before that of the message before; stamps must ascend");
+      break;
+  }
+  return false;
+}
+
+void ObserverFusionNodelet::onCorrection(const PoseCorrectionConstPtr& message) {
+  has_correction_ = true;
+  const auto checked = toLateCorrection(*message);
+  if (!checked.value) return refuseCorrection(checked.fault);
+  const std::string fault = frameFault(*message);
+  if (!fault.empty()) return refuseCorrection(fault);
+  // One that goes back: the mapper began anew, what it said of a later time is void.
+  while (!waiting_.empty() && waiting_.back().stamp_ns >= checked.value->stamp_ns) {
+    waiting_.pop_back();
+  }
+  waiting_.push_back(*checked.value);
+  if (waiting_.size() > kMostWaiting) {
+    waiting_.pop_front();
+    refuseCorrection("too many corrections wait for odometry at their stamps");
+  }
+  if (useWaiting()) publishRepropagated();
+}
+
+std::string ObserverFusionNodelet::frameFault(const PoseCorrection& correction) const {
+  if (correction.header.frame_id != frames_.map) {
+    return text("it is in the frame '", correction.header.frame_id, "', not in '", frames_.map,
+                "'; set map_frame and tf_prefix as the mapper's");
+  }
+  if (!frames_.base.empty() && correction.child_frame_id != frames_.base) {
+    return text("it is of '", correction.child_frame_id, "', the odometry of '", frames_.base,
+                "'; remap odometry to the mapper's topic, or set base_frame as the mapper's");
+  }
+  return {};
+}
+
+bool ObserverFusionNodelet::useWaiting() {
+  bool is_used = false;
+  while (!waiting_.empty()) {
+    const LateCorrection& correction = waiting_.front();
+    const LateFusion::Answer answer = fusion_->correct(correction);
+    if (answer == LateFusion::Answer::kNotYet) break;
+    if (answer == LateFusion::Answer::kUsed) {
+      is_used = true;
+      ++corrections_used_;
+    } else {
+      if (answer == LateFusion::Answer::kTooOld) ++corrections_too_old_;
+      refuseCorrection(explain(answer, correction));
+    }
+    waiting_.pop_front();
+  }
+  return is_used;
+}
+
+std::string ObserverFusionNodelet::explain(LateFusion::Answer answer,
+                                           const LateCorrection& correction) const {
+  const double late_s = static_cast<double>(fusion_->newestStamp_ns() - correction.stamp_ns) * 1e-9;
+  switch (answer) {
+    case LateFusion::Answer::kTooOld:
+      return text("its image is ", late_s,
+                  " s older than the newest odometry, and the odometry of that time is not kept; "
+                  "raise observer_buffer_s, or let the mapper do less");
+    case LateFusion::Answer::kGap:
+      return text("the odometry has a hole longer than observer_max_gap_s at its stamp");
+    case LateFusion::Answer::kNotAfter:
+      return "its stamp is not after that of the correction in use";
+    case LateFusion::Answer::kOtherOdometry:
+      return text("its observer_pose is not where ", odometry_sub_.getTopic(),
+                  " was at its stamp; remap odometry to the mapper's topic");
+    case LateFusion::Answer::kBad:
+      return faultOf(correction);
+    case LateFusion::Answer::kUsed:
+    case LateFusion::Answer::kNotYet:
+      break;
+  }
+  return {};
+}
+
+void ObserverFusionNodelet::refuseCorrection(const std::string& fault) {
+  ++corrections_refused_;
+  warn(correction_sub_.getTopic(), fault);
+}
+
+void ObserverFusionNodelet::refuseOdometry(const std::string& fault) {
+  ++odometry_refused_;
+  warn(odometry_sub_.getTopic(), fault);
+}
+
+void ObserverFusionNodelet::warn(const std::string& topic, const std::string& fault) {
+  const std::string sentence = topic + ": message not used: " + fault;
+  if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
+}
+
+void ObserverFusionNodelet::publishRepropagated() {
+  if (repropagated_pub_.getNumSubscribers() == 0) return;
+  nav_msgs::Path path;
+  for (const MapState& state : fusion_->sinceCorrection()) {
+    geometry_msgs::PoseStamped pose;
+    pose.header.stamp = toRosTime(state.stamp_ns);
+    pose.header.frame_id = frames_.map;
+    pose.pose = toPose(state.T_map_base);
+    path.poses.push_back(pose);
+  }
+  path.header.stamp = toRosTime(fusion_->correctionStamp_ns());
+  path.header.frame_id = frames_.map;
+  repropagated_pub_.publish(path);
+}
+
+std::string ObserverFusionNodelet::waitingFor() const {
+  if (!has_odometry_) {
+    return "no odometry on " + odometry_sub_.getTopic() + ": nothing is published";
+  }
+  if (!has_correction_ && !fusion_->hasCorrection()) {
+    return "no correction on " + correction_sub_.getTopic() +
+           " yet: nothing is published; is the mapper running? Its status says why it waits";
+  }
+  if (!fusion_->hasCorrection()) return "no correction could be used; the warnings say why";
+  if (!has_correction_) {
+    return "no correction on " + correction_sub_.getTopic() +
+           " for a second: the odometry drifts on from the last one";
+  }
+  return {};
+}
+
+void ObserverFusionNodelet::onSecond() {
+  const std::string waiting = waitingFor();
+  if (waiting != waited_for_) seconds_waiting_ = 0;
+  waited_for_ = waiting;
+  if (!waiting.empty()) ++seconds_waiting_;
+  if (isReminderDue(seconds_waiting_)) NODELET_WARN_STREAM(waiting);
+  diagnostics_->force_update();
+  has_odometry_ = false;
+  has_correction_ = false;
+}
+
+void ObserverFusionNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper) {
+  using diagnostic_msgs::DiagnosticStatus;
+  const std::string waiting = waitingFor();
+  const auto level = waiting.empty()                             ? DiagnosticStatus::OK
+                     : has_odometry_ && fusion_->hasCorrection() ? DiagnosticStatus::WARN
+                                                                 : DiagnosticStatus::ERROR;
+  wrapper.summary(static_cast<unsigned char>(level), waiting.empty() ? "publishing" : waiting);
+  wrapper.add("corrections used", corrections_used_);
+  wrapper.add("corrections refused", corrections_refused_);
+  wrapper.add("of them older than the buffer", corrections_too_old_);
+  wrapper.add("odometry messages refused", odometry_refused_);
+  wrapper.add("restarts", restarts_);
+  if (!fusion_->hasCorrection()) return;
+  wrapper.add(
+      "age of the correction [s]",
+      static_cast<double>(fusion_->newestStamp_ns() - fusion_->correctionStamp_ns()) * 1e-9);
+}
+
+}  // namespace ardrone_vslam
+
+PLUGINLIB_EXPORT_CLASS(ardrone_vslam::ObserverFusionNodelet, nodelet::Nodelet)
