@@ -50,10 +50,10 @@ int Associator::bestFeature(int target) const {
   return best.index;
 }
 
-double Associator::margin_px(const FrameView& view, double position_variance_m2,
-                             double distance_m) const {
+double Associator::margin_px(const FrameView& view, std::uint32_t anchor_id,
+                             double position_variance_m2, double distance_m) const {
   return config_.threshold_deviations * view.focalLength_px() *
-         view.deviationSince_m(position_variance_m2) / distance_m;
+         view.driftAngle_rad(anchor_id, position_variance_m2, distance_m);
 }
 
 bool Associator::decideLandmark(const FrameView& view, const LandmarkMap& map,
@@ -86,7 +86,8 @@ void Associator::matchLandmarks(const FrameView& view, LandmarkMap& map,
 
 bool Associator::windowsAreWide(const FrameView& view, const LandmarkColumns& columns) {
   const auto radiusOf = [&](std::size_t landmark, float distance_m) {
-    const double margin = margin_px(view, columns.positionVariance_m2(landmark), distance_m);
+    const double margin = margin_px(view, columns.anchorId(landmark),
+                                    columns.positionVariance_m2(landmark), distance_m);
     return static_cast<float>(config_.search_radius_px + margin);
   };
   radius_px_.resize(visible_.count);
@@ -175,7 +176,8 @@ bool Associator::isLandmarkMismatch(const FrameView& view, const Landmark& landm
   const double distance_m = offset.norm();
   const Eigen::Vector3d predicted = offset / distance_m;
   const double angle =
-      (config_.landmark_threshold_px + margin_px(view, landmark.position_variance_m2, distance_m)) /
+      (config_.landmark_threshold_px +
+       margin_px(view, landmark.anchor_id, landmark.position_variance_m2, distance_m)) /
       view.focalLength_px();
   return !(predicted.dot(ray.direction_map) > std::cos(std::min(angle, M_PI)));  // (5.36)
 }

@@ -78,9 +78,6 @@ Matrix6d ConstraintFilter::covariance() const {
 }
 
 std::optional<std::size_t> ConstraintFilter::anchorOf(std::uint32_t id) const {
-  for (auto next = joined_anchors_.find(id); next != joined_anchors_.end();
-       next = joined_anchors_.find(id))
-    id = next->second;
   const auto& anchors = state_.anchors();
   const auto found = std::find_if(anchors.begin(), anchors.end(),
                                   [id](const WindowPose& anchor) { return anchor.id == id; });
@@ -101,7 +98,9 @@ FixOutcome ConstraintFilter::fix(const std::vector<LandmarkSighting>& sightings,
   }
   if (static_cast<int>(old.size()) < config_.min_fix_landmarks) return FixOutcome::kNone;
   const SightingConsensus consensus = agreeOnPosition(newest(), camera_base_, old, sigma_a);
-  if (static_cast<int>(consensus.sightings.size()) < config_.min_fix_landmarks)
+  // In wide windows some wrong matches agree by chance, but not most of all.
+  if (static_cast<int>(consensus.sightings.size()) < config_.min_fix_landmarks ||
+      2 * consensus.sightings.size() < old.size())
     return FixOutcome::kNone;
   const MapFix fix =
       fixBy(state_, camera_base_, consensus, sigma_a, config_.fix_independent_landmarks);
@@ -150,6 +149,29 @@ void ConstraintFilter::chooseAnchor() {
       return;
   }
   anchor_id_ = newest().id;
+  moves_.begin(newest());
+}
+
+std::vector<AnchorMove> ConstraintFilter::takeMoves(double focal_length_px) {
+  constexpr double kUnseen_px = 0.3;
+  return moves_.take(state_, point_distance_m_, kUnseen_px / focal_length_px);
+}
+
+std::vector<AnchorDrift> ConstraintFilter::drifts() const {
+  const auto& P = state_.covariance();
+  const int n = state_.frameCoordinate(state_.frames().size() - 1);
+  std::vector<AnchorDrift> drifts;
+  const auto add = [&](const WindowPose& pose, int a) {
+    const Matrix6d relative =
+        P.block<6, 6>(n, n) + P.block<6, 6>(a, a) - P.block<6, 6>(n, a) - P.block<6, 6>(a, n);
+    drifts.push_back({pose.id, std::max(relative.topLeftCorner<3, 3>().trace() / 3, 0.0),
+                      std::max(relative.bottomRightCorner<3, 3>().trace() / 3, 0.0)});
+  };
+  for (std::size_t i = 0; i < state_.anchors().size(); ++i)
+    add(state_.anchors()[i], state_.anchorCoordinate(i));
+  for (std::size_t i = 0; i < state_.frames().size(); ++i)
+    add(state_.frames()[i], state_.frameCoordinate(i));
+  return drifts;
 }
 
 bool ConstraintFilter::hasKnownBaseline(const std::vector<TrackView>& views) const {
@@ -230,7 +252,7 @@ void ConstraintFilter::joinAnchors() {
     shortest_m = way_m;
     nearest = i;
   }
-  joined_anchors_[anchors[nearest].id] = anchors[nearest - 1].id;
+  moves_.join(anchors[nearest], anchors[nearest - 1].id);
   state_.removeAnchor(nearest);
 }
 

@@ -48,6 +48,7 @@ void LandmarkColumns::resize(std::size_t count) {
   }
   position_variance_m2_.resize(count);
   track_id_.resize(count);
+  anchor_id_.resize(count);
 }
 
 void LandmarkColumns::set(std::size_t index, const Landmark& landmark) {
@@ -62,6 +63,7 @@ void LandmarkColumns::set(std::size_t index, const Landmark& landmark) {
   seen_m2_[index] = static_cast<float>(landmark.seen_distance_m * landmark.seen_distance_m);
   position_variance_m2_[index] = landmark.position_variance_m2;
   track_id_[index] = landmark.track_id;
+  anchor_id_[index] = landmark.anchor_id;
 }
 
 float LandmarkColumns::seenDistance_m(std::size_t index) const {

@@ -41,11 +41,20 @@ Landmark& LandmarkMap::at(std::size_t index) {
   return landmarks_[index];
 }
 
+Landmark& LandmarkMap::atPlace(std::size_t index) {
+  markStaleForColumns(index);
+  return landmarks_[index];
+}
+
 void LandmarkMap::markStale(std::size_t index) {
+  markStaleForColumns(index);
+  if (index_is_laid_out_) markStaleForIndex(index);
+}
+
+void LandmarkMap::markStaleForColumns(std::size_t index) {
   std::uint8_t& stale = stale_[index];
   if ((stale & kStaleColumns) == 0) stale_for_columns_.push_back(index);
   stale |= kStaleColumns;
-  if (index_is_laid_out_) markStaleForIndex(index);
 }
 
 void LandmarkMap::markStaleForIndex(std::size_t index) {

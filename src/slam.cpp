@@ -133,6 +133,7 @@ void Slam::State::predict(const ImageFeatures& features, const ObserverState& ob
 void Slam::State::setVariance() {
   view.setPositionVariance(covariance().topLeftCorner<3, 3>().trace() / 3,
                            constraint || config.thesis_filter.common_drift);
+  if (constraint) view.setDrifts(constraint->drifts());
 }
 
 void Slam::State::localise() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Localisation and mapping with `estimator: constraint`.
+#include <algorithm>
 #include <cmath>
 
 #include "slam_state.hpp"
@@ -53,11 +54,30 @@ void Slam::State::fixByLandmarks() {
   }
 }
 
+void Slam::State::moveLandmarks() {
+  const std::vector<AnchorMove> moves = constraint->takeMoves(view.focalLength_px());
+  if (moves.empty()) return;
+  // Neighbours mostly belong to one anchor.
+  std::uint32_t anchor_id = 0;
+  auto move = moves.end();
+  for (std::size_t i = 0; i < landmark_map.size(); ++i) {
+    const std::uint32_t its_anchor = landmark_map.all()[i].anchor_id;
+    if (its_anchor != anchor_id) {
+      anchor_id = its_anchor;
+      move = std::find_if(moves.begin(), moves.end(), [anchor_id](const AnchorMove& one) {
+        return one.anchor_id == anchor_id;
+      });
+    }
+    if (move != moves.end()) move->apply(landmark_map.atPlace(i));
+  }
+}
+
 void Slam::State::useTracks(const ImageFeatures& features) {
   const std::vector<UsedTrack>& used_tracks = constraint->track(features);
   view.setOrigin(constraint->newest().position_map +
                  constraint->newest().R_map_base * T_base_cam.translation());
   setVariance();
+  moveLandmarks();
   Mapper::remember(view, landmark_matches.matches, landmark_map);
   for (const Association& match : landmark_matches.matches) {
     const Landmark& landmark = landmark_map.all()[static_cast<std::size_t>(match.target)];

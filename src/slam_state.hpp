@@ -56,6 +56,7 @@ struct Slam::State {
   // The same two steps by the constraint filter (slam_constraint.cpp).
   void fixByLandmarks();
   void useTracks(const ImageFeatures& features);
+  void moveLandmarks();
 };
 
 }  // namespace ardrone_vslam

@@ -74,7 +74,7 @@ void WindowState::start(const ObserverState& observer) {
   speed_m_s_ = 0;
   anchors_.clear();
   frames_.assign(1, {next_id_++, observer.stamp_ns, observer.T_odom_base.translation(),
-                     observer.T_odom_base.linear(), config_.slow_speed_m_s});
+                     observer.T_odom_base.linear(), config_.slow_speed_m_s, 1});
   P_ = Eigen::MatrixXd::Zero(kGlobals + kFrame, kGlobals + kFrame);
   P_.diagonal().segment<3>(kBias).setConstant(squared(config_.velocity_bias_m_s));
   P_(kScale, kScale) = squared(config_.scale_deviation);
@@ -183,7 +183,6 @@ std::optional<Eigen::VectorXd> WindowState::preview(const Information& informati
 }
 
 bool WindowState::update(const Information& information) {
-  const int active = frameCoordinate(frames_.size());
   const std::vector<int>& w = information.coordinates;
   const auto size = static_cast<Eigen::Index>(w.size());
   // With P_ww = C C' and N = C' information C the posterior is P - G (I - (I + N)^-1) G', where
@@ -199,16 +198,13 @@ bool WindowState::update(const Information& information) {
   if (inner.info() != Eigen::Success) return false;
   const Eigen::MatrixXd P_w = P_(Eigen::all, w);
   const Eigen::MatrixXd G = prior.matrixL().solve(P_w.transpose()).transpose();
-  const Eigen::VectorXd error = G.topRows(active) * inner.solve(C.transpose() * information.vector);
+  const Eigen::VectorXd error = G * inner.solve(C.transpose() * information.vector);
   if (!error.allFinite()) return false;
 
   const Eigen::MatrixXd gain =
       Eigen::MatrixXd::Identity(size, size) - inner.solve(Eigen::MatrixXd::Identity(size, size));
-  P_.leftCols(active) -= G * (gain * G.topRows(active).transpose());
-  P_.topRightCorner(active, P_.cols() - active) =
-      P_.bottomLeftCorner(P_.rows() - active, active).transpose();
-  const Eigen::MatrixXd P_active = P_.topLeftCorner(active, active);
-  P_.topLeftCorner(active, active) = 0.5 * (P_active + P_active.transpose());
+  P_ -= G * (gain * G.transpose());
+  P_ = (0.5 * (P_ + P_.transpose())).eval();
   inject(error);
   return true;
 }
@@ -218,19 +214,28 @@ void WindowState::inject(const Eigen::VectorXd& error) {
   velocity_bias_m_s_ += error.segment<3>(kBias);
   scale_error_ += error(kScale);
   speed_error_m_s_ += error(kSpeed);
-  // A scale error stretches the window as it now is, not as it was: the covariance must say so, or
-  // later constraints would take the difference for a sight of the scale.
-  const Eigen::Vector3d shift = error.segment<3>(frameCoordinate(frames_.size() - 1));
+  // A scale error stretches map and window as they now are, not as they were: the covariance must
+  // say so, or later constraints would take the difference for a sight of the scale. The speed's
+  // error stretches the window alone, about the newest frame.
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(error.size(), 2);
+  const auto correct = [&](WindowPose& pose, int at, double speed_error_m_s) {
+    pose.position_map += error.segment<3>(at);
+    pose.R_map_base = rotationOf(error.segment<3>(at + 3)) * pose.R_map_base;
+    pose.stretch *= 1 - error(kScale) - speed_error_m_s / pose.speed_m_s;
+    T.block<3, 1>(at, 0) = error.segment<3>(at);
+  };
+  const Eigen::Vector3d shift = error.segment<3>(frameCoordinate(frames_.size() - 1));
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     const int at = frameCoordinate(i);
-    frames_[i].position_map += error.segment<3>(at);
-    frames_[i].R_map_base = rotationOf(error.segment<3>(at + 3)) * frames_[i].R_map_base;
-    T.block<3, 1>(at, 0) = error.segment<3>(at) - shift;
-    T.block<3, 1>(at, 1) = T.block<3, 1>(at, 0) / frames_[i].speed_m_s;
+    correct(frames_[i], at, error(kSpeed));
+    T.block<3, 1>(at, 1) = (error.segment<3>(at) - shift) / frames_[i].speed_m_s;
   }
-  P_.topRows(error.size()) -= (T * P_.middleRows<2>(kScale)).eval();
-  P_.leftCols(error.size()) -= (P_.middleCols<2>(kScale) * T.transpose()).eval();
+  for (std::size_t i = 0; i < anchors_.size(); ++i) {
+    const int at = anchorCoordinate(i);
+    correct(anchors_[i], at, error(at + kFrame));
+  }
+  P_ -= (T * P_.middleRows<2>(kScale)).eval();
+  P_ -= (P_.middleCols<2>(kScale) * T.transpose()).eval();
 }
 
 void WindowState::removeFrame(std::size_t frame) {

@@ -103,7 +103,8 @@ class Associator {
   void begin(const FrameView& view, std::size_t target_count);
   int featureOfTrack(std::uint32_t track_id) const;
   int bestFeature(int target) const;
-  double margin_px(const FrameView& view, double position_variance_m2, double distance_m) const;
+  double margin_px(const FrameView& view, std::uint32_t anchor_id, double position_variance_m2,
+                   double distance_m) const;
   bool windowsAreWide(const FrameView& view, const LandmarkColumns& columns);
   MatchMethod chooseMethod(const FrameView& view, LandmarkMap& map, const LandmarkColumns& columns);
   void matchGuided(const FrameView& view, const LandmarkMap& map, const LandmarkColumns& columns,

@@ -5,11 +5,12 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
-#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
+#include "ardrone_vslam/anchor_moves.hpp"
 #include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/frame_view.hpp"
 #include "ardrone_vslam/map_fix.hpp"
 #include "ardrone_vslam/parameters.hpp"
 #include "ardrone_vslam/track_constraint.hpp"
@@ -32,7 +33,7 @@ struct ConstraintFilterConfig {
   int max_anchors = 32;
   int min_fix_landmarks = 6;
   int fix_independent_landmarks = 3;
-  double fix_min_age_s = 5;
+  double fix_min_age_s = 3;
   double fix_drift_share = 1;
   double fix_gate_deviations = 2;
 };
@@ -110,8 +111,8 @@ struct UsedTrack {
 enum class FixOutcome { kNone, kNotNeeded, kApplied, kRejected };
 
 /// Fuses the observer with the camera: every track constrains, once, the frames that saw it,
-/// without a landmark in the state; landmarks of earlier visits correct the drift since. Between
-/// keyframes only fixes are applied.
+/// without a landmark in the state; landmarks of earlier visits correct the drift since, and are
+/// themselves taken along with what is corrected. Between keyframes only fixes are applied.
 class ConstraintFilter {
  public:
   ConstraintFilter(const ConstraintFilterConfig& config, const Eigen::Isometry3d& T_base_cam);
@@ -126,6 +127,11 @@ class ConstraintFilter {
   void assignLandmark(std::uint32_t track_id, std::uint32_t landmark_id) {
     tracks_.assignLandmark(track_id, landmark_id);
   }
+
+  /// How the landmarks are to be moved, after fix() and track().
+  std::vector<AnchorMove> takeMoves(double focal_length_px);
+  /// How well the newest pose is known relative to each anchor, ascending in its id.
+  std::vector<AnchorDrift> drifts() const;
 
   const WindowPose& newest() const { return state_.frames().back(); }
   /// Of the newest pose: position [m^2], rotation vector [rad^2], axes of map.
@@ -154,8 +160,7 @@ class ConstraintFilter {
   std::uint32_t anchor_id_ = 0;                       // of the frame that new points belong to
   double point_distance_m_ = 0;                       // median of the last keyframe's points
   std::unordered_set<std::uint32_t> anchors_in_use_;  // frames of the window that points belong to
-  std::unordered_map<std::uint32_t, std::uint32_t>
-      joined_anchors_;  // -> the one that stands for it
+  AnchorMoves moves_;
 };
 
 }  // namespace ardrone_vslam

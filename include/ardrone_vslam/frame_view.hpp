@@ -4,12 +4,21 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/triangulation.hpp"
 
 namespace ardrone_vslam {
+
+/// How far the present pose may be off a frame that landmarks belong to: variances per axis.
+struct AnchorDrift {
+  std::uint32_t anchor_id = 0;
+  double position_m2 = 0;
+  double attitude_rad2 = 0;
+};
 
 /// One frame's features as rays in the map, seen from a predicted camera pose. Needs no camera
 /// model: windows are searched on the ideal image plane, f * (x / z, y / z) of the bearings ("ideal
@@ -38,6 +47,12 @@ class FrameView {
     const double shared_m2 = common_drift_ ? variance_then_m2 : 0.0;
     return std::sqrt(std::max(position_variance_m2_ - shared_m2, 0.0));
   }
+
+  /// Where the filter knows what landmarks share with the present pose. Ascending in anchor_id.
+  void setDrifts(std::vector<AnchorDrift> drifts) { drifts_ = std::move(drifts); }
+  /// By how much a landmark may be off its predicted direction because the pose is: one deviation.
+  /// @param variance_then_m2  what counts for landmarks without an anchor, see deviationSince_m
+  double driftAngle_rad(std::uint32_t anchor_id, double variance_then_m2, double distance_m) const;
 
   const ImageFeatures& features() const { return *features_; }
   std::size_t size() const { return rays_map_.size(); }
@@ -71,6 +86,7 @@ class FrameView {
   bool planar_ = false;
   bool common_drift_ = false;
   double position_variance_m2_ = 0;
+  std::vector<AnchorDrift> drifts_;
   Eigen::Vector3d origin_map_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d R_cam_map_ = Eigen::Matrix3d::Identity();
   std::vector<Eigen::Vector3d> rays_map_;

@@ -51,6 +51,7 @@ class LandmarkColumns {
   std::size_t size() const { return track_id_.size(); }
   std::uint32_t trackId(std::size_t index) const { return track_id_[index]; }
   double positionVariance_m2(std::size_t index) const { return position_variance_m2_[index]; }
+  std::uint32_t anchorId(std::size_t index) const { return anchor_id_[index]; }
   /// From where it was last seen; 0: not known.
   float seenDistance_m(std::size_t index) const;
 
@@ -66,6 +67,7 @@ class LandmarkColumns {
   std::vector<float> seen_m2_;
   std::vector<double> position_variance_m2_;
   std::vector<std::uint32_t> track_id_;
+  std::vector<std::uint32_t> anchor_id_;
 };
 
 }  // namespace ardrone_vslam

@@ -69,6 +69,8 @@ class LandmarkMap {
   /// For changes; they must be made before columns() or advanceIndex() is called next.
   /// @param index  into all()
   Landmark& at(std::size_t index);
+  /// For changes that leave the descriptor as it is.
+  Landmark& atPlace(std::size_t index);
   /// One more view in which the landmark should have been seen and was not. @return times_missed
   int addMiss(std::size_t index) { return ++landmarks_[index].times_missed; }
   /// @return nullptr when there is none of this id
@@ -95,6 +97,7 @@ class LandmarkMap {
   /// Which of the copies below a landmark has yet to be copied to.
   enum Stale : std::uint8_t { kStaleColumns = 1, kStaleIndex = 2 };
   void markStale(std::size_t index);
+  void markStaleForColumns(std::size_t index);
   void markStaleForIndex(std::size_t index);
   void layOutIndex();
   void enter(const Landmark& landmark);

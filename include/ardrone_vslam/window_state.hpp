@@ -12,14 +12,14 @@
 
 namespace ardrone_vslam {
 
-/// A pose of base that the filter still estimates (a frame of the window), or whose error it only
-/// remembers (an anchor of landmarks).
+/// A pose of base that the filter estimates: a frame of the window, or an anchor of landmarks.
 struct WindowPose {
   std::uint32_t id = 0;  ///< ascending, never used again in one run
   std::int64_t stamp_ns = 0;
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
   Eigen::Matrix3d R_map_base = Eigen::Matrix3d::Identity();
   double speed_m_s = 0;  ///< smoothed; the speed error divided by it is an error of scale
+  double stretch = 1;    ///< by corrections of the scale, of what belongs to it
 };
 
 /// Measurements r = H x + n of some error coordinates, compressed to H' W H and H' W r.
@@ -32,7 +32,7 @@ struct Information {
 };
 
 /// Mean and covariance of the constraint filter: a multi-state constraint Kalman filter (Mourikis
-/// and Roumeliotis, ICRA 2007) with consider states for the map (Schmidt 1966). Error coordinates:
+/// and Roumeliotis, ICRA 2007) that keeps some frames as anchors of the map. Error coordinates:
 ///   0-2   attitude of odom in map [rad]: the observer's slow attitude error
 ///   3-5   velocity bias of the observer, axes of base [m/s]
 ///   6     scale error: the observer reports (1 + s) times the way [-]
@@ -43,7 +43,7 @@ struct Information {
 ///
 /// One camera sees no scale: all constraints leave the window's dilation open. Two things keep
 /// rounds of linearisation from closing it: what errs along the way does so by a multiple of the
-/// step (coordinates 6 and 7), and the covariance's dilation is turned along whenever frames are
+/// step (coordinates 6 and 7), and the covariance's dilation is turned along whenever poses are
 /// corrected.
 class WindowState {
  public:
@@ -61,8 +61,7 @@ class WindowState {
   void propagate(const ObserverState& observer);
   /// What update() would add to the coordinates of the information; nothing when it is not finite.
   std::optional<Eigen::VectorXd> preview(const Information& information) const;
-  /// Corrects globals and frames; anchors keep their poses, only what is known of their errors
-  /// changes. O(coordinates x size of the information).
+  /// Corrects globals, frames and anchors. O(coordinates^2 x size of the information).
   /// @return false when the covariance is not positive or the result not finite; nothing is changed
   bool update(const Information& information);
 

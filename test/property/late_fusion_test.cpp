@@ -87,7 +87,7 @@ TEST(LateFusionProperty, OutputIsTheRawOdometrySeenThroughTheNewestCorrectionHow
                              correctionOf(flight[i], randomPose(random, 1), random)});
       }
       while (!under_way.empty() && under_way.front().arrives_at <= i) {
-        const LateCorrection& c = under_way.front().correction;
+        const LateCorrection c = under_way.front().correction;
         ASSERT_EQ(fusion.correct(c), LateFusion::Answer::kUsed) << seed << ' ' << i;
         T_map_odom = c.T_map_base * c.T_odom_base.inverse();
         ++used;

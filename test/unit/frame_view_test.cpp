@@ -104,5 +104,15 @@ TEST(FrameView, NewOriginMovesTheRays) {
   EXPECT_EQ(builder.view().ray(0).origin_map, Eigen::Vector3d(1, 2, 3));
 }
 
+TEST(FrameView, WhereTheDriftSinceAnAnchorIsKnownItCounts) {
+  FrameView view;
+  view.setPositionVariance(0.25, true);
+  view.setDrifts({{3, 0.04, 0.0}, {8, 0.0, 1e-4}, {9, 0.04, 1e-4}});
+  EXPECT_NEAR(view.driftAngle_rad(3, 0.25, 4), 0.2 / 4, 1e-12);
+  EXPECT_NEAR(view.driftAngle_rad(8, 0.25, 4), 0.01, 1e-12);
+  EXPECT_NEAR(view.driftAngle_rad(9, 0.25, 4), std::hypot(0.05, 0.01), 1e-12);
+  EXPECT_NEAR(view.driftAngle_rad(5, 0.09, 4), 0.4 / 4, 1e-12) << "an anchor that is not known";
+}
+
 }  // namespace
 }  // namespace ardrone_vslam

@@ -42,6 +42,7 @@ class LandmarkColumnsTest : public ::testing::Test {
       const Landmark& landmark = map_.all()[i];
       EXPECT_EQ(columns.trackId(i), landmark.track_id);
       EXPECT_EQ(columns.positionVariance_m2(i), landmark.position_variance_m2);
+      EXPECT_EQ(columns.anchorId(i), landmark.anchor_id);
       EXPECT_NEAR(columns.seenDistance_m(i), landmark.seen_distance_m, 1e-4);
       const Eigen::Vector3d offset = landmark.position_map - view.origin_map();
       Eigen::Vector2f pixel_px;

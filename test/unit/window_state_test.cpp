@@ -76,24 +76,26 @@ TEST(WindowState, TheObserversOwnCovarianceIsUsedWhereItGivesOne) {
 }
 
 TEST(WindowState, AnUpdateIsTheKalmanUpdateInCoordinatesThatItDoesNotTurn) {
-  // Of the newest frame's position alone: nothing is stretched, so that the textbook's formula
-  // holds.
+  // Of the attitude of a frame whose position does not depend on it: nothing is stretched, so that
+  // the textbook's formula holds.
   WindowState state = circling(1);
   const Eigen::MatrixXd P = state.covariance();
-  const int at = state.frameCoordinate(0);
+  const int at = state.frameCoordinate(0) + 3;
   Information information(coordinatesFrom(at, at + 3));
   constexpr double kVariance = 1e-6;
   const Eigen::Vector3d innovation(0.001, -0.002, 0.0005);
   information.matrix = Eigen::Matrix3d::Identity() / kVariance;
   information.vector = innovation / kVariance;
-  const Eigen::Vector3d before = state.frames()[0].position_map;
+  const Eigen::Matrix3d before = state.frames()[0].R_map_base;
   ASSERT_TRUE(state.update(information));
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, P.rows());
   H.middleCols<3>(at).setIdentity();
   const Eigen::Matrix3d S = H * P * H.transpose() + kVariance * Eigen::Matrix3d::Identity();
   const Eigen::MatrixXd K = P * H.transpose() * S.inverse();
   EXPECT_LT((state.covariance() - (P - K * H * P)).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT((state.frames()[0].position_map - before - (K * innovation).segment<3>(at)).norm(),
+  EXPECT_LT((rotationVectorOf(state.frames()[0].R_map_base * before.transpose()) -
+             (K * innovation).segment<3>(at))
+                .norm(),
             1e-9);
 }
 
@@ -120,18 +122,29 @@ TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
   }
 }
 
-TEST(WindowState, AnchorsKeepTheirPlaceWhateverIsLearned) {
+TEST(WindowState, WhatIsLearnedOfTheNewestFrameCorrectsTheAnchorsThatShareItsError) {
   WindowState state = circling(6);
   state.makeAnchorOfOldest();
-  const Eigen::Vector3d place = state.anchors()[0].position_map;
-  const int anchor = state.anchorCoordinate(0);
-  const Eigen::MatrixXd own = state.covariance().block(anchor, anchor, 7, 7);
-  Information information(coordinatesFrom(anchor - 6, anchor + 7));
-  information.matrix = 1e6 * Eigen::MatrixXd::Identity(13, 13);
-  information.vector = Eigen::VectorXd::Constant(13, 1e3);
+  state.makeAnchorOfOldest();
+  const Eigen::MatrixXd P = state.covariance();
+  const int newest = state.frameCoordinate(state.frames().size() - 1);
+  Information information(coordinatesFrom(newest, newest + 3));
+  constexpr double kVariance = 1e-4;
+  const Eigen::Vector3d innovation(0.01, -0.02, 0.005);
+  information.matrix = Eigen::Matrix3d::Identity() / kVariance;
+  information.vector = innovation / kVariance;
+  const std::vector<WindowPose> before = state.anchors();
   ASSERT_TRUE(state.update(information));
-  EXPECT_EQ(state.anchors()[0].position_map, place);
-  EXPECT_LT((state.covariance().block(anchor, anchor, 7, 7) - own).cwiseAbs().maxCoeff(), 1e-15);
+  const Eigen::Matrix3d S = P.block<3, 3>(newest, newest) + kVariance * Eigen::Matrix3d::Identity();
+  const Eigen::VectorXd error = P.middleCols<3>(newest) * S.inverse() * innovation;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int at = state.anchorCoordinate(i);
+    const WindowPose& anchor = state.anchors()[i];
+    EXPECT_LT((anchor.position_map - before[i].position_map - error.segment<3>(at)).norm(), 1e-9);
+    EXPECT_NEAR(anchor.stretch, 1 - error(WindowState::kScale) - error(at + 6) / anchor.speed_m_s,
+                1e-9);
+  }
+  EXPECT_GT(error.segment<3>(state.anchorCoordinate(1)).norm(), 1e-4) << "it shares something";
   expectHonest(state);
 }
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "ardrone_vslam/window_state.hpp"
+
+namespace ardrone_vslam {
+
+struct Landmark;
+
+/// Takes the landmarks of one anchor along when it has been corrected.
+struct AnchorMove {
+  std::uint32_t anchor_id = 0;      ///< whose landmarks
+  std::uint32_t new_anchor_id = 0;  ///< to which they belong from now on
+  Eigen::Vector3d from_map = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to_map = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  double stretch = 1;
+
+  void apply(Landmark& landmark) const;
+};
+
+/// Remembers where the anchors stood when their landmarks were placed, so that these follow them.
+class AnchorMoves {
+ public:
+  /// Landmarks will belong to this frame.
+  void begin(const WindowPose& frame) { placed_[frame.id] = frame; }
+  /// One anchor's landmarks go to another, which must have been begun, too.
+  void join(const WindowPose& anchor, std::uint32_t to_anchor_id);
+  /// What is to be moved now: landmarks of joined anchors, and those whose anchor has moved so much
+  /// that it shows in the image.
+  /// @param distance_m     of landmarks from their anchors
+  /// @param tolerance_rad  angle that does not matter
+  std::vector<AnchorMove> take(const WindowState& state, double distance_m, double tolerance_rad);
+
+ private:
+  std::unordered_map<std::uint32_t, WindowPose> placed_;
+  std::vector<AnchorMove> joined_;
+};
+
+}  // namespace ardrone_vslam
