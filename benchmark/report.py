@@ -242,7 +242,7 @@ def main():
     parser.add_argument("--revision", default="unknown", help="of the source, for the page")
     parser.add_argument("--json", help="where to write the rows")
     parser.add_argument("--page", help="where to write the page; plots go beside it")
-    parser.add_argument("--quality", help="a page part to append")
+    parser.add_argument("--part", action="append", default=[], help="a page part to append; may be repeated")
     options = parser.parse_args()
     sides, context = read_sides(options.measured)
     rows = pair(sides)
@@ -267,9 +267,9 @@ def main():
                                   ("matching time and recall against map size", "map_size.png", draw_map_sizes)):
             if draw(rows, os.path.join(folder, "plots", name)):
                 pictures.append((title, f"plots/{name}"))
-        quality = open(options.quality).read() if options.quality else ""
+        parts = "".join(open(part).read() for part in options.part)
         with open(options.page, "w") as file:
-            file.write(page(rows, others, context, options.revision, pictures, quality))
+            file.write(page(rows, others, context, options.revision, pictures, parts))
 
 
 if __name__ == "__main__":

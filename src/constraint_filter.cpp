@@ -38,10 +38,9 @@ bool agree(const WindowState& state, std::vector<Candidate>& candidates, Informa
     const auto error = state.preview(information);
     if (!error) return false;
     for (Candidate& c : candidates) {
-      std::vector<int> at = c.constraint.coordinates;
-      for (int& coordinate : at) coordinate -= information.coordinates.front();
       const double left =
-          (c.constraint.residual - c.constraint.jacobian * (*error)(at)).squaredNorm();
+          (c.constraint.residual - c.constraint.change(*error, information.coordinates.front()))
+              .squaredNorm();
       const int dof = c.constraint.degreesOfFreedom();
       const bool is_last = round + 1 == kRounds;
       c.weight = is_last ? (left < chiSquare95(dof) ? 1 : 0) : 1 / squared(1 + left / dof);

@@ -105,19 +105,50 @@ std::optional<TrackPoint> triangulateTrack(const std::vector<WindowPose>& frames
   return point;
 }
 
+Eigen::VectorXd TrackConstraint::change(const Eigen::VectorXd& error, int first) const {
+  Eigen::VectorXd rows(residual.size());
+  for (std::size_t i = 0; i < pose.size(); ++i)
+    rows.segment<2>(2 * static_cast<Eigen::Index>(i)) =
+        pose[i] * error.segment<6>(coordinates[i] - first);
+  rows -= point * (point.transpose() * rows).eval();
+  return rows;
+}
+
 double TrackConstraint::distance(const WindowState& state) const {
-  const Eigen::MatrixXd P = state.covariance()(coordinates, coordinates);
-  Eigen::MatrixXd S = jacobian * P * jacobian.transpose();
+  const Eigen::MatrixXd& P = state.covariance();
+  Eigen::MatrixXd S(residual.size(), residual.size());  // A P A' + I, its lower half
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      S.block<2, 2>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(j)) =
+          pose[i] * P.block<6, 6>(coordinates[i], coordinates[j]) * pose[j].transpose();
+    }
+  }
   S.diagonal().array() += 1;
-  return residual.dot(S.llt().solve(residual));
+  // Across U the inverse is S^-1 - S^-1 U (U' S^-1 U)^-1 U' S^-1.
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> root(S);
+  const Eigen::VectorXd r = root.matrixL().solve(residual);
+  const Eigen::Matrix<double, Eigen::Dynamic, 3> U = root.matrixL().solve(point);
+  const Eigen::Vector3d along = U.transpose() * r;
+  return r.squaredNorm() - along.dot(Eigen::Matrix3d(U.transpose() * U).llt().solve(along));
 }
 
 void TrackConstraint::addTo(Information& information, double weight) const {
-  std::vector<int> to = coordinates;
-  for (int& coordinate : to) coordinate -= information.coordinates.front();
-  const Eigen::MatrixXd weighted = weight * jacobian.transpose();
-  information.matrix(to, to) += weighted * jacobian;
-  information.vector(to) += weighted * residual;
+  const int first = information.coordinates.front();
+  std::vector<Eigen::Matrix<double, 6, 3>> along(pose.size());  // A' U
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    const auto row = 2 * static_cast<Eigen::Index>(i);
+    const int at_i = coordinates[i] - first;
+    along[i] = pose[i].transpose() * point.middleRows<2>(row);
+    const Eigen::Matrix<double, 6, 2> weighted = weight * pose[i].transpose();
+    information.matrix.block<6, 6>(at_i, at_i) += weighted * pose[i];
+    information.vector.segment<6>(at_i) += weighted * residual.segment<2>(row);
+    for (std::size_t j = 0; j <= i; ++j) {
+      const int at_j = coordinates[j] - first;
+      const Eigen::Matrix<double, 6, 6> taken = weight * along[i] * along[j].transpose();
+      information.matrix.block<6, 6>(at_i, at_j) -= taken;
+      if (j < i) information.matrix.block<6, 6>(at_j, at_i) -= taken.transpose();
+    }
+  }
 }
 
 std::optional<TrackConstraint> constraintOf(const WindowState& state,
@@ -125,25 +156,27 @@ std::optional<TrackConstraint> constraintOf(const WindowState& state,
                                             const std::vector<TrackView>& views,
                                             const TrackPoint& point, double angle_deviation_rad) {
   const auto n = static_cast<Eigen::Index>(views.size());
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2 * n, 6 * n + 1);  // last column: the residual
-  Eigen::Matrix<double, Eigen::Dynamic, 3> H_point(2 * n, 3);
   TrackConstraint constraint;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const TrackView& view = views[static_cast<std::size_t>(i)];
+  constraint.pose.reserve(views.size());
+  constraint.coordinates.reserve(views.size());
+  constraint.residual.resize(2 * n);
+  Eigen::Matrix<double, Eigen::Dynamic, 3> on_point(2 * n, 3);
+  for (const TrackView& view : views) {
     const auto ray =
         rayResidual(state.frames()[view.frame], camera_base, view.bearing_base, point.position_map);
     if (!ray) return std::nullopt;
-    H.block<2, 6>(2 * i, 6 * i) = ray->pose / angle_deviation_rad;
-    H.block<2, 1>(2 * i, 6 * n) = ray->residual / angle_deviation_rad;
-    H_point.middleRows<2>(2 * i) = ray->point;
-    for (int k = 0; k < 6; ++k)
-      constraint.coordinates.push_back(state.frameCoordinate(view.frame) + k);
+    const auto row = 2 * static_cast<Eigen::Index>(constraint.pose.size());
+    constraint.pose.push_back(ray->pose / angle_deviation_rad);
+    constraint.coordinates.push_back(state.frameCoordinate(view.frame));
+    constraint.residual.segment<2>(row) = ray->residual / angle_deviation_rad;
+    on_point.middleRows<2>(row) = ray->point;
   }
   // The rows across the point's own Jacobian do not depend on where it is.
-  const Eigen::HouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 3>> qr(H_point);
-  H.applyOnTheLeft(qr.householderQ().adjoint());
-  constraint.jacobian = H.bottomLeftCorner(2 * n - 3, 6 * n);
-  constraint.residual = H.bottomRightCorner(2 * n - 3, 1);
+  const Eigen::HouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 3>> qr(on_point);
+  constraint.point.setIdentity(2 * n, 3);
+  constraint.point.applyOnTheLeft(qr.householderQ());
+  constraint.residual -=
+      constraint.point * (constraint.point.transpose() * constraint.residual).eval();
   return constraint;
 }
 

@@ -102,20 +102,7 @@ std::unique_ptr<Sequence> openInput(const Options& o, const PipelineConfig& conf
 }
 
 std::vector<std::uint64_t> seedsOf(const Options& o) {
-  if (o.seeds.empty()) return {o.seed};
-  std::uint64_t first = 0;
-  std::uint64_t last = 0;
-  char rest = 0;
-  // sscanf alone takes -1 for 2^64 - 1.
-  if (o.seeds.find('-') != std::string::npos ||
-      std::sscanf(o.seeds.c_str(), "%lu:%lu%c", &first, &last, &rest) != 2 || last < first ||
-      last - first > 9999) {
-    throw UsageError("--seeds: '" + o.seeds +
-                     "' must be A:B with 0 <= A <= B, at most 10000 seeds, for example 1:5");
-  }
-  std::vector<std::uint64_t> seeds;
-  for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
-  return seeds;
+  return o.seeds.empty() ? std::vector<std::uint64_t>{o.seed} : parseSeeds(o.seeds);
 }
 
 std::vector<RunObserver> observersOf(const Sequence& sequence, const Options& o) {

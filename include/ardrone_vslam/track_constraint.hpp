@@ -44,15 +44,19 @@ std::optional<TrackPoint> triangulateTrack(const std::vector<WindowPose>& frames
                                            const std::vector<TrackView>& views,
                                            double angle_deviation_rad);
 
-/// What a track says of its frames when nothing is known of its point: 2 n - 3 rows of unit
-/// deviation.
+/// What a track says of its frames when nothing is known of its point: rows r = A e + n of unit
+/// noise, two a view, of which a projection I - U U' takes out the three directions of the point.
+/// A has one 2 x 6 block a view, and so nothing here costs more than O(views^2).
 struct TrackConstraint {
-  std::vector<int> coordinates;  ///< of WindowState, six a view
-  Eigen::MatrixXd jacobian;
-  Eigen::VectorXd residual;
+  std::vector<int> coordinates;                    ///< of WindowState: the first of each view's six
+  std::vector<Eigen::Matrix<double, 2, 6>> pose;   ///< blocks of A
+  Eigen::Matrix<double, Eigen::Dynamic, 3> point;  ///< U, orthonormal columns
+  Eigen::VectorXd residual;                        ///< r, projected
 
-  int degreesOfFreedom() const { return static_cast<int>(residual.size()); }
-  /// r' (H P H' + I)^-1 r.
+  int degreesOfFreedom() const { return static_cast<int>(residual.size()) - 3; }
+  /// A e, projected. @param first  coordinate that `error` begins with
+  Eigen::VectorXd change(const Eigen::VectorXd& error, int first) const;
+  /// r' (H P H' + I)^-1 r, H the projected A, on what the projection leaves.
   double distance(const WindowState& state) const;
   /// Adds weight H' H and weight H' r; the information's coordinates must be consecutive.
   void addTo(Information& information, double weight) const;

@@ -41,6 +41,28 @@ TEST(Metrics, ErrorsAreDistancesWithoutAlignment) {
   EXPECT_EQ(summarise({}).rmse_m, 0);
 }
 
+TEST(Metrics, AlignmentTakesOutMotionAndTurnButNotScale) {
+  Trajectory truth;
+  Trajectory moved;
+  Trajectory larger;
+  Eigen::Isometry3d T_there_here = Eigen::Isometry3d::Identity();
+  T_there_here.linear() = Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
+  T_there_here.translation() << 5, -6, 7;
+  for (int i = 0; i < 40; ++i) {
+    StampedPose pose;
+    pose.stamp_ns = i;
+    pose.T_map_base.translation() << std::cos(0.3 * i), std::sin(0.5 * i), 0.1 * i;
+    truth.append(pose);
+    moved.append({i, T_there_here * pose.T_map_base});
+    pose.T_map_base.translation() *= 1.1;
+    larger.append(pose);
+  }
+  EXPECT_NEAR(alignedRmse_m(moved, truth), 0, 1e-9);
+  EXPECT_GT(alignedRmse_m(larger, truth), 0.05);
+  EXPECT_LT(alignedRmse_m(larger, truth), summarise(positionErrors_m(larger, truth)).rmse_m);
+  EXPECT_EQ(alignedRmse_m({}, {}), 0);
+}
+
 TEST(Metrics, ScaledTruthIsAboutItsStart) {
   Trajectory truth;
   for (const double x : {2.0, 4.0}) {

@@ -35,7 +35,7 @@ class ViewBuilder {
   /// A feature this many pixels right of and below the optical axis.
   int addPixel(double right_px, double down_px, std::uint32_t track_id,
                const Descriptor& descriptor = {}) {
-    return addBearing(Eigen::Vector3d(right_px, down_px, PointWorld::kFocalLength_px).normalized(),
+    return addBearing(Eigen::Vector3d(right_px, down_px, kPointFocalLength_px).normalized(),
                       track_id, descriptor);
   }
   /// Corners of the image without track and like no other descriptor: the first view needs them so

@@ -13,7 +13,7 @@ namespace {
 
 using test::ViewBuilder;
 
-constexpr double kFocalLength_px = test::PointWorld::kFocalLength_px;
+constexpr double kFocalLength_px = test::kPointFocalLength_px;
 
 class AssociationTest : public ::testing::Test {
  protected:

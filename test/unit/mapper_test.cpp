@@ -12,7 +12,7 @@ namespace {
 
 using test::ViewBuilder;
 
-constexpr double kFocalLength_px = test::PointWorld::kFocalLength_px;
+constexpr double kFocalLength_px = test::kPointFocalLength_px;
 
 /// The camera looks along map's x; its first position is the origin.
 class MapperTest : public ::testing::Test {

@@ -121,15 +121,68 @@ TEST(TrackConstraint, DoesNotSeeTheScaleNorWhereTheMapIs) {
   const auto constraint = constraintOf(state, Eigen::Vector3d::Zero(), views, *point, 0.002);
   ASSERT_TRUE(constraint);
   EXPECT_EQ(constraint->degreesOfFreedom(), 2 * 6 - 3);
-  Eigen::VectorXd dilation = Eigen::VectorXd::Zero(constraint->jacobian.cols());
+  Eigen::VectorXd dilation = Eigen::VectorXd::Zero(6 * 6);
   Eigen::VectorXd shift = dilation;
+  Eigen::VectorXd one_moved = dilation;
+  one_moved.segment<3>(6 * 2) = Eigen::Vector3d(1, 2, 3);
   for (Eigen::Index i = 0; i < 6; ++i) {
     dilation.segment<3>(6 * i) = state.frames()[static_cast<std::size_t>(i)].position_map;
     shift.segment<3>(6 * i) = Eigen::Vector3d(1, 2, 3);
   }
-  const double size = constraint->jacobian.norm();
-  EXPECT_LT((constraint->jacobian * dilation).norm(), 1e-9 * size);
-  EXPECT_LT((constraint->jacobian * shift).norm(), 1e-9 * size);
+  const int first = state.frameCoordinate(0);
+  const double size = constraint->change(one_moved, first).norm();
+  EXPECT_GT(size, 1);
+  EXPECT_LT(constraint->change(dilation, first).norm(), 1e-9 * size);
+  EXPECT_LT(constraint->change(shift, first).norm(), 1e-9 * size);
+}
+
+/// The same by dense matrices and a basis of the rows that do not depend on the point.
+TEST(TrackConstraint, DistanceAndInformationAreThoseOfTheProjectedRows) {
+  const WindowState state = sidewaysWindow(7);
+  RandomSource random(4);
+  auto views = viewsOf({3, 0.2, -0.4}, state, 0.002, random);
+  views.erase(views.begin() + 3);
+  const auto point = triangulateTrack(state.frames(), kCamera_base, views, 0.002);
+  ASSERT_TRUE(point);
+  const auto constraint = constraintOf(state, kCamera_base, views, *point, 0.002);
+  ASSERT_TRUE(constraint);
+  const int first = state.frameCoordinate(0);
+  const int size = state.frameCoordinate(7) - first;
+  const auto rows = static_cast<Eigen::Index>(2 * views.size());
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(rows, size);
+  Eigen::VectorXd r(rows);
+  Eigen::MatrixXd on_point(rows, 3);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto ray = rayResidual(state.frames()[views[i].frame], kCamera_base,
+                                 views[i].bearing_base, point->position_map);
+    ASSERT_TRUE(ray);
+    const auto row = 2 * static_cast<Eigen::Index>(i);
+    H.block<2, 6>(row, state.frameCoordinate(views[i].frame) - first) = ray->pose / 0.002;
+    r.segment<2>(row) = ray->residual / 0.002;
+    on_point.middleRows<2>(row) = ray->point;
+  }
+  const Eigen::MatrixXd Q = on_point.householderQr().householderQ();
+  const Eigen::MatrixXd across = Q.rightCols(rows - 3).transpose();
+  H = across * H;
+  r = across * r;
+  const Eigen::MatrixXd P = state.covariance().block(first, first, size, size);
+  Eigen::MatrixXd S = H * P * H.transpose();
+  S.diagonal().array() += 1;
+  const double distance = r.dot(S.llt().solve(r));
+  EXPECT_NEAR(constraint->distance(state), distance, 1e-9 * distance);
+
+  std::vector<int> coordinates;
+  for (int k = 0; k < size; ++k) coordinates.push_back(first + k);
+  Information information(coordinates);
+  constraint->addTo(information, 0.5);
+  const Eigen::MatrixXd expected = 0.5 * H.transpose() * H;
+  EXPECT_LT((information.matrix - expected).norm(), 1e-12 * expected.norm());
+  EXPECT_LT((information.vector - 0.5 * H.transpose() * r).norm(),
+            1e-12 * (H.transpose() * r).norm() + 1e-9);
+  Eigen::VectorXd error(size);
+  for (double& e : error) e = 0.01 * random.normal();
+  EXPECT_NEAR((constraint->residual - constraint->change(error, first)).squaredNorm(),
+              (r - H * error).squaredNorm(), 1e-9);
 }
 
 TEST(TrackConstraint, ItsDistanceIsAChiSquareForHonestRays) {

@@ -8,7 +8,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kFocalLength_px = test::PointWorld::kFocalLength_px;
+constexpr double kFocalLength_px = test::kPointFocalLength_px;
 
 /// 40 landmarks with descriptors of their own, 5 m ahead in a row; the camera sees them from
 /// elsewhere.

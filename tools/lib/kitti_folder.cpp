@@ -85,7 +85,9 @@ Eigen::Isometry3d poseFromRow(const std::vector<long double>& row, const std::st
   return pose;
 }
 
-Trajectory readPoses(const std::string& path, const std::vector<std::int64_t>& stamps_ns) {
+}  // namespace
+
+Trajectory readKittiPoses(const std::string& path, const std::vector<std::int64_t>& stamps_ns) {
   std::ifstream file(path);
   if (!file) return {};
   const Eigen::Isometry3d axes(forwardCamera().linear());
@@ -115,8 +117,6 @@ Trajectory readPoses(const std::string& path, const std::vector<std::int64_t>& s
   return Trajectory(std::move(poses));
 }
 
-}  // namespace
-
 bool isKittiFolder(const std::string& path) {
   return std::filesystem::is_directory(path + "/image_0");
 }
@@ -129,7 +129,7 @@ std::unique_ptr<Sequence> openKittiFolder(const std::string& path) {
   contents.camera = readCalibration(contents.calibration_path, contents.image_paths.front());
   contents.stamps_ns = readImageStamps(path + "/times.txt", contents.image_paths.size());
   contents.T_base_cam = forwardCamera();
-  contents.truth = readPoses(path + "/poses.txt", contents.stamps_ns);
+  contents.truth = readKittiPoses(path + "/poses.txt", contents.stamps_ns);
   return std::make_unique<FolderSequence>(std::move(contents));
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "sequence.hpp"
 
@@ -16,5 +18,9 @@ bool isKittiFolder(const std::string& path);
 /// the rotation of forwardCamera(); poses need not start at identity.
 /// @throws std::runtime_error naming the missing or wrong file and the remedy
 std::unique_ptr<Sequence> openKittiFolder(const std::string& path);
+
+/// A file of KITTI poses, one for each stamp, as openKittiFolder reads its poses.txt; empty when
+/// there is no such file. @throws std::runtime_error naming file, line and fault
+Trajectory readKittiPoses(const std::string& path, const std::vector<std::int64_t>& stamps_ns);
 
 }  // namespace ardrone_vslam

@@ -2,6 +2,7 @@
 #include "metrics.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -33,6 +34,21 @@ ErrorSummary summarise(const std::vector<double>& errors_m) {
   summary.mean_m /= count;
   summary.rmse_m = std::sqrt(squares / count);
   return summary;
+}
+
+double alignedRmse_m(const Trajectory& estimate, const Trajectory& truth) {
+  assert(estimate.size() == truth.size() && "trajectories must have equal stamps");
+  if (truth.empty()) return 0;
+  const auto count = static_cast<Eigen::Index>(truth.size());
+  Eigen::Matrix3Xd from(3, count);
+  Eigen::Matrix3Xd to(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    from.col(i) = estimate.poses()[static_cast<std::size_t>(i)].T_map_base.translation();
+    to.col(i) = truth.poses()[static_cast<std::size_t>(i)].T_map_base.translation();
+  }
+  const Eigen::Isometry3d T_truth_estimate(Eigen::umeyama(from, to, false));
+  const Eigen::Matrix3Xd left = (T_truth_estimate * from) - to;
+  return std::sqrt(left.colwise().squaredNorm().mean());
 }
 
 Trajectory scaled(const Trajectory& truth, double scale_error) {

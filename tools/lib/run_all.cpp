@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <future>
-#include <memory>
 
 namespace ardrone_vslam {
 namespace {
@@ -25,29 +24,40 @@ void forEach(std::size_t count, int threads, const Work& work) {
 
 }  // namespace
 
+void BackEnds::add(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
+                   const RunObserver& observer) {
+  back_ends_.push_back(std::make_unique<BackEnd>(config, T_base_cam, observer.run.states));
+  scale_errors_.push_back(observer.run.scale_error);
+}
+
+void BackEnds::process(const TrackedFrame& frame) {
+  forEach(back_ends_.size(), threads_, [&](std::size_t i) { back_ends_[i]->process(frame); });
+}
+
+std::vector<RunResult> BackEnds::finish() {
+  std::vector<RunResult> results;
+  for (std::size_t i = 0; i < back_ends_.size(); ++i) {
+    results.push_back(back_ends_[i]->finish());
+    results.back().scale_error = scale_errors_[i];
+  }
+  return results;
+}
+
 std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
                               const std::vector<RunObserver>& observers, int threads,
                               const Progress& progress) {
-  std::vector<std::unique_ptr<BackEnd>> back_ends;
-  for (const RunObserver& observer : observers) {
-    back_ends.push_back(
-        std::make_unique<BackEnd>(config.mapper, sequence.T_base_cam(), observer.run.states));
-  }
+  BackEnds back_ends(threads);
+  for (const RunObserver& observer : observers)
+    back_ends.add(config.mapper, sequence.T_base_cam(), observer);
   std::size_t done = 0;
   // The front end runs once for all seeds. With `use_attitude` it takes the first seed's: attitudes
   // of one profile differ by no more than the pattern's steps of 1.4 degrees.
   runFrontEnd(sequence, config.tracker, observers.front().run.states, threads,
               [&](const TrackedFrame& frame) {
-                forEach(back_ends.size(), threads,
-                        [&](std::size_t i) { back_ends[i]->process(frame); });
+                back_ends.process(frame);
                 if (progress) progress(++done);
               });
-  std::vector<RunResult> results;
-  for (std::size_t i = 0; i < back_ends.size(); ++i) {
-    results.push_back(back_ends[i]->finish());
-    results.back().scale_error = observers[i].run.scale_error;
-  }
-  return results;
+  return back_ends.finish();
 }
 
 }  // namespace ardrone_vslam

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "config_file.hpp"
@@ -9,6 +10,24 @@
 #include "sequence.hpp"
 
 namespace ardrone_vslam {
+
+/// Several back ends that get the same features.
+class BackEnds {
+ public:
+  /// @param threads  over which they are spread; the results do not depend on it
+  explicit BackEnds(int threads) : threads_(threads) {}
+  /// @param observer  must outlive this
+  void add(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
+           const RunObserver& observer);
+  void process(const TrackedFrame& frame);
+  /// In the order of add().
+  std::vector<RunResult> finish();
+
+ private:
+  int threads_;
+  std::vector<std::unique_ptr<BackEnd>> back_ends_;
+  std::vector<double> scale_errors_;
+};
 
 /// The sequence with each of the observers; the front end runs once for all.
 /// @param threads  for decoding and for the observers; the results do not depend on it

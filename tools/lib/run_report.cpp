@@ -74,6 +74,7 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   summary["observer_ate_rmse_scale_removed_m"] = ifKnown(observer_scaled);
   summary["fused_ate_rmse_scale_removed_m"] = ifKnown(fused_scaled);
   summary["ratio_scale_removed"] = drifts ? ifKnown(fused_scaled / observer_scaled) : Json(nullptr);
+  summary["fused_ate_rmse_aligned_m"] = ifKnown(alignedRmse_m(e.fused_at_truth, e.truth));
   summary["observer_scale_error"] = run.scale_error;
 
   summary["fused_error_last_m"] =
@@ -95,6 +96,12 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   const std::vector<double> nees_values = finite(e.nees);
   summary["nees_mean"] =
       nees_values.empty() ? Json(nullptr) : orNull(summarise(nees_values).mean_m);
+  const auto outside = std::count_if(nees_values.begin(), nees_values.end(),
+                                     [](double n) { return n > kNees3Sigma; });
+  summary["outside_3_sigma"] =
+      nees_values.empty()
+          ? Json(nullptr)
+          : Json(static_cast<double>(outside) / static_cast<double>(nees_values.size()));
   summary["frames_without_truth"] = e.frames_without_truth;
   summary["frames_error_not_finite"] = e.frames_error_not_finite;
 }

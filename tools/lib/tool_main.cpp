@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool_main.hpp"
 
+#include <cstdio>
 #include <iostream>
 
 #include "ardrone_vslam/instruction_set.hpp"
@@ -35,6 +36,22 @@ CLI::Option* addSeed(CLI::App& app, const std::string& name, std::uint64_t& seed
   return app.add_option(name, seed, what)
       ->capture_default_str()
       ->check(CLI::Validator(isWholeNumber, "", "seed"));
+}
+
+std::vector<std::uint64_t> parseSeeds(const std::string& text) {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+  char rest = 0;
+  // sscanf alone takes -1 for 2^64 - 1.
+  if (text.find('-') != std::string::npos ||
+      std::sscanf(text.c_str(), "%lu:%lu%c", &first, &last, &rest) != 2 || last < first ||
+      last - first > 9999) {
+    throw UsageError("--seeds: '" + text +
+                     "' must be A:B with 0 <= A <= B, at most 10000 seeds, for example 1:5");
+  }
+  std::vector<std::uint64_t> seeds;
+  for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
+  return seeds;
 }
 
 }  // namespace ardrone_vslam

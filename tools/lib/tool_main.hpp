@@ -6,6 +6,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace ardrone_vslam {
 
@@ -35,5 +36,8 @@ auto asUsage(const Read& read) {
 /// 2^64 - 1.
 CLI::Option* addSeed(CLI::App& app, const std::string& name, std::uint64_t& seed,
                      const std::string& what);
+
+/// The seeds of --seeds A:B. @throws UsageError saying what is wrong
+std::vector<std::uint64_t> parseSeeds(const std::string& text);
 
 }  // namespace ardrone_vslam
