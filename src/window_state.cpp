@@ -173,6 +173,25 @@ void WindowState::propagateGlobals(const ObserverState& observer, double dt_s, d
   P_(kSpeed, kSpeed) += bias_variance;
 }
 
+void WindowState::holdNewest(std::size_t reference, const Eigen::Vector3d& camera_base,
+                             const Eigen::Matrix3d& deviation_m2) {
+  const WindowPose& then = frames_[reference];
+  WindowPose& newest = frames_.back();
+  const Eigen::Vector3d lever_then = then.R_map_base * camera_base;
+  const Eigen::Vector3d lever = newest.R_map_base * camera_base;
+  newest.position_map = then.position_map + lever_then - lever;
+  const int from = frameCoordinate(reference);
+  const int to = frameCoordinate(frames_.size() - 1);
+  P_.middleRows<3>(to) = (P_.middleRows<3>(from) - skew(lever_then) * P_.middleRows<3>(from + 3) +
+                          skew(lever) * P_.middleRows<3>(to + 3))
+                             .eval();
+  P_.middleCols<3>(to) =
+      (P_.middleCols<3>(from) - P_.middleCols<3>(from + 3) * skew(lever_then).transpose() +
+       P_.middleCols<3>(to + 3) * skew(lever).transpose())
+          .eval();
+  P_.block<3, 3>(to, to) += deviation_m2;
+}
+
 std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {
   const Eigen::MatrixXd P_ww = P_(information.coordinates, information.coordinates);
   Eigen::MatrixXd M = P_ww * information.matrix;
@@ -238,17 +257,18 @@ void WindowState::removeFrame(std::size_t frame) {
   frames_.erase(frames_.begin() + static_cast<std::ptrdiff_t>(frame));
 }
 
-void WindowState::makeAnchorOfOldest() {
-  const int rest = frameCoordinate(1);
-  std::vector<int> order = range(0, kGlobals);
+void WindowState::makeAnchor(std::size_t frame) {
+  const int first = frameCoordinate(frame);
+  const int rest = first + kFrame;
+  std::vector<int> order = range(0, first);
   const std::vector<int> others = range(rest, static_cast<int>(P_.rows()) - rest);
-  const std::vector<int> oldest = range(kGlobals, kFrame);
+  const std::vector<int> moved = range(first, kFrame);
   order.insert(order.end(), others.begin(), others.end());
-  order.insert(order.end(), oldest.begin(), oldest.end());
+  order.insert(order.end(), moved.begin(), moved.end());
   order.push_back(kSpeed);
   P_ = Eigen::MatrixXd(P_(order, order));
-  anchors_.push_back(frames_.front());
-  frames_.erase(frames_.begin());
+  anchors_.push_back(frames_[frame]);
+  frames_.erase(frames_.begin() + static_cast<std::ptrdiff_t>(frame));
 }
 
 void WindowState::removeAnchor(std::size_t anchor) {

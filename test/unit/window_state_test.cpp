@@ -111,7 +111,7 @@ TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
       information.vector += h * random.normal();
     }
     ASSERT_TRUE(state.update(information));
-    if (round % 4 == 0) state.makeAnchorOfOldest();
+    if (round % 4 == 0) state.makeAnchor(0);
     if (round % 10 == 9) state.removeAnchor(state.anchors().size() / 2);
     const double turn = 0.1 * (12 + round);
     state.propagate(observerAt(12 + round, {std::sin(turn), 1 - std::cos(turn), 0}, turn));
@@ -122,7 +122,7 @@ TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
 
 TEST(WindowState, AnchorsKeepTheirPlaceWhateverIsLearned) {
   WindowState state = circling(6);
-  state.makeAnchorOfOldest();
+  state.makeAnchor(0);
   const Eigen::Vector3d place = state.anchors()[0].position_map;
   const int anchor = state.anchorCoordinate(0);
   const Eigen::MatrixXd own = state.covariance().block(anchor, anchor, 7, 7);
