@@ -60,6 +60,10 @@ std::uint8_t stateOf(SlamState state) {
       return Status::NOT_FINITE;
     case SlamState::kTracking:
       return Status::TRACKING;
+    case SlamState::kResting:
+      return Status::RESTING;
+    case SlamState::kRotating:
+      return Status::ROTATING;
   }
   assert(false && "a SlamState that Status.msg does not know");
   return Status::OBSERVER_ONLY;
@@ -165,7 +169,9 @@ PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isome
   message.fused_pose = toPoseWithCovariance(result);
   message.map_to_odom = toTransform(T_map_odom);
   message.deviation = result.deviation_m;
-  message.corrected = result.state == SlamState::kLocalised || result.state == SlamState::kTracking;
+  message.corrected = result.state == SlamState::kLocalised ||
+                      result.state == SlamState::kTracking || result.state == SlamState::kResting ||
+                      result.state == SlamState::kRotating;
   return message;
 }
 

@@ -56,8 +56,10 @@ ConstraintFilter::ConstraintFilter(const ConstraintFilterConfig& config,
                                    const Eigen::Isometry3d& T_base_cam)
     : config_(config),
       camera_base_(T_base_cam.translation()),
+      R_base_cam_(T_base_cam.linear()),
       state_(config.observer),
-      tracks_(T_base_cam.linear()) {
+      tracks_(T_base_cam.linear()),
+      rest_(config.rest) {
   validate(config);
 }
 
@@ -66,9 +68,19 @@ void ConstraintFilter::start(const ObserverState& observer) {
 }
 
 void ConstraintFilter::predict(const ObserverState& observer) {
+  const bool is_kept = newest_is_keyframe_ || newest().id == reference_id_;
   state_.propagate(observer);
-  if (!newest_is_keyframe_) state_.removeFrame(state_.frames().size() - 2);
+  if (!is_kept) state_.removeFrame(state_.frames().size() - 2);
   newest_is_keyframe_ = false;
+  fix_outcome_ = FixOutcome::kNone;
+}
+
+std::optional<std::size_t> ConstraintFilter::frameOf(std::uint32_t id) const {
+  const auto& frames = state_.frames();
+  const auto found = std::find_if(frames.begin(), frames.end(),
+                                  [id](const WindowPose& frame) { return frame.id == id; });
+  if (found == frames.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - frames.begin());
 }
 
 Matrix6d ConstraintFilter::covariance() const {
@@ -86,6 +98,12 @@ std::optional<std::size_t> ConstraintFilter::anchorOf(std::uint32_t id) const {
 
 FixOutcome ConstraintFilter::fix(const std::vector<LandmarkSighting>& sightings,
                                  double focal_length_px) {
+  fix_outcome_ = fixBySightings(sightings, focal_length_px);
+  return fix_outcome_;
+}
+
+FixOutcome ConstraintFilter::fixBySightings(const std::vector<LandmarkSighting>& sightings,
+                                            double focal_length_px) {
   const double sigma_a = config_.track_deviation_px / focal_length_px;
   std::vector<MapSighting> old;
   for (const LandmarkSighting& s : sightings) {
@@ -110,11 +128,62 @@ FixOutcome ConstraintFilter::fix(const std::vector<LandmarkSighting>& sightings,
   return state_.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;
 }
 
+void ConstraintFilter::watchForRest(const ImageFeatures& features) {
+  const auto reference = frameOf(reference_id_);
+  Eigen::Matrix3d R_reference_now = Eigen::Matrix3d::Identity();
+  double attitude_deviation_rad = 0;
+  if (!reference) rest_ = RestDetector(config_.rest);
+  if (reference && reference_id_ != newest().id) {
+    const auto& P = state_.covariance();
+    const int i = state_.frameCoordinate(*reference) + 3;
+    const int j = state_.frameCoordinate(state_.frames().size() - 1) + 3;
+    attitude_deviation_rad = std::sqrt(
+        (P.block<3, 3>(i, i) + P.block<3, 3>(j, j) - P.block<3, 3>(i, j) - P.block<3, 3>(j, i))
+            .trace() /
+        3);
+    R_reference_now = (state_.frames()[*reference].R_map_base * R_base_cam_).transpose() *
+                      newest().R_map_base * R_base_cam_;
+  }
+  motion_ = rest_.see(features, R_reference_now, attitude_deviation_rad);
+  const bool is_still = motion_ == CameraMotion::kResting || motion_ == CameraMotion::kRotating;
+  const bool is_located =
+      fix_outcome_ == FixOutcome::kApplied || fix_outcome_ == FixOutcome::kNotNeeded;
+  if (is_still && reference && !is_located && !holdStill(*reference))
+    motion_ = CameraMotion::kMoving;
+  if (!is_still) odometry_way_.setZero();
+  if (rest_.isReference()) makeReference();
+}
+
+bool ConstraintFilter::holdStill(std::size_t reference) {
+  // Odometry does not err by so much: the image stands still for another reason (a frozen stream).
+  constexpr double kFastest_m_s = 0.5;
+  constexpr double kSlack_m = 0.1;
+  const WindowPose& then = state_.frames()[reference];
+  odometry_way_ += newest().position_map + newest().R_map_base * camera_base_ - then.position_map -
+                   then.R_map_base * camera_base_;
+  if (odometry_way_.norm() > kFastest_m_s * rest_.still_s() + kSlack_m) return false;
+  const double depth_m = point_distance_m_ > 0 ? point_distance_m_ : config_.rest.rest_depth_m;
+  const Eigen::Matrix3d R_map_cam = then.R_map_base * R_base_cam_;
+  state_.holdNewest(
+      reference, camera_base_,
+      depth_m * depth_m * R_map_cam * rest_.stillness().hidden * R_map_cam.transpose());
+  return true;
+}
+
+void ConstraintFilter::makeReference() {
+  const auto old = frameOf(reference_id_);
+  if (old && !reference_is_keyframe_ && reference_id_ != newest().id) state_.removeFrame(*old);
+  reference_id_ = newest().id;
+  reference_is_keyframe_ = false;
+}
+
 bool ConstraintFilter::isKeyframe(const ImageFeatures& features) const {
-  const auto& frames = state_.frames();
-  if (frames.size() < 2) return true;
-  const WindowPose& last = frames[frames.size() - 2];
-  if (static_cast<double>(newest().stamp_ns - last.stamp_ns) * 1e-9 > config_.keyframe_s)
+  const auto keyframe = frameOf(keyframe_id_);
+  if (!keyframe) return true;
+  if (motion_ == CameraMotion::kResting) return false;
+  const WindowPose& last = state_.frames()[*keyframe];
+  if (motion_ != CameraMotion::kRotating &&
+      static_cast<double>(newest().stamp_ns - last.stamp_ns) * 1e-9 > config_.keyframe_s)
     return true;
   const TrackWindow::Motion motion = tracks_.motionSince(last, newest(), features);
   return motion.lost > motion.common || motion.common == 0 ||
@@ -124,11 +193,15 @@ bool ConstraintFilter::isKeyframe(const ImageFeatures& features) const {
 const std::vector<UsedTrack>& ConstraintFilter::track(const ImageFeatures& features) {
   used_.clear();
   candidates_ = 0;
+  watchForRest(features);
   if (!isKeyframe(features)) return used_;
   newest_is_keyframe_ = true;
+  keyframe_id_ = newest().id;
+  if (reference_id_ == keyframe_id_) reference_is_keyframe_ = true;
   tracks_.add(newest().id, features);
   chooseAnchor();
-  const bool is_full = static_cast<int>(state_.frames().size()) > config_.window_frames;
+  const int others = reference_is_keyframe_ || !frameOf(reference_id_) ? 0 : 1;
+  const bool is_full = static_cast<int>(state_.frames().size()) - others > config_.window_frames;
   useTracks(tracks_.takeFinished(state_.frames(), is_full),
             config_.track_deviation_px / features.focal_length_px);
   if (is_full) dropOldest();
@@ -170,6 +243,10 @@ std::vector<AnchorDrift> ConstraintFilter::drifts() const {
     add(state_.anchors()[i], state_.anchorCoordinate(i));
   for (std::size_t i = 0; i < state_.frames().size(); ++i)
     add(state_.frames()[i], state_.frameCoordinate(i));
+  // The frame that rest is told by may be older than anchors.
+  std::sort(drifts.begin(), drifts.end(), [](const AnchorDrift& a, const AnchorDrift& b) {
+    return a.anchor_id < b.anchor_id;
+  });
   return drifts;
 }
 
@@ -231,13 +308,15 @@ void ConstraintFilter::useTracks(const std::vector<FinishedTrack>& finished, dou
 }
 
 void ConstraintFilter::dropOldest() {
-  const std::uint32_t id = state_.frames().front().id;
+  const auto& frames = state_.frames();
+  const std::size_t oldest = frames.front().id == reference_id_ && !reference_is_keyframe_ ? 1 : 0;
+  const std::uint32_t id = frames[oldest].id;
   tracks_.dropFrame(id);
   if (anchors_in_use_.erase(id) == 0) {
-    state_.removeFrame(0);
+    state_.removeFrame(oldest);
     return;
   }
-  state_.makeAnchorOfOldest();
+  state_.makeAnchor(oldest);
   if (static_cast<int>(state_.anchors().size()) > config_.max_anchors) joinAnchors();
 }
 

@@ -215,6 +215,11 @@ const char* explain(SlamState state) {
       return "estimator is set to observer: the odometry is passed on without correction";
     case SlamState::kTracking:
       return "no place seen before is in view: the tracks correct the pose, its drift stays";
+    case SlamState::kResting:
+      return "the image is still, so the position is held; no place seen before is in view";
+    case SlamState::kRotating:
+      return "the camera turns on the spot, so the position is held; that shows no distances, so "
+             "there are no new landmarks";
     case SlamState::kNotFinite:
       return "the pose is not finite and is not published; the map begins anew: check odometry, "
              "calibration and mounting for absurd values";

@@ -74,6 +74,12 @@ void Slam::State::moveLandmarks() {
 
 void Slam::State::useTracks(const ImageFeatures& features) {
   const std::vector<UsedTrack>& used_tracks = constraint->track(features);
+  const bool is_located =
+      result.state == SlamState::kLocalised || result.state == SlamState::kFixRejected;
+  if (!is_located && constraint->motion() == CameraMotion::kResting)
+    result.state = SlamState::kResting;
+  if (!is_located && constraint->motion() == CameraMotion::kRotating)
+    result.state = SlamState::kRotating;
   view.setOrigin(constraint->newest().position_map +
                  constraint->newest().R_map_base * T_base_cam.translation());
   setVariance();

@@ -190,6 +190,25 @@ void WindowState::propagateGlobals(const ObserverState& observer, double dt_s, d
   P_(kSpeed, kSpeed) += bias_variance;
 }
 
+void WindowState::holdNewest(std::size_t reference, const Eigen::Vector3d& camera_base,
+                             const Eigen::Matrix3d& deviation_m2) {
+  const WindowPose& then = frames_[reference];
+  WindowPose& newest = frames_.back();
+  const Eigen::Vector3d lever_then = then.R_map_base * camera_base;
+  const Eigen::Vector3d lever = newest.R_map_base * camera_base;
+  newest.position_map = then.position_map + lever_then - lever;
+  const int from = frameCoordinate(reference);
+  const int to = frameCoordinate(frames_.size() - 1);
+  P_.middleRows<3>(to) = (P_.middleRows<3>(from) - skew(lever_then) * P_.middleRows<3>(from + 3) +
+                          skew(lever) * P_.middleRows<3>(to + 3))
+                             .eval();
+  P_.middleCols<3>(to) =
+      (P_.middleCols<3>(from) - P_.middleCols<3>(from + 3) * skew(lever_then).transpose() +
+       P_.middleCols<3>(to + 3) * skew(lever).transpose())
+          .eval();
+  P_.block<3, 3>(to, to) += deviation_m2;
+}
+
 std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {
   const Eigen::MatrixXd P_ww = P_(information.coordinates, information.coordinates);
   Eigen::MatrixXd M = P_ww * information.matrix;
@@ -260,13 +279,14 @@ void WindowState::removeFrame(std::size_t frame) {
   frames_.erase(frames_.begin() + static_cast<std::ptrdiff_t>(frame));
 }
 
-void WindowState::makeAnchorOfOldest() {
-  const int rest = frameCoordinate(1);
+void WindowState::makeAnchor(std::size_t frame) {
+  const int first = frameCoordinate(frame);
+  const int behind = first + kFrame;
   P_ = picked(
       P_,
-      {{0, kGlobals}, {rest, static_cast<int>(P_.rows()) - rest}, {kGlobals, kFrame}, {kSpeed, 1}});
-  anchors_.push_back(frames_.front());
-  frames_.erase(frames_.begin());
+      {{0, first}, {behind, static_cast<int>(P_.rows()) - behind}, {first, kFrame}, {kSpeed, 1}});
+  anchors_.push_back(frames_[frame]);
+  frames_.erase(frames_.begin() + static_cast<std::ptrdiff_t>(frame));
 }
 
 void WindowState::removeAnchor(std::size_t anchor) {

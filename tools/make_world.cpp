@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -30,6 +31,7 @@ struct Options {
   std::string start;  // "X,Y,YAW" [m, m, rad]; empty: the flight's own
   std::string images = "raw";
   std::string compression = "none";
+  const CLI::Option* seconds = nullptr;
   std::vector<const CLI::Option*> bag_only;
 };
 
@@ -41,16 +43,18 @@ void addOptions(CLI::App& app, Options& o) {
       ->check(CLI::IsMember(flightNames()));
   app.add_option("--out", o.out, "FILE.bag, or else a folder to make")->required();
   app.add_flag("--force", o.force, "replace what is there");
-  app.add_option("--seconds", o.world.duration_s, "of flight")
-      ->capture_default_str()
-      ->check(CLI::Range(0.001, 1e6));
+  o.seconds =
+      app.add_option("--seconds", o.world.duration_s,
+                     "of flight; default: 60, of laps_then_hover 60 s of hovering after the lap")
+          ->check(CLI::Range(0.001, 1e6));
   app.add_option("--rate", o.world.rate_hz, "images a second")
       ->capture_default_str()
       ->check(CLI::Range(0.001, 1e3));
   app.add_option("--observer-profile", o.observer_profile,
                  "how the simulated odometry drifts: truth, wheel, drone, hover, harsh "
                  "(config/observer_profiles.yaml); default: drone in a bag, no odometry in a "
-                 "folder");
+                 "folder. A,B@S: A, from second S on B; laps_then_hover hovers with `hover` unless "
+                 "this says otherwise");
   addSeed(app, "--seed", o.world.seed, "of the noise in odometry and images");
   addSeed(app, "--world-seed", o.world.world_seed, "of the room");
   app.add_option("--start", o.start,
@@ -135,6 +139,15 @@ void refuseBagOptions(const Options& o) {
   }
 }
 
+/// A drone that hovers has no help from its motion: its odometry drifts as `hover` does.
+void fitToHover(double begin_s, Options& o) {
+  if (o.seconds->count() == 0) o.world.duration_s += begin_s;
+  if (o.observer_profile.empty() || o.observer_profile.find(',') != std::string::npos) return;
+  std::array<char, 40> later{};
+  std::snprintf(later.data(), later.size(), ",hover@%g", begin_s);
+  o.observer_profile += later.data();
+}
+
 int run(Options& o) {
   const bool bag = isBag(o.out);
   if (!bag) refuseBagOptions(o);
@@ -142,6 +155,7 @@ int run(Options& o) {
     throw std::runtime_error(o.out + ": is there already; choose another name or give --force");
   }
   if (bag && o.observer_profile.empty()) o.observer_profile = "drone";
+  if (const auto begin_s = hoverBegin_s(o.world.flight)) fitToHover(*begin_s, o);
   if (!o.observer_profile.empty()) o.world.observer = profileOfOption(o.observer_profile);
   if (!o.start.empty()) o.world.start = parseStart(o.start);
   // Base of a folder is by its definition where the camera is.

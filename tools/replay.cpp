@@ -68,8 +68,9 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--estimator", o.estimator, "over the configuration")
       ->check(CLI::IsMember({"thesis", "constraint", "observer"}));
   app.add_option("--observer-profile", o.observer_profile,
-                 "corrupt the truth like this (truth, wheel, drone, hover, harsh); default: the "
-                 "input's own odometry, else wheel for a KITTI folder, drone for the others");
+                 "corrupt the truth like this (truth, wheel, drone, hover, harsh; A,B@S: A, from "
+                 "second S on B); default: the input's own odometry, else wheel for a KITTI "
+                 "folder, drone for the others");
   o.seed_option = addSeed(app, "--seed", o.seed, "of the observer's noise");
   app.add_option("--seeds", o.seeds, "A:B, runs the seeds A to B and prints median and worst")
       ->excludes(o.seed_option);

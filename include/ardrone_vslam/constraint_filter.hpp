@@ -13,6 +13,7 @@
 #include "ardrone_vslam/frame_view.hpp"
 #include "ardrone_vslam/map_fix.hpp"
 #include "ardrone_vslam/parameters.hpp"
+#include "ardrone_vslam/rest_detector.hpp"
 #include "ardrone_vslam/track_constraint.hpp"
 #include "ardrone_vslam/track_window.hpp"
 #include "ardrone_vslam/window_state.hpp"
@@ -36,6 +37,7 @@ struct ConstraintFilterConfig {
   double fix_min_age_s = 3;
   double fix_drift_share = 1;
   double fix_gate_deviations = 2;
+  RestConfig rest;
 };
 
 template <class Visitor>
@@ -91,6 +93,7 @@ void visitParameters(ConstraintFilterConfig& c, Visitor&& visit) {
                     "a fix that disagrees by more than this in the mean of its six coordinates is "
                     "rejected"},
       c.fix_gate_deviations);
+  visitParameters(c.rest, visit);
 }
 
 /// A landmark as seen by the newest frame.
@@ -112,7 +115,8 @@ enum class FixOutcome { kNone, kNotNeeded, kApplied, kRejected };
 
 /// Fuses the observer with the camera: every track constrains, once, the frames that saw it,
 /// without a landmark in the state; landmarks of earlier visits correct the drift since, and are
-/// themselves taken along with what is corrected. Between keyframes only fixes are applied.
+/// themselves taken along with what is corrected; while the image is still and no such landmark is
+/// in view, the camera is held where it is. Between keyframes only the last two are applied.
 class ConstraintFilter {
  public:
   ConstraintFilter(const ConstraintFilterConfig& config, const Eigen::Isometry3d& T_base_cam);
@@ -140,8 +144,15 @@ class ConstraintFilter {
   /// Of the last frame: tracks with enough parallax, and those of them that agreed and were used.
   int candidates() const { return candidates_; }
   int used() const { return static_cast<int>(used_.size()); }
+  /// Of the last frame, by its image; moving where the odometry contradicts it.
+  CameraMotion motion() const { return motion_; }
 
  private:
+  FixOutcome fixBySightings(const std::vector<LandmarkSighting>& sightings, double focal_length_px);
+  void watchForRest(const ImageFeatures& features);
+  bool holdStill(std::size_t reference);
+  void makeReference();
+  std::optional<std::size_t> frameOf(std::uint32_t id) const;
   bool isKeyframe(const ImageFeatures& features) const;
   bool hasKnownBaseline(const std::vector<TrackView>& views) const;
   void chooseAnchor();
@@ -152,8 +163,17 @@ class ConstraintFilter {
 
   ConstraintFilterConfig config_;
   Eigen::Vector3d camera_base_;
+  Eigen::Matrix3d R_base_cam_;
   WindowState state_;
   TrackWindow tracks_;
+  RestDetector rest_;
+  CameraMotion motion_ = CameraMotion::kUnknown;
+  FixOutcome fix_outcome_ = FixOutcome::kNone;  // of the newest frame
+  // The frame that stays in the window, keyframe or not, to compare the newest one with.
+  std::uint32_t reference_id_ = 0;
+  bool reference_is_keyframe_ = false;
+  Eigen::Vector3d odometry_way_ = Eigen::Vector3d::Zero();  // while the camera is held
+  std::uint32_t keyframe_id_ = 0;                           // of the last keyframe
   bool newest_is_keyframe_ = false;
   std::vector<UsedTrack> used_;
   int candidates_ = 0;

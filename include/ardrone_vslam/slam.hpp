@@ -22,10 +22,12 @@ enum class SlamState {
   kObserverOnly,  ///< `estimator: observer`
   kNotFinite,     ///< a number overflowed: the pose is not to be used, the map is to begin anew
   kTracking,      ///< constraint filter: tracks correct the pose, no place seen before is in view
+  kResting,       ///< constraint filter: the image is still and holds the position
+  kRotating,      ///< constraint filter: the camera turns on the spot, the image holds the position
 };
-constexpr std::array<const char*, 7> kSlamStateNames{
-    "building_map",  "localised",  "too_few_landmarks", "fix_rejected",
-    "observer_only", "not_finite", "tracking"};
+constexpr std::array<const char*, 9> kSlamStateNames{
+    "building_map", "localised", "too_few_landmarks", "fix_rejected", "observer_only",
+    "not_finite",   "tracking",  "resting",           "rotating"};
 
 /// One frame's answer.
 struct FrameResult {

@@ -65,6 +65,13 @@ class WindowState {
   /// @return false when the covariance is not positive or the result not finite; nothing is changed
   bool update(const Information& information);
 
+  /// The camera stands where it stood at a frame: the newest position is taken from there instead
+  /// of from the observer's increments, which leave no trace.
+  /// @param camera_base  the camera's position in base
+  /// @param deviation_m2  covariance of the camera's way between the two
+  void holdNewest(std::size_t reference, const Eigen::Vector3d& camera_base,
+                  const Eigen::Matrix3d& deviation_m2);
+
   const std::vector<WindowPose>& frames() const { return frames_; }
   const std::vector<WindowPose>& anchors() const { return anchors_; }
   /// First coordinate of a frame; of frames().size(): one beyond the last frame.
@@ -75,8 +82,8 @@ class WindowState {
     return frameCoordinate(frames_.size()) + kAnchor * static_cast<int>(anchor);
   }
   void removeFrame(std::size_t frame);
-  /// The oldest frame leaves the window, its error is remembered.
-  void makeAnchorOfOldest();
+  /// A frame leaves the window, its error is remembered.
+  void makeAnchor(std::size_t frame);
   void removeAnchor(std::size_t anchor);
 
   double scaleError() const { return scale_error_; }

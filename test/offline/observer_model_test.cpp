@@ -165,6 +165,21 @@ TEST(ObserverModel, HarshDriftsAtRestAsItsNumbersSay) {
   checkDriftAtRest("harsh", 0.06, 0.1, 10);
 }
 
+TEST(ObserverModel, AnotherProfileMayTakeOver) {
+  const Trajectory truth = straightLine(0, 10);
+  const auto alone = simulateObserver(truth, profileNamed("drone"), 3);
+  const auto both = simulateObserver(truth, profileNamed("drone,hover@5"), 3);
+  EXPECT_EQ(alone.scale_error, both.scale_error);
+  ASSERT_EQ(alone.states.size(), both.states.size());
+  for (std::size_t i = 0; i < alone.states.size(); ++i) {
+    const bool is_alike = alone.states[i].T_odom_base.isApprox(both.states[i].T_odom_base, 1e-12);
+    EXPECT_EQ(is_alike, alone.states[i].stamp_ns - alone.states[0].stamp_ns < 5000000000) << i;
+  }
+  for (const char* wrong : {"drone,hover", "drone,hover@", "drone,hover@0", "drone,hover@3x",
+                            "drone,mars@3", "drone,", "drone,hover@3,wheel@2"})
+    EXPECT_THROW(profileNamed(wrong), std::runtime_error) << wrong;
+}
+
 TEST(ObserverModel, HoverDriftsAboutTwoMetresInFifteenSeconds) {
   checkDriftAtRest("hover", 0.13, 0.05, 15);
   std::vector<double> drifts_m;

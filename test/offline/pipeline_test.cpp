@@ -10,6 +10,7 @@
 #include "metrics.hpp"
 #include "observer_model.hpp"
 #include "offline_run.hpp"
+#include "pave_sequence.hpp"
 #include "run_report.hpp"
 #include "sequence.hpp"
 #include "world_sequence.hpp"
@@ -24,8 +25,8 @@ struct Outcome {
 };
 
 Outcome runOn(Sequence& sequence, const std::string& profile_name, std::uint64_t seed,
-              int threads = 1) {
-  const PipelineConfig config = loadConfig("", {});
+              int threads = 1, const std::vector<std::string>& overrides = {}) {
+  const PipelineConfig config = loadConfig("", overrides);
   const ObserverProfile profile =
       loadObserverProfile(profile_name, ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");
   const ObserverRun observer = simulateObserver(sequence.truth(), profile, seed);
@@ -125,6 +126,21 @@ TEST(RealPipeline, NothingIsMappedWhileTheDroneStandsStill) {
   EXPECT_EQ(run.frames.size(), sequence->size());
   EXPECT_TRUE(run.landmarks.empty());
   EXPECT_FALSE(run.images_travel);
+}
+
+TEST(RealPipeline, AStillImageHoldsThePosition) {
+  const std::string folder = realData("ardrone2_video");
+  if (folder.empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
+  PaveOptions at_rest;
+  at_rest.at_rest = true;
+  const auto sequence = openPave(folder + "/ardrone2_video_example.capture", at_rest);
+  const Outcome outcome = runOn(*sequence, "hover", 3, 1, {"mapper/estimator=constraint"});
+  constexpr std::size_t kFrame = 450;  // 15 s
+  ASSERT_GT(outcome.run.frames.size(), kFrame);
+  EXPECT_GT(outcome.evaluation.observer_error_m[kFrame], 1.5);
+  EXPECT_LT(outcome.evaluation.fused_error_m[kFrame], 0.05);  // measured: 0.007
+  EXPECT_TRUE(outcome.run.landmarks.empty());
+  EXPECT_EQ(outcome.run.frames[kFrame].result.state, SlamState::kResting);
 }
 
 }  // namespace

@@ -109,6 +109,29 @@ TEST(Flight, ComesBackEachLap) {
   }
 }
 
+TEST(Flight, HoversWhereTheLapBegan) {
+  const auto laps = makeFlight("laps", std::nullopt);
+  const auto flight = makeFlight("laps_then_hover", std::nullopt);
+  EXPECT_FALSE(hoverBegin_s("laps"));
+  const double begin_s = hoverBegin_s("laps_then_hover").value();
+  EXPECT_TRUE(flight->pose(10).isApprox(laps->pose(10), 1e-9));
+  const Eigen::Isometry3d first = flight->pose(begin_s);
+  EXPECT_LT((first.translation() - flight->pose(4).translation()).norm(), 1.5);
+  double farthest_m = 0;
+  double widest_rad = 0;
+  for (double t = begin_s; t < begin_s + 60; t += 0.1) {
+    const Eigen::Isometry3d moved = first.inverse() * flight->pose(t);
+    farthest_m = std::max(farthest_m, moved.translation().norm());
+    widest_rad = std::max(widest_rad, Eigen::AngleAxisd(moved.linear()).angle());
+  }
+  EXPECT_LT(farthest_m, 0.15);
+  EXPECT_GT(farthest_m, 0.03);
+  EXPECT_LT(widest_rad, 0.1);
+  const Extremes extremes = fly(*flight, begin_s + 60);
+  EXPECT_LT(extremes.speed_m_s, 1.2);
+  EXPECT_LT(extremes.turn_acceleration_rad_s2, 3.0);
+}
+
 TEST(Flight, NamesWhatIsWrong) {
   EXPECT_THROW(makeFlight("loops", std::nullopt), std::invalid_argument);
   EXPECT_THROW(makeFlight("laps", FlightStart{3.6, 0, 0}), std::invalid_argument);

@@ -105,6 +105,8 @@ TEST(ResultConversion, EveryOtherStateHasAReason) {
       {SlamState::kBuildingMap, Status::BUILDING_MAP},
       {SlamState::kTooFewLandmarks, Status::TOO_FEW_LANDMARKS},
       {SlamState::kFixRejected, Status::FIX_REJECTED},
+      {SlamState::kResting, Status::RESTING},
+      {SlamState::kRotating, Status::ROTATING},
       {SlamState::kObserverOnly, Status::OBSERVER_ONLY},
       {SlamState::kNotFinite, Status::NOT_FINITE}};
   for (const auto& [state, constant] : states) {

@@ -113,7 +113,7 @@ TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
       information.vector += h * random.normal();
     }
     ASSERT_TRUE(state.update(information));
-    if (round % 4 == 0) state.makeAnchorOfOldest();
+    if (round % 4 == 0) state.makeAnchor(0);
     if (round % 10 == 9) state.removeAnchor(state.anchors().size() / 2);
     const double turn = 0.1 * (12 + round);
     state.propagate(observerAt(12 + round, {std::sin(turn), 1 - std::cos(turn), 0}, turn));
@@ -124,8 +124,8 @@ TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
 
 TEST(WindowState, WhatIsLearnedOfTheNewestFrameCorrectsTheAnchorsThatShareItsError) {
   WindowState state = circling(6);
-  state.makeAnchorOfOldest();
-  state.makeAnchorOfOldest();
+  state.makeAnchor(0);
+  state.makeAnchor(0);
   const Eigen::MatrixXd P = state.covariance();
   const int newest = state.frameCoordinate(state.frames().size() - 1);
   Information information(coordinatesFrom(newest, newest + 3));

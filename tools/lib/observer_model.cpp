@@ -63,6 +63,12 @@ class AttitudeCorruption {
     tilt_bias_.advance(noise_.normal3());
   }
 
+  void changeTo(const ObserverProfile& profile) {
+    profile_ = profile;
+    tilt_bias_ = DriftingBias(profile.attitude_bias_rad, profile.attitude_bias_time_s, dt_s_,
+                              noise_.normal3());
+  }
+
   /// Draws new white noise at each call.
   Eigen::Quaterniond report(const Eigen::Quaterniond& true_map_base) {
     Eigen::Vector3d error = profile_.attitude_noise_rad * noise_.normal3();
@@ -71,7 +77,7 @@ class AttitudeCorruption {
   }
 
  private:
-  const ObserverProfile& profile_;
+  ObserverProfile profile_;
   double dt_s_;
   RandomSource noise_;
   RandomSource yaw_noise_;
@@ -93,6 +99,13 @@ class StepCorruption {
         velocity_bias_(profile.velocity_bias_m_s, profile.velocity_bias_time_s, dt_s,
                        velocity_noise_.normal3()) {}
 
+  void changeTo(const ObserverProfile& profile) {
+    profile_ = profile;
+    white_m_ = profile.velocity_noise_m_s * dt_s_ / std::sqrt(dt_s_ * kVelocityNoiseRate_hz);
+    velocity_bias_ = DriftingBias(profile.velocity_bias_m_s, profile.velocity_bias_time_s, dt_s_,
+                                  velocity_noise_.normal3());
+  }
+
   Eigen::Vector3d corrupt(const Eigen::Vector3d& step_base) {
     Eigen::Vector3d result = scale_ * step_base;
     result += profile_.step_noise * step_base.norm() * step_noise_.normal3();
@@ -102,7 +115,7 @@ class StepCorruption {
   }
 
  private:
-  const ObserverProfile& profile_;
+  ObserverProfile profile_;
   double dt_s_;
   double scale_;
   double white_m_;
@@ -134,7 +147,14 @@ std::vector<ObserverState> integrate(const Trajectory& truth,
   states.reserve(times_ns.size());
   Eigen::Isometry3d T_map_base = truth.at(times_ns.front());
   Eigen::Vector3d reported_position = T_map_base.translation();
+  auto later = profile.later.begin();
   for (const std::int64_t time_ns : times_ns) {
+    for (; later != profile.later.end() &&
+           static_cast<double>(time_ns - times_ns.front()) * 1e-9 >= later->from_s;
+         ++later) {
+      attitude.changeTo(*later);
+      steps.changeTo(*later);
+    }
     const Eigen::Isometry3d next = truth.at(time_ns);
     const Eigen::Quaterniond q_next(next.linear());
     if (!states.empty()) {

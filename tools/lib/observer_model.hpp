@@ -28,11 +28,16 @@ struct ObserverProfile {
   double delay_s = 0;             ///< unknown to the user: stamps are late by this
   double loss = 0;                ///< share of the states lost
   bool bursts = false;            ///< bursts of states with equal stamps
+  /// Profiles that take its place later, as to noise and biases; rate, scale error and transport
+  /// stay.
+  std::vector<ObserverProfile> later;
+  double from_s = 0;  ///< of a later one: after the truth's begin
 
   bool isTruth() const { return name == "truth"; }
 };
 
 /// Reads one profile from config/observer_profiles.yaml (tools find it by findConfigFile()).
+/// @param name  of a profile; or "A,B@S,..": A, from second S on B
 /// @throws std::runtime_error naming the file, the fault and the known names
 ObserverProfile loadObserverProfile(const std::string& name, const std::string& profiles_yaml);
 

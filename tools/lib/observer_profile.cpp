@@ -2,6 +2,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "observer_model.hpp"
@@ -81,17 +82,7 @@ std::string setValue(const std::string& key, const YAML::Node& value, ObserverPr
   return "'" + key + "' is not known; known are " + known_names;
 }
 
-}  // namespace
-
-std::vector<std::string> observerProfileNames(const std::string& profiles_yaml) {
-  std::vector<std::string> names;
-  for (const auto& entry : loadProfiles(profiles_yaml)) {
-    names.push_back(entry.first.as<std::string>());
-  }
-  return names;
-}
-
-ObserverProfile loadObserverProfile(const std::string& name, const std::string& profiles_yaml) {
+ObserverProfile loadOne(const std::string& name, const std::string& profiles_yaml) {
   const YAML::Node root = loadProfiles(profiles_yaml);
   const YAML::Node section = root[name];
   if (!section || !section.IsMap()) {
@@ -105,6 +96,46 @@ ObserverProfile loadObserverProfile(const std::string& name, const std::string& 
     if (!fault.empty()) {
       throw std::runtime_error(profiles_yaml + ": profile '" + name + "': " + fault);
     }
+  }
+  return profile;
+}
+
+/// "B@S". @throws std::runtime_error
+ObserverProfile loadLater(const std::string& text, double after_s,
+                          const std::string& profiles_yaml) {
+  const auto at = text.find('@');
+  double from_s = 0;
+  char rest = 0;
+  if (at == std::string::npos || std::sscanf(text.c_str() + at + 1, "%lf%c", &from_s, &rest) != 1 ||
+      !(from_s > after_s)) {
+    throw std::runtime_error("observer profile '" + text +
+                             "' must be NAME@SECONDS, the seconds ascending, as in "
+                             "drone,hover@20");
+  }
+  ObserverProfile profile = loadOne(text.substr(0, at), profiles_yaml);
+  profile.from_s = from_s;
+  return profile;
+}
+
+}  // namespace
+
+std::vector<std::string> observerProfileNames(const std::string& profiles_yaml) {
+  std::vector<std::string> names;
+  for (const auto& entry : loadProfiles(profiles_yaml)) {
+    names.push_back(entry.first.as<std::string>());
+  }
+  return names;
+}
+
+ObserverProfile loadObserverProfile(const std::string& name, const std::string& profiles_yaml) {
+  auto end = name.find(',');
+  ObserverProfile profile = loadOne(name.substr(0, end), profiles_yaml);
+  profile.name = name;
+  while (end != std::string::npos) {
+    const auto begin = end + 1;
+    end = name.find(',', begin);
+    const double after_s = profile.later.empty() ? 0 : profile.later.back().from_s;
+    profile.later.push_back(loadLater(name.substr(begin, end - begin), after_s, profiles_yaml));
   }
   return profile;
 }

@@ -2,6 +2,7 @@
 #include "profile_option.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "config_path.hpp"
 #include "kitti_folder.hpp"
@@ -12,12 +13,18 @@ namespace ardrone_vslam {
 ObserverProfile profileOfOption(const std::string& name) {
   const std::string profiles = findConfigFile("observer_profiles.yaml");
   const auto names = observerProfileNames(profiles);
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
+  const std::string first = name.substr(0, name.find(','));
+  if (std::find(names.begin(), names.end(), first) == names.end()) {
     std::string known;
     for (const auto& other : names) known += (known.empty() ? "" : ", ") + other;
-    throw UsageError("--observer-profile: there is no profile '" + name + "'; known are " + known);
+    throw UsageError("--observer-profile: there is no profile '" + first + "'; known are " + known);
   }
-  return loadObserverProfile(name, profiles);
+  if (first == name) return loadObserverProfile(name, profiles);
+  try {
+    return loadObserverProfile(name, profiles);
+  } catch (const std::runtime_error& e) {
+    throw UsageError(std::string("--observer-profile: ") + e.what());
+  }
 }
 
 std::string defaultProfile(const std::string& input) {

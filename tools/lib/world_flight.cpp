@@ -13,6 +13,7 @@ namespace {
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kDrag_per_s = 0.3;  // deceleration per speed
 constexpr double kWallMargin_m = 0.5;
+constexpr double kHoverBegin_s = 21.5;  // of laps_then_hover: the lap is complete
 
 double wrapAngle(double angle_rad) {
   return std::remainder(angle_rad, 2 * M_PI);
@@ -34,6 +35,12 @@ double smoothStepIntegral(double x) {
 }
 double wave(double t_s, double frequency_hz, double phase_rad) {
   return std::sin(2 * M_PI * frequency_hz * t_s + phase_rad);
+}
+
+/// What the air does to a drone that holds its place: a few centimetres [m].
+Eigen::Vector3d gusts(double t_s) {
+  return {0.025 * wave(t_s, 0.31, 0) + 0.01 * wave(t_s, 0.77, 2),
+          0.025 * wave(t_s, 0.27, 1) + 0.01 * wave(t_s, 0.83, 3), 0.02 * wave(t_s, 0.37, 2)};
 }
 
 /// Counter-clockwise laps on an ellipse, no two quite alike, the nose along the path and at times
@@ -75,12 +82,9 @@ class Laps : public Flight {
   Eigen::Vector3d pathPosition(double t_s) const {
     const double stretch = 1 + 0.06 * wave(t_s, 0.021, 0.4);
     const double height = 1.25 + 0.2 * wave(t_s, 0.047, 1.1);
-    const Eigen::Vector3d gusts(0.025 * wave(t_s, 0.31, 0) + 0.01 * wave(t_s, 0.77, 2),
-                                0.025 * wave(t_s, 0.27, 1) + 0.01 * wave(t_s, 0.83, 3),
-                                0.02 * wave(t_s, 0.37, 2));
     return Eigen::Vector3d(stretch * kRadiusX_m * std::cos(phase(t_s)),
                            stretch * kRadiusY_m * std::sin(phase(t_s)), height) +
-           gusts;
+           gusts(t_s);
   }
 
   /// Direction of the ellipse's tangent: that of a circle, corrected; never wraps.
@@ -93,6 +97,30 @@ class Laps : public Flight {
   FlightStart start_;
   double first_phase_ = 0;
   double first_turn_ = 0;
+};
+
+/// One lap, then hovering where it began: within a few centimetres and about a degree.
+class LapsThenHover : public Laps {
+ public:
+  using Laps::Laps;
+
+ protected:
+  Eigen::Vector3d position(double t_s) const override {
+    return Laps::position(lapTime(t_s)) + gusts(t_s) - gusts(lapTime(t_s));
+  }
+  double yaw(double t_s) const override {
+    constexpr double kSway_rad = 0.02;
+    return Laps::yaw(lapTime(t_s)) + kSway_rad * (wave(t_s, 0.19, 1) - wave(lapTime(t_s), 0.19, 1));
+  }
+
+ private:
+  static constexpr double kBrake_s = 4;
+
+  /// Runs on as t_s does, and stops at the end of the lap.
+  static double lapTime(double t_s) {
+    const double braked_s = t_s - (kHoverBegin_s - kBrake_s);
+    return t_s - kBrake_s * smoothStepIntegral(braked_s / kBrake_s);
+  }
 };
 
 void checkStart(const FlightStart& start) {
@@ -126,13 +154,19 @@ Eigen::Isometry3d Flight::pose(double t_s) const {
 }
 
 std::vector<std::string> flightNames() {
-  return {"laps"};
+  return {"laps", "laps_then_hover"};
+}
+
+std::optional<double> hoverBegin_s(const std::string& flight) {
+  if (flight != "laps_then_hover") return std::nullopt;
+  return kHoverBegin_s;
 }
 
 std::unique_ptr<Flight> makeFlight(const std::string& name,
                                    const std::optional<FlightStart>& start) {
   if (start) checkStart(*start);
   if (name == "laps") return std::make_unique<Laps>(start);
+  if (name == "laps_then_hover") return std::make_unique<LapsThenHover>(start);
   std::string known;
   for (const auto& flight : flightNames()) known += (known.empty() ? "" : ", ") + flight;
   throw std::invalid_argument("there is no flight '" + name + "'; known are " + known);

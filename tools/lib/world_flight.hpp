@@ -33,6 +33,9 @@ class Flight {
 /// Names that makeFlight knows.
 std::vector<std::string> flightNames();
 
+/// When a flight that ends hovering begins to; nothing for the others.
+std::optional<double> hoverBegin_s(const std::string& flight);
+
 /// @param start  nothing: the flight's own
 /// @throws std::invalid_argument for an unknown name (listing the known ones) and for a start
 /// outside the room or within 0.5 m of its walls
