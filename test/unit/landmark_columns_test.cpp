@@ -25,7 +25,7 @@ class LandmarkColumnsTest : public ::testing::Test {
     landmark.height_m = random_.normal();
     landmark.track_id = static_cast<std::uint32_t>(random_.integer(1, 1000));
     landmark.position_variance_m2 = random_.uniform();
-    landmark.anchor_id = static_cast<std::uint32_t>(random_.integer(1, 100));
+    landmark.anchor_id = static_cast<std::uint32_t>(1 + map_.size() % 7);
     return landmark;
   }
   void lookFrom(const Eigen::Vector3d& position_map, bool planar = false) {
