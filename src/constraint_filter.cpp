@@ -83,9 +83,25 @@ std::optional<std::size_t> ConstraintFilter::frameOf(std::uint32_t id) const {
   return static_cast<std::size_t>(found - frames.begin());
 }
 
+Eigen::Isometry3d ConstraintFilter::T_map_base() const {
+  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();
+  T_map_base.linear() = newest().R_map_base * state_.R_mounting().transpose();
+  T_map_base.translation() = newest().position_map;
+  return T_map_base;
+}
+
 Matrix6d ConstraintFilter::covariance() const {
+  const auto& P = state_.covariance();
   const int at = state_.frameCoordinate(state_.frames().size() - 1);
-  return state_.covariance().block<6, 6>(at, at);
+  constexpr int kMounting = WindowState::kMounting;
+  const Eigen::Matrix3d R_map_base = T_map_base().linear();
+  const Eigen::Matrix<double, 6, 3> shared = P.block<6, 3>(at, kMounting) * R_map_base.transpose();
+  Matrix6d covariance = P.block<6, 6>(at, at);
+  covariance.rightCols<3>() -= shared;
+  covariance.bottomRows<3>() -= shared.transpose();
+  covariance.bottomRightCorner<3, 3>() +=
+      R_map_base * P.block<3, 3>(kMounting, kMounting) * R_map_base.transpose();
+  return covariance;
 }
 
 std::optional<std::size_t> ConstraintFilter::anchorOf(std::uint32_t id) const {
@@ -244,9 +260,8 @@ std::vector<AnchorDrift> ConstraintFilter::drifts() const {
   for (std::size_t i = 0; i < state_.frames().size(); ++i)
     add(state_.frames()[i], state_.frameCoordinate(i));
   // The frame that rest is told by may be older than anchors.
-  std::sort(drifts.begin(), drifts.end(), [](const AnchorDrift& a, const AnchorDrift& b) {
-    return a.anchor_id < b.anchor_id;
-  });
+  std::sort(drifts.begin(), drifts.end(),
+            [](const AnchorDrift& a, const AnchorDrift& b) { return a.anchor_id < b.anchor_id; });
   return drifts;
 }
 

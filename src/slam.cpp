@@ -93,8 +93,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const ObserverSt
 Eigen::Isometry3d Slam::State::poseAt(const ObserverState& observer) const {
   Eigen::Isometry3d T_map_base = observer.T_odom_base;  // orientation: the observer's, drift-free
   if (constraint) {
-    T_map_base.linear() = constraint->newest().R_map_base;
-    T_map_base.translation() = constraint->newest().position_map;
+    T_map_base = constraint->T_map_base();
   } else {
     T_map_base.translation() = filter.position_map();
   }
@@ -122,6 +121,7 @@ void Slam::State::predict(const ImageFeatures& features, const ObserverState& ob
   const Eigen::Isometry3d T_map_base = poseAt(observer);
   offset_map = T_map_base.linear() * T_base_cam.translation();
   Eigen::Isometry3d T_map_cam = T_map_base * T_base_cam;
+  if (constraint) T_map_cam.linear() = constraint->newest().R_map_base * T_base_cam.linear();
   if (config.planar) {
     T_map_cam.translation().z() = 0;
     offset_map.z() = 0;

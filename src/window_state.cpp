@@ -85,6 +85,7 @@ WindowState::WindowState(const ObserverNoiseConfig& config) : config_(config) {
 void WindowState::start(const ObserverState& observer) {
   observer_ = observer;
   R_map_odom_.setIdentity();
+  R_mounting_.setIdentity();
   velocity_bias_m_s_.setZero();
   scale_error_ = 0;
   speed_error_m_s_ = 0;
@@ -104,7 +105,12 @@ void WindowState::start(const ObserverState& observer) {
   P_.block<3, 3>(attitude, kAttitude) = tilt;
   P_.block<3, 3>(kAttitude, attitude) = tilt;
   P_.block<3, 3>(attitude, attitude) = tilt;
-  P_.diagonal().segment<3>(attitude).array() += squared(radians(config_.attitude_noise_deg));
+  P_.diagonal().segment<3>(kMounting).setConstant(squared(radians(config_.mounting_deviation_deg)));
+  P_.block<3, 3>(attitude, kMounting) =
+      observer.T_odom_base.linear() * P_.block<3, 3>(kMounting, kMounting);
+  P_.block<3, 3>(kMounting, attitude) = P_.block<3, 3>(attitude, kMounting).transpose();
+  P_.diagonal().segment<3>(attitude).array() += squared(radians(config_.attitude_noise_deg)) +
+                                                squared(radians(config_.mounting_deviation_deg));
   P_.diagonal().segment<3>(kGlobals).setConstant(squared(config_.start_deviation_m));
 }
 
@@ -139,7 +145,7 @@ void WindowState::propagate(const ObserverState& observer) {
   const int from = frameCoordinate(frames_.size() - 1);
   const int to = frameCoordinate(frames_.size());
   P_ = widened(P_, to, kFrame);
-  Eigen::Matrix<double, 3, kGlobals> F;
+  Eigen::Matrix<double, 3, kGlobals> F = Eigen::Matrix<double, 3, kGlobals>::Zero();
   F.middleCols<3>(kAttitude) = -skew(moved);
   F.middleCols<3>(kBias) = -bias_to_step;
   F.col(kScale) = -moved;
@@ -154,9 +160,11 @@ void WindowState::propagate(const ObserverState& observer) {
           : squared(config_.walk_m_per_sqrt_m) * way_m + squared(config_.walk_m_per_sqrt_s) * dt_s;
 
   propagateGlobals(observer, dt_s, way_m);
-  next.R_map_base = R_map_odom_ * observer.T_odom_base.linear();
-  P_.middleRows<3>(to + 3) = P_.middleRows<3>(kAttitude);
-  P_.middleCols<3>(to + 3) = P_.middleCols<3>(kAttitude);
+  const Eigen::Matrix3d R_map_base = R_map_odom_ * observer.T_odom_base.linear();
+  next.R_map_base = R_map_base * R_mounting_;
+  P_.middleRows<3>(to + 3) = P_.middleRows<3>(kAttitude) + R_map_base * P_.middleRows<3>(kMounting);
+  P_.middleCols<3>(to + 3) =
+      P_.middleCols<3>(kAttitude) + P_.middleCols<3>(kMounting) * R_map_base.transpose();
   P_.diagonal().segment<3>(to + 3).array() += squared(radians(config_.attitude_noise_deg));
   frames_.push_back(next);
   observer_ = observer;
@@ -247,6 +255,7 @@ bool WindowState::update(const Information& information) {
 
 void WindowState::inject(const Eigen::VectorXd& error) {
   R_map_odom_ = rotationOf(error.segment<3>(kAttitude)) * R_map_odom_;
+  R_mounting_ = rotationOf(error.segment<3>(kMounting)) * R_mounting_;
   velocity_bias_m_s_ += error.segment<3>(kBias);
   scale_error_ += error(kScale);
   speed_error_m_s_ += error(kSpeed);

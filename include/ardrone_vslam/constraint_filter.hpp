@@ -138,7 +138,9 @@ class ConstraintFilter {
   std::vector<AnchorDrift> drifts() const;
 
   const WindowPose& newest() const { return state_.frames().back(); }
-  /// Of the newest pose: position [m^2], rotation vector [rad^2], axes of map.
+  /// Of base: newest() without the mounting's error.
+  Eigen::Isometry3d T_map_base() const;
+  /// Of T_map_base: position [m^2], rotation vector [rad^2], axes of map.
   Matrix6d covariance() const;
   const WindowState& state() const { return state_; }
   /// Of the last frame: tracks with enough parallax, and those of them that agreed and were used.

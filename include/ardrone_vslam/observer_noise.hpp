@@ -20,6 +20,7 @@ struct ObserverNoiseConfig {
   double yaw_walk_deg_per_sqrt_s = 0.15;
   double yaw_walk_deg_per_sqrt_m = 0.03;
   double attitude_noise_deg = 0.15;
+  double mounting_deviation_deg = 0;
 };
 
 template <class Visitor>
@@ -63,6 +64,11 @@ void visitParameters(ObserverNoiseConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"attitude_noise_deg", "deg", 0.001, 45,
                       "constraint filter: white error of the odometry's attitude, per axis"},
         c.attitude_noise_deg);
+  visit(
+      ParameterInfo{"mounting_deviation_deg", "deg", 0, 45,
+                    "constraint filter: constant error of the camera's attitude in base, per axis; "
+                    "0: the mounting is exact"},
+      c.mounting_deviation_deg);
 }
 
 }  // namespace ardrone_vslam

@@ -37,8 +37,11 @@ struct Information {
 ///   3-5   velocity bias of the observer, axes of base [m/s]
 ///   6     scale error: the observer reports (1 + s) times the way [-]
 ///   7     slow error of the observer's speed along the way [m/s]
+///   8-10  attitude of the camera's mounting [rad], axes of base
 ///   then  the frames, oldest first: position of base [m], attitude [rad]
 ///   then  the anchors: alike, and the speed error of their time, as landmarks share its scale
+/// A frame's attitude is that of base as the camera's mounting has it, error included, so that only
+/// the prediction and who asks for the pose need to know of the mounting's error.
 /// Axes of map; attitude errors are rotation vectors on the left, R_true = exp(error) R.
 ///
 /// One camera sees no scale: all constraints leave the window's dilation open. Two things keep
@@ -49,7 +52,8 @@ class WindowState {
  public:
   static constexpr int kScale = 6;
   static constexpr int kSpeed = 7;
-  static constexpr int kGlobals = 8;
+  static constexpr int kMounting = 8;
+  static constexpr int kGlobals = 11;
   static constexpr int kFrame = 6;
   static constexpr int kAnchor = 7;
 
@@ -87,6 +91,8 @@ class WindowState {
   void removeAnchor(std::size_t anchor);
 
   double scaleError() const { return scale_error_; }
+  /// Turns base as the camera's mounting has it into base.
+  const Eigen::Matrix3d& R_mounting() const { return R_mounting_; }
   /// Of all coordinates.
   const Eigen::MatrixXd& covariance() const { return P_; }
 
@@ -98,6 +104,7 @@ class WindowState {
   ObserverState observer_;
   std::uint32_t next_id_ = 1;
   Eigen::Matrix3d R_map_odom_ = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d R_mounting_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d velocity_bias_m_s_ = Eigen::Vector3d::Zero();
   double scale_error_ = 0;
   double speed_error_m_s_ = 0;

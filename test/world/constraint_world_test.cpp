@@ -146,6 +146,35 @@ TEST(ConstraintWorld, MovingAndTurningTheWorldMovesTheResultAlike) {
   }
 }
 
+TEST(ConstraintWorld, AnErrorOfTheMountingIsFoundWhereItIsAllowedFor) {
+  const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
+  PointWorld world = room(4);
+  std::vector<ImageFeatures> frames = test::film(world, flight);
+  const Eigen::Matrix3f turn =
+      Eigen::AngleAxisf(0.02F, Eigen::Vector3f(1, 2, 3).normalized()).toRotationMatrix();
+  for (ImageFeatures& frame : frames) {
+    for (Eigen::Vector3f& bearing : frame.bearing_cam) bearing = turn * bearing;
+  }
+  SlamConfig config = constraintConfig();
+  const auto rmseOf = [&](const FlightRun& run) {
+    double sum = 0;
+    for (std::size_t i = 0; i < flight.size(); ++i)
+      sum += (run.results[i].T_map_base.translation() - flight[i].T_map_base.translation())
+                 .squaredNorm();
+    return std::sqrt(sum / static_cast<double>(flight.size()));
+  };
+  const std::vector<ObserverState> observer = test::observe(flight, {}, 4);
+  const double without_m = rmseOf(test::run(frames, observer, config));
+  config.constraint_filter.observer.mounting_deviation_deg = 1;
+  const FlightRun with = test::run(frames, observer, config);
+  EXPECT_LT(rmseOf(with), 0.5 * without_m);
+  EXPECT_LT(Eigen::AngleAxisd(with.results.back().T_map_base.linear().transpose() *
+                              flight.back().T_map_base.linear())
+                .angle(),
+            0.01)
+      << "the pose is the base's, not that of the camera's mounting";
+}
+
 TEST(ConstraintWorld, HasNoPlanarMode) {
   SlamConfig config = constraintConfig();
   config.planar = true;
