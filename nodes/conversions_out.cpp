@@ -197,6 +197,7 @@ void toStatus(const FrameResult& result, const std::string& map_frame, Status& s
   status.feature_mismatches = count(result.feature_candidates - result.feature_matches);
   status.landmarks = count(result.landmarks);
   status.map_features = count(result.map_features);
+  status.fix_nis = std::isfinite(result.fix_nis) ? result.fix_nis : 0;
   status.deviation = result.state == SlamState::kNotFinite ? 0 : result.deviation_m;
 }
 

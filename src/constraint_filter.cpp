@@ -137,11 +137,19 @@ FixOutcome ConstraintFilter::fixBySightings(const std::vector<LandmarkSighting>&
     return FixOutcome::kNone;
   const MapFix fix =
       fixBy(state_, camera_base_, consensus, sigma_a, config_.fix_independent_landmarks);
+  learnFrom(fix);
   if (fix.drift.topLeftCorner<3, 3>().trace() <
       config_.fix_drift_share * fix.covariance.topLeftCorner<3, 3>().trace())
     return FixOutcome::kNotNeeded;
   if (!(fix.distance() < 6 * squared(config_.fix_gate_deviations))) return FixOutcome::kRejected;
   return state_.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;
+}
+
+void ConstraintFilter::learnFrom(const MapFix& fix) {
+  constexpr double kShare = 0.1;  // of one fix in the mean
+  constexpr double kWorst = 10;
+  fix_nis_ += kShare * (std::min(fix.distance() / 6, kWorst) - fix_nis_);
+  state_.inflate(std::max(fix_nis_, 1.0));
 }
 
 void ConstraintFilter::watchForRest(const ImageFeatures& features) {

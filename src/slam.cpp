@@ -195,6 +195,7 @@ void Slam::State::report(const ObserverState& observer) {
   }
   result.landmarks = static_cast<int>(landmark_map.size());
   result.map_features = static_cast<int>(feature_map.size());
+  if (constraint) result.fix_nis = constraint->fixNis();
   if (!isFinite(result)) result.state = SlamState::kNotFinite;
 }
 

@@ -86,6 +86,7 @@ void WindowState::start(const ObserverState& observer) {
   observer_ = observer;
   R_map_odom_.setIdentity();
   R_mounting_.setIdentity();
+  inflation_ = 1;
   velocity_bias_m_s_.setZero();
   scale_error_ = 0;
   speed_error_m_s_ = 0;
@@ -170,6 +171,14 @@ void WindowState::propagate(const ObserverState& observer) {
   observer_ = observer;
 }
 
+void WindowState::inflate(double factor) {
+  const double more = (factor - inflation_) * squared(config_.velocity_bias_m_s);
+  inflation_ = factor;
+  if (more <= 0) return;
+  P_.diagonal().segment<3>(kBias).array() += more;
+  P_(kSpeed, kSpeed) += more;
+}
+
 void WindowState::propagateGlobals(const ObserverState& observer, double dt_s, double way_m) {
   // Roll and pitch come back to the observer's, which gravity holds; yaw walks; biases fade.
   const Eigen::Vector3d up = R_map_odom_ * observer.T_odom_base.linear().col(2);
@@ -191,7 +200,8 @@ void WindowState::propagateGlobals(const ObserverState& observer, double dt_s, d
       squared(radians(config_.tilt_deviation_deg)) * (1 - keep_tilt * keep_tilt);
   const double yaw_variance = squared(radians(config_.yaw_walk_deg_per_sqrt_s)) * dt_s +
                               squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * way_m;
-  const double bias_variance = squared(config_.velocity_bias_m_s) * (1 - keep_bias * keep_bias);
+  const double bias_variance =
+      inflation_ * squared(config_.velocity_bias_m_s) * (1 - keep_bias * keep_bias);
   P_.block<3, 3>(kAttitude, kAttitude) +=
       tilt_variance * acrossOf(up) + yaw_variance * up * up.transpose();
   P_.diagonal().segment<3>(kBias).array() += bias_variance;

@@ -146,11 +146,15 @@ class ConstraintFilter {
   /// Of the last frame: tracks with enough parallax, and those of them that agreed and were used.
   int candidates() const { return candidates_; }
   int used() const { return static_cast<int>(used_.size()); }
+  /// Squared deviations of the fixes over what the covariance says of them, mean of the last ten or
+  /// so: 1 is honest. Above, the odometry's velocity is taken for so much worse than configured.
+  double fixNis() const { return fix_nis_; }
   /// Of the last frame, by its image; moving where the odometry contradicts it.
   CameraMotion motion() const { return motion_; }
 
  private:
   FixOutcome fixBySightings(const std::vector<LandmarkSighting>& sightings, double focal_length_px);
+  void learnFrom(const MapFix& fix);
   void watchForRest(const ImageFeatures& features);
   bool holdStill(std::size_t reference);
   void makeReference();
@@ -179,6 +183,7 @@ class ConstraintFilter {
   bool newest_is_keyframe_ = false;
   std::vector<UsedTrack> used_;
   int candidates_ = 0;
+  double fix_nis_ = 1;
   std::uint32_t anchor_id_ = 0;                       // of the frame that new points belong to
   double point_distance_m_ = 0;                       // median of the last keyframe's points
   std::unordered_set<std::uint32_t> anchors_in_use_;  // frames of the window that points belong to

@@ -39,6 +39,8 @@ struct FrameResult {
   Matrix6d covariance =
       Matrix6d::Zero();    ///< of T_map_base: position [m^2], rotation vector [rad^2], axes of map
   double deviation_m = 0;  ///< of the fused position, per axis (6.12)
+  /// Constraint filter: ConstraintFilter::fixNis(); 0 with the others.
+  double fix_nis = 0;
   /// Base position by the landmarks alone, before the fusion (6.4); nothing when there were too
   /// few.
   std::optional<Eigen::Vector3d> camera_position_map;

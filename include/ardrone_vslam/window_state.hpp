@@ -85,6 +85,8 @@ class WindowState {
   int anchorCoordinate(std::size_t anchor) const {
     return frameCoordinate(frames_.size()) + kAnchor * static_cast<int>(anchor);
   }
+  /// Takes the observer's velocity for so many times worse, in variance, as it is configured.
+  void inflate(double factor);
   void removeFrame(std::size_t frame);
   /// A frame leaves the window, its error is remembered.
   void makeAnchor(std::size_t frame);
@@ -101,6 +103,7 @@ class WindowState {
   void inject(const Eigen::VectorXd& error);
 
   ObserverNoiseConfig config_;
+  double inflation_ = 1;
   ObserverState observer_;
   std::uint32_t next_id_ = 1;
   Eigen::Matrix3d R_map_odom_ = Eigen::Matrix3d::Identity();

@@ -28,6 +28,7 @@ RunResult someRun() {
     frame.result.covariance.topLeftCorner<3, 3>() = 0.01 * Eigen::Matrix3d::Identity();
     frame.result.landmark_candidates = 10 * i + 2;
     frame.result.landmark_matches = 10 * i;
+    if (i > 0) frame.result.fix_nis = 0.75 * i;
     frame.result.features = 100;
     if (i == 3) {
       frame.result.state = SlamState::kLocalised;
@@ -195,6 +196,8 @@ TEST(RunReport, FilesOfARun) {
   EXPECT_EQ(rows[2][column("ms_total")], "8");
   for (const char* name : kStageNames) column(std::string("ms_") + name);
   column("deviation_m");
+  EXPECT_EQ(rows[2][column("fix_nis")], "1.5");
+  EXPECT_EQ(rows[0][column("fix_nis")], "") << "not known";
 
   std::ifstream landmarks(out + "/landmarks.csv");
   std::getline(landmarks, line);

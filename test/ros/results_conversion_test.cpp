@@ -23,6 +23,7 @@ FrameResult someResult() {
     for (int column = 0; column < 6; ++column) result.covariance(row, column) = 10 * row + column;
   }
   result.deviation_m = 0.25;
+  result.fix_nis = 1.5;
   result.features = 100;
   result.match_method = MatchMethod::kIndexed;
   result.landmark_candidates = 30;
@@ -98,6 +99,7 @@ TEST(ResultConversion, StatusCountsWhatWasRemoved) {
   EXPECT_EQ(status.feature_mismatches, 5U);
   EXPECT_EQ(status.match_method, "indexed");
   EXPECT_EQ(status.images, 77U);
+  EXPECT_EQ(status.fix_nis, 1.5);
 }
 
 TEST(ResultConversion, EveryOtherStateHasAReason) {

@@ -168,6 +168,22 @@ TEST(WindowState, TheScaleIsFoundByAPositionThatIsKnown) {
   EXPECT_LT(state.scaleError(), 1.2 * kScale);
 }
 
+TEST(WindowState, AnInflatedVelocityErrorGrowsAtOnceAndFadesLikeTheOther) {
+  const ObserverNoiseConfig config;
+  WindowState state(config);
+  state.start(observerAt(0, {0, 0, 0}));
+  const double variance = config.velocity_bias_m_s * config.velocity_bias_m_s;
+  state.inflate(9);
+  for (const int at : {3, 4, 5, WindowState::kSpeed})
+    EXPECT_NEAR(state.covariance()(at, at), 9 * variance, 1e-12);
+  state.inflate(9);
+  EXPECT_NEAR(state.covariance()(3, 3), 9 * variance, 1e-12) << "once";
+  state.inflate(1);
+  EXPECT_NEAR(state.covariance()(3, 3), 9 * variance, 1e-12) << "what is unknown stays unknown";
+  state.propagate(observerAt(10'000, {0, 0, 0}));
+  EXPECT_NEAR(state.covariance()(3, 3), variance, 1e-6) << "after fifty time constants";
+}
+
 TEST(WindowState, NothingChangesWhenTheInformationIsNotFinite) {
   WindowState state = circling(4);
   const Eigen::MatrixXd P = state.covariance();

@@ -175,6 +175,25 @@ TEST(ConstraintWorld, AnErrorOfTheMountingIsFoundWhereItIsAllowedFor) {
       << "the pose is the base's, not that of the camera's mounting";
 }
 
+TEST(ConstraintWorld, OdometryThatIsWorseThanConfiguredIsToldByItsFixesAndAllowedFor) {
+  const Flight flight = test::lapsFlight(kLapFrames, 3, 10);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    PointWorld world = room(seed);
+    // From the second lap on its velocity is ten times as wrong as configured.
+    std::vector<ObserverState> observer = test::observe(flight, {}, seed);
+    for (std::size_t i = kLapFrames; i < observer.size(); ++i)
+      observer[i].T_odom_base.translation() +=
+          Eigen::Vector3d(0.2, -0.2, 0.1) * 0.1 * static_cast<double>(i - kLapFrames);
+    const FlightRun run = test::fly(world, flight, observer, constraintConfig());
+    double highest = 0;
+    for (const FrameResult& result : run.results) highest = std::max(highest, result.fix_nis);
+    EXPECT_GT(highest, 2) << seed;
+    EXPECT_LT(run.fused.rmse_m / run.observer.rmse_m, 0.4)
+        << seed;  // measured: 0.03, 0.04, 0.27; with the configured error 0.56 to 0.61
+    EXPECT_LT(meanNees(flight, run), 60) << seed;  // 4, 5, 30; else 185 to 200
+  }
+}
+
 TEST(ConstraintWorld, HasNoPlanarMode) {
   SlamConfig config = constraintConfig();
   config.planar = true;

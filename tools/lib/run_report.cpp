@@ -131,7 +131,8 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
          "landmark_mismatches,"
          "feature_candidates,feature_matches,feature_mismatches,new_landmarks,removed_landmarks,"
          "landmarks,map_features,"
-         "deviation_m,camera_x_m,camera_y_m,camera_z_m,camera_deviation_m,fused_error_m,observer_"
+         "deviation_m,fix_nis,camera_x_m,camera_y_m,camera_z_m,camera_deviation_m,fused_error_m,"
+         "observer_"
          "error_m,camera_error_m,nees";
   for (const char* name : kStageNames) out << ",ms_" << name;
   out << ",ms_total\n" << std::setprecision(9);
@@ -154,6 +155,7 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
       out << ',' << count;
     }
     cell(r.deviation_m);
+    cell(r.fix_nis > 0 ? r.fix_nis : kNone);
     for (int axis = 0; axis < 3; ++axis)
       cell(r.camera_position_map ? (*r.camera_position_map)[axis] : kNone);
     cell(r.camera_position_map ? r.camera_deviation_m : kNone);
