@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the constraint filter does when the image is still.
+#include <cmath>
+
+#include "ardrone_vslam/constraint_filter.hpp"
+
+namespace ardrone_vslam {
+
+void ConstraintFilter::watchForRest(const ImageFeatures& features) {
+  const auto reference = frameOf(reference_id_);
+  Eigen::Matrix3d R_reference_now = Eigen::Matrix3d::Identity();
+  double attitude_deviation_rad = 0;
+  if (!reference) rest_ = RestDetector(config_.rest);
+  if (reference && reference_id_ != newest().id) {
+    const auto& P = state_.covariance();
+    const int i = state_.frameCoordinate(*reference) + 3;
+    const int j = state_.frameCoordinate(state_.frames().size() - 1) + 3;
+    attitude_deviation_rad = std::sqrt(
+        (P.block<3, 3>(i, i) + P.block<3, 3>(j, j) - P.block<3, 3>(i, j) - P.block<3, 3>(j, i))
+            .trace() /
+        3);
+    R_reference_now = (state_.frames()[*reference].R_map_base * R_base_cam_).transpose() *
+                      newest().R_map_base * R_base_cam_;
+  }
+  motion_ = rest_.see(features, R_reference_now, attitude_deviation_rad);
+  const bool is_still = motion_ == CameraMotion::kResting || motion_ == CameraMotion::kRotating;
+  const bool is_located =
+      fix_outcome_ == FixOutcome::kApplied || fix_outcome_ == FixOutcome::kNotNeeded;
+  if (is_still && reference && !is_located && !holdStill(*reference))
+    motion_ = CameraMotion::kMoving;
+  if (!is_still) odometry_way_.setZero();
+  if (rest_.isReference()) makeReference();
+}
+
+bool ConstraintFilter::holdStill(std::size_t reference) {
+  // Odometry does not err by so much: the image stands still for another reason (a frozen stream).
+  constexpr double kFastest_m_s = 0.5;
+  constexpr double kSlack_m = 0.1;
+  const WindowPose& then = state_.frames()[reference];
+  odometry_way_ += newest().position_map + newest().R_map_base * camera_base_ - then.position_map -
+                   then.R_map_base * camera_base_;
+  if (odometry_way_.norm() > kFastest_m_s * rest_.still_s() + kSlack_m) return false;
+  const double depth_m = point_distance_m_ > 0 ? point_distance_m_ : config_.rest.rest_depth_m;
+  const Eigen::Matrix3d R_map_cam = then.R_map_base * R_base_cam_;
+  state_.holdNewest(
+      reference, camera_base_,
+      depth_m * depth_m * R_map_cam * rest_.stillness().hidden * R_map_cam.transpose());
+  return true;
+}
+
+void ConstraintFilter::makeReference() {
+  const auto old = frameOf(reference_id_);
+  if (old && !reference_is_keyframe_ && reference_id_ != newest().id) state_.removeFrame(*old);
+  reference_id_ = newest().id;
+  reference_is_keyframe_ = false;
+}
+
+}  // namespace ardrone_vslam
