@@ -113,7 +113,8 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
                         latest_.state == Status::NOT_FINITE || standstill_.isStuck();
   const bool is_well =
       (latest_.state == Status::LOCALISED || latest_.state == Status::BUILDING_MAP ||
-       latest_.state == Status::OBSERVER_ONLY) &&
+       latest_.state == Status::TRACKING || latest_.state == Status::RESTING ||
+       latest_.state == Status::ROTATING || latest_.state == Status::OBSERVER_ONLY) &&
       speed_.absurd_m_s() == 0;
   const auto level = is_stuck  ? DiagnosticStatus::ERROR
                      : is_well ? DiagnosticStatus::OK
@@ -133,6 +134,8 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
   wrapper.add("landmarks", latest_.landmarks);
   wrapper.add("landmark matches", latest_.landmark_matches);
   wrapper.add("deviation [m]", latest_.deviation);
+  if (latest_.fix_nis > 0)
+    wrapper.add("squared deviations of fixes over expected", latest_.fix_nis);
 }
 
 }  // namespace ardrone_vslam
