@@ -124,6 +124,7 @@ void RestDetector::findAgain(const ImageFeatures& features,
   lost.erase(std::remove_if(lost.begin(), lost.end(), isThere), lost.end());
   const double reach_rad = 10 * config_.rest_deviation_px / features.focal_length_px;
   const double nearest_cosine = std::cos(reach_rad);
+  std::vector<Corner> found;
   for (std::size_t i = 0; i < features.size() && !lost.empty(); ++i) {
     const std::uint32_t id = features.track_id[i];
     const auto known = std::lower_bound(
@@ -141,9 +142,10 @@ void RestDetector::findAgain(const ImageFeatures& features,
       best = corner;
     }
     if (best == lost.end()) continue;
-    reference_.push_back({id, reference_[*best].bearing, reference_[*best].descriptor});
+    found.push_back({id, reference_[*best].bearing, reference_[*best].descriptor});
     lost.erase(best);
   }
+  reference_.insert(reference_.end(), found.begin(), found.end());
   std::sort(reference_.begin(), reference_.end(),
             [](const Corner& a, const Corner& b) { return a.track_id < b.track_id; });
 }
