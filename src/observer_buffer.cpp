@@ -58,7 +58,8 @@ std::string covarianceFault(const ObserverState& state) {
         << (is_negative ? "negative" : "above ");
   if (!is_negative) fault << kLargestVariance_m2 << " m^2";
   fault << ", so it counts as not given: the noise is that of observer_noise_m_per_sqrt_m and "
-           "observer_noise_m_per_sqrt_s; zeros in the source's pose covariance say the same";
+           "observer_noise_m_per_sqrt_s (constraint filter: walk_m_per_sqrt_m and _s); zeros in "
+           "the source's pose covariance say the same";
   return fault.str();
 }
 

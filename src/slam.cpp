@@ -210,8 +210,8 @@ const char* explain(SlamState state) {
       return "fewer landmarks recognised than min_landmarks: the view is new, blurred, dark or "
              "plain; the pose follows the odometry";
     case SlamState::kFixRejected:
-      return "the landmarks' position disagrees with the odometry by more than gate_deviations; "
-             "the pose follows the odometry";
+      return "the landmarks' position disagrees with the odometry by more than gate_deviations "
+             "(constraint filter: fix_gate_deviations); the pose follows the odometry";
     case SlamState::kObserverOnly:
       return "estimator is set to observer: the odometry is passed on without correction";
     case SlamState::kTracking:

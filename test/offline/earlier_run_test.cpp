@@ -60,6 +60,24 @@ TEST(EarlierRun, OfSeveralSeedsIsRemovedAndNothingElse) {
             (std::set<std::string>{"seed_2", "seed_2/run.png", "seed_3", "seed_3/fused.tum"}));
 }
 
+TEST(EarlierRun, ARecordingAndWhatALinkLeadsToAreKept) {
+  const TemporaryFolder recording;
+  recording.write("fused.tum", "");
+  recording.write("summary.json", R"({"sequence": "bag", "frames": 3, "fused_ate_rmse_m": 0.1})");
+  removeEarlierRun(recording.path());
+  EXPECT_EQ(filesIn(recording), (std::set<std::string>{"fused.tum", "summary.json"}));
+
+  const TemporaryFolder kept;
+  writeOneRun(kept);
+  const std::set<std::string> before = filesIn(kept);
+  const TemporaryFolder folder;
+  writeSeeds(folder, {1, 2});
+  std::filesystem::remove_all(folder.file("seed_2"));
+  std::filesystem::create_directory_symlink(kept.path(), folder.file("seed_2"));
+  removeEarlierRun(folder.path());
+  EXPECT_EQ(filesIn(kept), before);
+}
+
 TEST(EarlierRun, WhatNoRunWroteIsKept) {
   const TemporaryFolder folder;
   removeEarlierRun(folder.file("none"));

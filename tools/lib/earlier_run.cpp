@@ -18,9 +18,11 @@ Json readSummary(const std::string& folder) {
   return file ? Json::parse(file, nullptr, kThrows) : Json();
 }
 
-/// Another program's file may have the same name.
+/// Another program's file may have the same name; that of a recording, which cannot be made again,
+/// does not say which estimator ran.
 bool isOurs(const Json& summary) {
   return summary.is_object() && summary.contains("sequence") && summary.contains("frames") &&
+         summary.contains("estimator") && summary.contains("profile") &&
          (summary.contains("runs") || summary.contains("fused_ate_rmse_m"));
 }
 
@@ -37,7 +39,7 @@ void removeEarlierRun(const std::string& folder) {
   for (const Json& seed : summary.value("seeds", Json::array())) {
     if (!seed.is_number_unsigned()) continue;
     const std::string seed_folder = seedFolder(folder, seed.get<std::uint64_t>());
-    if (!isOurs(readSummary(seed_folder))) continue;
+    if (std::filesystem::is_symlink(seed_folder) || !isOurs(readSummary(seed_folder))) continue;
     removeFiles(seed_folder);
     std::error_code is_not_empty;
     std::filesystem::remove(seed_folder, is_not_empty);

@@ -50,7 +50,8 @@ std::vector<std::uint64_t> parseSeeds(const std::string& text) {
                      "' must be A:B with 0 <= A <= B, at most 10000 seeds, for example 1:5");
   }
   std::vector<std::uint64_t> seeds;
-  for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
+  // By count: the largest seed has no successor.
+  for (std::uint64_t i = 0; i <= last - first; ++i) seeds.push_back(first + i);
   return seeds;
 }
 
