@@ -13,6 +13,13 @@ double squared(double value) {
   return value * value;
 }
 
+std::optional<std::size_t> indexOf(const std::vector<WindowPose>& poses, std::uint32_t id) {
+  const auto found = std::find_if(poses.begin(), poses.end(),
+                                  [id](const WindowPose& pose) { return pose.id == id; });
+  if (found == poses.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - poses.begin());
+}
+
 /// A track that passed its gate, and how far it is trusted.
 struct Candidate {
   const FinishedTrack* track;
@@ -76,11 +83,7 @@ void ConstraintFilter::predict(const ObserverState& observer) {
 }
 
 std::optional<std::size_t> ConstraintFilter::frameOf(std::uint32_t id) const {
-  const auto& frames = state_.frames();
-  const auto found = std::find_if(frames.begin(), frames.end(),
-                                  [id](const WindowPose& frame) { return frame.id == id; });
-  if (found == frames.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - frames.begin());
+  return indexOf(state_.frames(), id);
 }
 
 Eigen::Isometry3d ConstraintFilter::T_map_base() const {
@@ -105,11 +108,7 @@ Matrix6d ConstraintFilter::covariance() const {
 }
 
 std::optional<std::size_t> ConstraintFilter::anchorOf(std::uint32_t id) const {
-  const auto& anchors = state_.anchors();
-  const auto found = std::find_if(anchors.begin(), anchors.end(),
-                                  [id](const WindowPose& anchor) { return anchor.id == id; });
-  if (found == anchors.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - anchors.begin());
+  return indexOf(state_.anchors(), id);
 }
 
 FixOutcome ConstraintFilter::fix(const std::vector<LandmarkSighting>& sightings,
@@ -184,13 +183,11 @@ const std::vector<UsedTrack>& ConstraintFilter::track(const ImageFeatures& featu
 }
 
 void ConstraintFilter::chooseAnchor() {
-  const auto& frames = state_.frames();
-  const auto anchor = std::find_if(frames.begin(), frames.end(),
-                                   [this](const WindowPose& f) { return f.id == anchor_id_; });
-  if (anchor != frames.end()) {
-    const double way_m = (newest().position_map - anchor->position_map).norm();
+  if (const auto frame = frameOf(anchor_id_)) {
+    const WindowPose& anchor = state_.frames()[*frame];
+    const double way_m = (newest().position_map - anchor.position_map).norm();
     const double turn_rad =
-        Eigen::AngleAxisd(newest().R_map_base.transpose() * anchor->R_map_base).angle();
+        Eigen::AngleAxisd(newest().R_map_base.transpose() * anchor.R_map_base).angle();
     if (way_m < config_.anchor_spacing * point_distance_m_ &&
         turn_rad < config_.anchor_turn_deg * M_PI / 180)
       return;
@@ -205,12 +202,10 @@ std::vector<AnchorMove> ConstraintFilter::takeMoves(double focal_length_px) {
 }
 
 std::vector<AnchorDrift> ConstraintFilter::drifts() const {
-  const auto& P = state_.covariance();
   const int n = state_.frameCoordinate(state_.frames().size() - 1);
   std::vector<AnchorDrift> drifts;
   const auto add = [&](const WindowPose& pose, int a) {
-    const Matrix6d relative =
-        P.block<6, 6>(n, n) + P.block<6, 6>(a, a) - P.block<6, 6>(n, a) - P.block<6, 6>(a, n);
+    const Matrix6d relative = state_.relativeCovariance(n, a);
     drifts.push_back({pose.id, std::max(relative.topLeftCorner<3, 3>().trace() / 3, 0.0),
                       std::max(relative.bottomRightCorner<3, 3>().trace() / 3, 0.0)});
   };
@@ -225,13 +220,11 @@ std::vector<AnchorDrift> ConstraintFilter::drifts() const {
 }
 
 bool ConstraintFilter::hasKnownBaseline(const std::vector<TrackView>& views) const {
-  const auto& P = state_.covariance();
   const std::size_t first = views.front().frame;
   const std::size_t last = views.back().frame;
-  const int i = state_.frameCoordinate(first);
-  const int j = state_.frameCoordinate(last);
   const Eigen::Matrix3d relative =
-      P.block<3, 3>(i, i) + P.block<3, 3>(j, j) - P.block<3, 3>(i, j) - P.block<3, 3>(j, i);
+      state_.relativeCovariance(state_.frameCoordinate(first), state_.frameCoordinate(last))
+          .topLeftCorner<3, 3>();
   const Eigen::Vector3d baseline =
       state_.frames()[last].position_map - state_.frames()[first].position_map;
   const double length_m2 = baseline.squaredNorm();

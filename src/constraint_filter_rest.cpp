@@ -12,13 +12,9 @@ void ConstraintFilter::watchForRest(const ImageFeatures& features) {
   double attitude_deviation_rad = 0;
   if (!reference) rest_ = RestDetector(config_.rest);
   if (reference && reference_id_ != newest().id) {
-    const auto& P = state_.covariance();
-    const int i = state_.frameCoordinate(*reference) + 3;
-    const int j = state_.frameCoordinate(state_.frames().size() - 1) + 3;
-    attitude_deviation_rad = std::sqrt(
-        (P.block<3, 3>(i, i) + P.block<3, 3>(j, j) - P.block<3, 3>(i, j) - P.block<3, 3>(j, i))
-            .trace() /
-        3);
+    const Matrix6d relative = state_.relativeCovariance(
+        state_.frameCoordinate(*reference), state_.frameCoordinate(state_.frames().size() - 1));
+    attitude_deviation_rad = std::sqrt(relative.bottomRightCorner<3, 3>().trace() / 3);
     R_reference_now = (state_.frames()[*reference].R_map_base * R_base_cam_).transpose() *
                       newest().R_map_base * R_base_cam_;
   }

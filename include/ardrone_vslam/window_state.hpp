@@ -97,6 +97,11 @@ class WindowState {
   const Eigen::Matrix3d& R_mounting() const { return R_mounting_; }
   /// Of all coordinates.
   const Eigen::MatrixXd& covariance() const { return P_; }
+  /// Of the difference of two poses, which start at these coordinates.
+  Matrix6d relativeCovariance(int a, int b) const {
+    return P_.block<6, 6>(a, a) + P_.block<6, 6>(b, b) - P_.block<6, 6>(a, b) -
+           P_.block<6, 6>(b, a);
+  }
 
  private:
   void propagateGlobals(const ObserverState& observer, double dt_s, double way_m);
