@@ -94,7 +94,7 @@ Eigen::Isometry3d ConstraintFilter::T_map_base() const {
 }
 
 Matrix6d ConstraintFilter::covariance() const {
-  const auto& P = state_.covariance();
+  const auto P = state_.covariance();
   const int at = state_.frameCoordinate(state_.frames().size() - 1);
   constexpr int kMounting = WindowState::kMounting;
   const Eigen::Matrix3d R_map_base = T_map_base().linear();

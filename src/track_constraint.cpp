@@ -115,7 +115,7 @@ Eigen::VectorXd TrackConstraint::change(const Eigen::VectorXd& error, int first)
 }
 
 double TrackConstraint::distance(const WindowState& state) const {
-  const Eigen::MatrixXd& P = state.covariance();
+  const auto P = state.covariance();
   Eigen::MatrixXd S(residual.size(), residual.size());  // A P A' + I, its lower half
   for (std::size_t i = 0; i < pose.size(); ++i) {
     for (std::size_t j = 0; j <= i; ++j) {

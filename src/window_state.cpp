@@ -2,12 +2,11 @@
 #include "ardrone_vslam/window_state.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
-#include "covariance_blocks.hpp"
+#include "information_root.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -52,25 +51,26 @@ void WindowState::start(const ObserverState& observer) {
   anchors_.clear();
   frames_.assign(1, {next_id_++, observer.stamp_ns, observer.T_odom_base.translation(),
                      observer.T_odom_base.linear(), config_.slow_speed_m_s, 1});
-  P_ = Eigen::MatrixXd::Zero(kGlobals + kFrame, kGlobals + kFrame);
-  P_.diagonal().segment<3>(kBias).setConstant(squared(config_.velocity_bias_m_s));
-  P_(kScale, kScale) = squared(config_.scale_deviation);
-  P_(kSpeed, kSpeed) = squared(config_.velocity_bias_m_s);
+  covariance_.reset(kGlobals + kFrame);
+  auto P = covariance_.all();
+  P.diagonal().segment<3>(kBias).setConstant(squared(config_.velocity_bias_m_s));
+  P(kScale, kScale) = squared(config_.scale_deviation);
+  P(kSpeed, kSpeed) = squared(config_.velocity_bias_m_s);
   // Yaw is zero by definition; roll and pitch may be off from the start.
   const Eigen::Matrix3d tilt =
       squared(radians(config_.tilt_deviation_deg)) * acrossOf(observer.T_odom_base.linear().col(2));
   const int attitude = kGlobals + 3;
-  P_.block<3, 3>(kAttitude, kAttitude) = tilt;
-  P_.block<3, 3>(attitude, kAttitude) = tilt;
-  P_.block<3, 3>(kAttitude, attitude) = tilt;
-  P_.block<3, 3>(attitude, attitude) = tilt;
-  P_.diagonal().segment<3>(kMounting).setConstant(squared(radians(config_.mounting_deviation_deg)));
-  P_.block<3, 3>(attitude, kMounting) =
-      observer.T_odom_base.linear() * P_.block<3, 3>(kMounting, kMounting);
-  P_.block<3, 3>(kMounting, attitude) = P_.block<3, 3>(attitude, kMounting).transpose();
-  P_.diagonal().segment<3>(attitude).array() += squared(radians(config_.attitude_noise_deg)) +
-                                                squared(radians(config_.mounting_deviation_deg));
-  P_.diagonal().segment<3>(kGlobals).setConstant(squared(config_.start_deviation_m));
+  P.block<3, 3>(kAttitude, kAttitude) = tilt;
+  P.block<3, 3>(attitude, kAttitude) = tilt;
+  P.block<3, 3>(kAttitude, attitude) = tilt;
+  P.block<3, 3>(attitude, attitude) = tilt;
+  P.diagonal().segment<3>(kMounting).setConstant(squared(radians(config_.mounting_deviation_deg)));
+  P.block<3, 3>(attitude, kMounting) =
+      observer.T_odom_base.linear() * P.block<3, 3>(kMounting, kMounting);
+  P.block<3, 3>(kMounting, attitude) = P.block<3, 3>(attitude, kMounting).transpose();
+  P.diagonal().segment<3>(attitude).array() += squared(radians(config_.attitude_noise_deg)) +
+                                               squared(radians(config_.mounting_deviation_deg));
+  P.diagonal().segment<3>(kGlobals).setConstant(squared(config_.start_deviation_m));
 }
 
 void WindowState::propagate(const ObserverState& observer) {
@@ -103,17 +103,21 @@ void WindowState::propagate(const ObserverState& observer) {
 
   const int from = frameCoordinate(frames_.size() - 1);
   const int to = frameCoordinate(frames_.size());
-  P_ = widened(P_, to, kFrame);
+  covariance_.insert(to, kFrame);
+  auto P = covariance_.all();
   Eigen::Matrix<double, 3, kGlobals> F = Eigen::Matrix<double, 3, kGlobals>::Zero();
   F.middleCols<3>(kAttitude) = -skew(moved);
   F.middleCols<3>(kBias) = -bias_to_step;
   F.col(kScale) = -moved;
   F.col(kSpeed) = -moved / next.speed_m_s;
-  P_.middleRows<3>(to) = P_.middleRows<3>(from) + F * P_.topRows<kGlobals>();
-  P_.middleCols<3>(to) = P_.middleCols<3>(from) + P_.leftCols<kGlobals>() * F.transpose();
+  auto position = P.middleCols<3>(to);
+  position = P.middleCols<3>(from);
+  position.noalias() += P.leftCols<kGlobals>() * F.transpose();
+  position.middleRows<3>(to) = position.middleRows<3>(from) + F * position.topRows<kGlobals>();
+  P.middleRows<3>(to) = position.transpose();
   const std::optional<double> then = positionVariance_m2(observer_);
   const std::optional<double> now = positionVariance_m2(observer);
-  P_.diagonal().segment<3>(to).array() +=
+  P.diagonal().segment<3>(to).array() +=
       then && now && *now > *then
           ? *now - *then
           : squared(config_.walk_m_per_sqrt_m) * way_m + squared(config_.walk_m_per_sqrt_s) * dt_s;
@@ -121,10 +125,13 @@ void WindowState::propagate(const ObserverState& observer) {
   propagateGlobals(observer, dt_s, way_m);
   const Eigen::Matrix3d R_map_base = R_map_odom_ * observer.T_odom_base.linear();
   next.R_map_base = R_map_base * R_mounting_;
-  P_.middleRows<3>(to + 3) = P_.middleRows<3>(kAttitude) + R_map_base * P_.middleRows<3>(kMounting);
-  P_.middleCols<3>(to + 3) =
-      P_.middleCols<3>(kAttitude) + P_.middleCols<3>(kMounting) * R_map_base.transpose();
-  P_.diagonal().segment<3>(to + 3).array() += squared(radians(config_.attitude_noise_deg));
+  auto attitude = P.middleCols<3>(to + 3);
+  attitude = P.middleCols<3>(kAttitude);
+  attitude.noalias() += P.middleCols<3>(kMounting) * R_map_base.transpose();
+  attitude.middleRows<3>(to + 3) =
+      attitude.middleRows<3>(kAttitude) + R_map_base * attitude.middleRows<3>(kMounting);
+  P.middleRows<3>(to + 3) = attitude.transpose();
+  P.diagonal().segment<3>(to + 3).array() += squared(radians(config_.attitude_noise_deg));
   frames_.push_back(next);
   observer_ = observer;
 }
@@ -133,8 +140,9 @@ void WindowState::inflate(double factor) {
   const double more = (factor - inflation_) * squared(config_.velocity_bias_m_s);
   inflation_ = factor;
   if (more <= 0) return;
-  P_.diagonal().segment<3>(kBias).array() += more;
-  P_(kSpeed, kSpeed) += more;
+  auto P = covariance_.all();
+  P.diagonal().segment<3>(kBias).array() += more;
+  P(kSpeed, kSpeed) += more;
 }
 
 void WindowState::propagateGlobals(const ObserverState& observer, double dt_s, double way_m) {
@@ -147,23 +155,29 @@ void WindowState::propagateGlobals(const ObserverState& observer, double dt_s, d
   velocity_bias_m_s_ *= keep_bias;
   speed_error_m_s_ *= keep_bias;
 
-  Eigen::Matrix<double, kGlobals, kGlobals> F =
-      Eigen::Matrix<double, kGlobals, kGlobals>::Identity();
-  F.block<3, 3>(kAttitude, kAttitude) -= (1 - keep_tilt) * acrossOf(up);
-  F.diagonal().segment<3>(kBias).setConstant(keep_bias);
-  F(kSpeed, kSpeed) = keep_bias;
-  P_.topRows<kGlobals>() = (F * P_.topRows<kGlobals>()).eval();
-  P_.leftCols<kGlobals>() = (P_.leftCols<kGlobals>() * F.transpose()).eval();
+  const Eigen::Matrix3d keep_attitude =
+      Eigen::Matrix3d::Identity() - (1 - keep_tilt) * acrossOf(up);
+  auto P = covariance_.all();
+  auto globals = P.leftCols<kGlobals>();
+  globals.middleCols<3>(kAttitude) *= keep_attitude.transpose();
+  globals.middleCols<3>(kBias) *= keep_bias;
+  globals.col(kSpeed) *= keep_bias;
+  auto corner = P.topLeftCorner<kGlobals, kGlobals>();
+  corner.middleRows<3>(kAttitude) = (keep_attitude * corner.middleRows<3>(kAttitude)).eval();
+  corner.middleRows<3>(kBias) *= keep_bias;
+  corner.row(kSpeed) *= keep_bias;
   const double tilt_variance =
       squared(radians(config_.tilt_deviation_deg)) * (1 - keep_tilt * keep_tilt);
   const double yaw_variance = squared(radians(config_.yaw_walk_deg_per_sqrt_s)) * dt_s +
                               squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * way_m;
   const double bias_variance =
       inflation_ * squared(config_.velocity_bias_m_s) * (1 - keep_bias * keep_bias);
-  P_.block<3, 3>(kAttitude, kAttitude) +=
+  P.block<3, 3>(kAttitude, kAttitude) +=
       tilt_variance * acrossOf(up) + yaw_variance * up * up.transpose();
-  P_.diagonal().segment<3>(kBias).array() += bias_variance;
-  P_(kSpeed, kSpeed) += bias_variance;
+  P.diagonal().segment<3>(kBias).array() += bias_variance;
+  P(kSpeed, kSpeed) += bias_variance;
+  const auto others = P.rows() - kGlobals;
+  P.topRightCorner(kGlobals, others) = P.bottomLeftCorner(others, kGlobals).transpose();
 }
 
 void WindowState::holdNewest(std::size_t reference, const Eigen::Vector3d& camera_base,
@@ -175,48 +189,57 @@ void WindowState::holdNewest(std::size_t reference, const Eigen::Vector3d& camer
   newest.position_map = then.position_map + lever_then - lever;
   const int from = frameCoordinate(reference);
   const int to = frameCoordinate(frames_.size() - 1);
-  P_.middleRows<3>(to) = (P_.middleRows<3>(from) - skew(lever_then) * P_.middleRows<3>(from + 3) +
-                          skew(lever) * P_.middleRows<3>(to + 3))
-                             .eval();
-  P_.middleCols<3>(to) =
-      (P_.middleCols<3>(from) - P_.middleCols<3>(from + 3) * skew(lever_then).transpose() +
-       P_.middleCols<3>(to + 3) * skew(lever).transpose())
+  auto P = covariance_.all();
+  P.middleRows<3>(to) = (P.middleRows<3>(from) - skew(lever_then) * P.middleRows<3>(from + 3) +
+                         skew(lever) * P.middleRows<3>(to + 3))
+                            .eval();
+  P.middleCols<3>(to) =
+      (P.middleCols<3>(from) - P.middleCols<3>(from + 3) * skew(lever_then).transpose() +
+       P.middleCols<3>(to + 3) * skew(lever).transpose())
           .eval();
-  P_.block<3, 3>(to, to) += deviation_m2;
+  P.block<3, 3>(to, to) += deviation_m2;
 }
 
+// With the information's rows B (H' W H = B B', H' W r = B m) the gain is P B (I + B' P B)^-1, and
+// only so many columns as there are independent measurements take part.
 std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {
-  const Eigen::MatrixXd P_ww = P_(information.coordinates, information.coordinates);
-  Eigen::MatrixXd M = P_ww * information.matrix;
+  const std::vector<int>& w = information.coordinates;
+  const InformationRoot root(information);
+  if (root.measured.size() == 0) return Eigen::VectorXd::Zero(information.vector.size());
+  const Eigen::MatrixXd P_ww = covariance()(w, w);
+  const Eigen::MatrixXd P_B = P_ww * root.rows;
+  Eigen::MatrixXd M = root.rows.transpose() * P_B;
   M.diagonal().array() += 1;
-  const Eigen::VectorXd error = M.partialPivLu().solve(P_ww * information.vector);
+  const Eigen::VectorXd error = P_B * M.llt().solve(root.measured);
   if (!error.allFinite()) return std::nullopt;
   return error;
 }
 
 bool WindowState::update(const Information& information) {
+  if (!information.matrix.allFinite() || !information.vector.allFinite()) return false;
   const std::vector<int>& w = information.coordinates;
-  const auto size = static_cast<Eigen::Index>(w.size());
-  // With P_ww = C C' and N = C' information C the posterior is P - G (I - (I + N)^-1) G', where
-  // G = P_w C'^-1: positive whatever the rank of the information.
-  constexpr double kRounding = 1e-14;
-  const Eigen::MatrixXd P_ww = P_(w, w);
-  const Eigen::LLT<Eigen::MatrixXd> prior(P_ww + kRounding * Eigen::MatrixXd::Identity(size, size));
-  if (prior.info() != Eigen::Success) return false;
-  const Eigen::MatrixXd C = prior.matrixL();
-  Eigen::MatrixXd M = C.transpose() * information.matrix * C;
+  const InformationRoot root(information);
+  if (root.measured.size() == 0) return true;
+  auto P = covariance_.all();
+  const Eigen::MatrixXd P_w = P(Eigen::all, w);
+  Eigen::MatrixXd G = P_w * root.rows;
+  Eigen::MatrixXd M = root.rows.transpose() * G(w, Eigen::all);
   M.diagonal().array() += 1;
-  const Eigen::LLT<Eigen::MatrixXd> inner(M);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
   if (inner.info() != Eigen::Success) return false;
-  const Eigen::MatrixXd P_w = P_(Eigen::all, w);
-  const Eigen::MatrixXd G = prior.matrixL().solve(P_w.transpose()).transpose();
-  const Eigen::VectorXd error = G * inner.solve(C.transpose() * information.vector);
+  inner.matrixU().solveInPlace<Eigen::OnTheRight>(G);
+  const Eigen::VectorXd error = G * inner.matrixL().solve(root.measured);
   if (!error.allFinite()) return false;
 
-  const Eigen::MatrixXd gain =
-      Eigen::MatrixXd::Identity(size, size) - inner.solve(Eigen::MatrixXd::Identity(size, size));
-  P_ -= G * (gain * G.transpose());
-  P_ = (0.5 * (P_ + P_.transpose())).eval();
+  // P - G G', of which then the dilation is turned: (I - T S) (P - G G') (I - T S)', S picking
+  // scale and speed.
+  const Eigen::MatrixX2d T = stretchBy(error);
+  const Eigen::MatrixX2d P_s = P.middleCols<2>(kScale) - G * G.middleRows<2>(kScale).transpose();
+  const Eigen::MatrixX2d V = P_s - 0.5 * T * P_s.middleRows<2>(kScale);
+  auto lower = P.selfadjointView<Eigen::Lower>();
+  lower.rankUpdate(G, -1);
+  for (int k = 0; k < 2; ++k) lower.rankUpdate(T.col(k), V.col(k), -1);
+  covariance_.mirrorLower();
   inject(error);
   return true;
 }
@@ -227,47 +250,53 @@ void WindowState::inject(const Eigen::VectorXd& error) {
   velocity_bias_m_s_ += error.segment<3>(kBias);
   scale_error_ += error(kScale);
   speed_error_m_s_ += error(kSpeed);
-  // A scale error stretches map and window as they now are, not as they were: the covariance must
-  // say so, or later constraints would take the difference for a sight of the scale. The speed's
-  // error stretches the window alone, about the newest frame.
-  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(error.size(), 2);
   const auto correct = [&](WindowPose& pose, int at, double speed_error_m_s) {
     pose.position_map += error.segment<3>(at);
     pose.R_map_base = rotationOf(error.segment<3>(at + 3)) * pose.R_map_base;
     pose.stretch *= 1 - error(kScale) - speed_error_m_s / pose.speed_m_s;
-    T.block<3, 1>(at, 0) = error.segment<3>(at);
   };
-  const Eigen::Vector3d shift = error.segment<3>(frameCoordinate(frames_.size() - 1));
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    const int at = frameCoordinate(i);
-    correct(frames_[i], at, error(kSpeed));
-    T.block<3, 1>(at, 1) = (error.segment<3>(at) - shift) / frames_[i].speed_m_s;
-  }
   for (std::size_t i = 0; i < anchors_.size(); ++i) {
     const int at = anchorCoordinate(i);
     correct(anchors_[i], at, error(at + kFrame));
   }
-  P_ -= (T * P_.middleRows<2>(kScale)).eval();
-  P_ -= (P_.middleCols<2>(kScale) * T.transpose()).eval();
+  for (std::size_t i = 0; i < frames_.size(); ++i)
+    correct(frames_[i], frameCoordinate(i), error(kSpeed));
+}
+
+// A scale error stretches map and window as they now are, not as they were: the covariance must
+// say so, or later constraints would take the difference for a sight of the scale. The speed's
+// error stretches the window alone, about the newest frame.
+Eigen::MatrixX2d WindowState::stretchBy(const Eigen::VectorXd& error) const {
+  Eigen::MatrixX2d T = Eigen::MatrixX2d::Zero(error.size(), 2);
+  for (std::size_t i = 0; i < anchors_.size(); ++i) {
+    const int at = anchorCoordinate(i);
+    T.block<3, 1>(at, 0) = error.segment<3>(at);
+  }
+  const Eigen::Vector3d shift = error.segment<3>(frameCoordinate(frames_.size() - 1));
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    const int at = frameCoordinate(i);
+    T.block<3, 1>(at, 0) = error.segment<3>(at);
+    T.block<3, 1>(at, 1) = (error.segment<3>(at) - shift) / frames_[i].speed_m_s;
+  }
+  return T;
 }
 
 void WindowState::removeFrame(std::size_t frame) {
-  P_ = without(P_, frameCoordinate(frame), kFrame);
+  covariance_.remove(frameCoordinate(frame), kFrame);
   frames_.erase(frames_.begin() + static_cast<std::ptrdiff_t>(frame));
 }
 
 void WindowState::makeAnchor(std::size_t frame) {
-  const int first = frameCoordinate(frame);
-  const int behind = first + kFrame;
-  P_ = picked(
-      P_,
-      {{0, first}, {behind, static_cast<int>(P_.rows()) - behind}, {first, kFrame}, {kSpeed, 1}});
+  const int anchor = anchorCoordinate(anchors_.size());
+  covariance_.insert(anchor, kAnchor);
+  covariance_.copy(frameCoordinate(frame) + kAnchor, anchor, kFrame);
+  covariance_.copy(kSpeed, anchor + kFrame, 1);
   anchors_.push_back(frames_[frame]);
-  frames_.erase(frames_.begin() + static_cast<std::ptrdiff_t>(frame));
+  removeFrame(frame);
 }
 
 void WindowState::removeAnchor(std::size_t anchor) {
-  P_ = without(P_, anchorCoordinate(anchor), kAnchor);
+  covariance_.remove(anchorCoordinate(anchor), kAnchor);
   anchors_.erase(anchors_.begin() + static_cast<std::ptrdiff_t>(anchor));
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "ardrone_vslam/covariance_matrix.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
 #include "ardrone_vslam/observer_noise.hpp"
 
@@ -24,7 +25,7 @@ struct WindowPose {
 
 /// Measurements r = H x + n of some error coordinates, compressed to H' W H and H' W r.
 struct Information {
-  std::vector<int> coordinates;  ///< of WindowState, ascending
+  std::vector<int> coordinates;  ///< of WindowState
   Eigen::MatrixXd matrix;
   Eigen::VectorXd vector;
 
@@ -38,8 +39,10 @@ struct Information {
 ///   6     scale error: the observer reports (1 + s) times the way [-]
 ///   7     slow error of the observer's speed along the way [m/s]
 ///   8-10  attitude of the camera's mounting [rad], axes of base
-///   then  the frames, oldest first: position of base [m], attitude [rad]
-///   then  the anchors: alike, and the speed error of their time, as landmarks share its scale
+///   then  the anchors: position of base [m], attitude [rad], and the speed error of their time, as
+///         landmarks share its scale
+///   then  the frames, oldest first: position and attitude. They come and go with every image, and
+///         at the end they do so without moving the others.
 /// A frame's attitude is that of base as the camera's mounting has it, error included, so that only
 /// the prediction and who asks for the pose need to know of the mounting's error.
 /// Axes of map; attitude errors are rotation vectors on the left, R_true = exp(error) R.
@@ -65,7 +68,7 @@ class WindowState {
   void propagate(const ObserverState& observer);
   /// What update() would add to the coordinates of the information; nothing when it is not finite.
   std::optional<Eigen::VectorXd> preview(const Information& information) const;
-  /// Corrects globals, frames and anchors. O(coordinates^2 x size of the information).
+  /// Corrects globals, anchors and frames. O(coordinates^2 x rank of the information).
   /// @return false when the covariance is not positive or the result not finite; nothing is changed
   bool update(const Information& information);
 
@@ -80,10 +83,10 @@ class WindowState {
   const std::vector<WindowPose>& anchors() const { return anchors_; }
   /// First coordinate of a frame; of frames().size(): one beyond the last frame.
   int frameCoordinate(std::size_t frame) const {
-    return kGlobals + kFrame * static_cast<int>(frame);
+    return anchorCoordinate(anchors_.size()) + kFrame * static_cast<int>(frame);
   }
   int anchorCoordinate(std::size_t anchor) const {
-    return frameCoordinate(frames_.size()) + kAnchor * static_cast<int>(anchor);
+    return kGlobals + kAnchor * static_cast<int>(anchor);
   }
   /// Takes the observer's velocity for so many times worse, in variance, as it is configured.
   void inflate(double factor);
@@ -96,16 +99,17 @@ class WindowState {
   /// Turns base as the camera's mounting has it into base.
   const Eigen::Matrix3d& R_mounting() const { return R_mounting_; }
   /// Of all coordinates.
-  const Eigen::MatrixXd& covariance() const { return P_; }
+  CovarianceMatrix::ConstView covariance() const { return covariance_.all(); }
   /// Of the difference of two poses, which start at these coordinates.
   Matrix6d relativeCovariance(int a, int b) const {
-    return P_.block<6, 6>(a, a) + P_.block<6, 6>(b, b) - P_.block<6, 6>(a, b) -
-           P_.block<6, 6>(b, a);
+    const auto P = covariance();
+    return P.block<6, 6>(a, a) + P.block<6, 6>(b, b) - P.block<6, 6>(a, b) - P.block<6, 6>(b, a);
   }
 
  private:
   void propagateGlobals(const ObserverState& observer, double dt_s, double way_m);
   void inject(const Eigen::VectorXd& error);
+  Eigen::MatrixX2d stretchBy(const Eigen::VectorXd& error) const;
 
   ObserverNoiseConfig config_;
   double inflation_ = 1;
@@ -119,7 +123,7 @@ class WindowState {
   double speed_m_s_ = 0;  // smoothed
   std::vector<WindowPose> frames_;
   std::vector<WindowPose> anchors_;
-  Eigen::MatrixXd P_;
+  CovarianceMatrix covariance_;
 };
 
 }  // namespace ardrone_vslam
