@@ -151,7 +151,7 @@ void ConstraintFilter::learnFrom(const MapFix& fix) {
   state_.inflate(std::max(fix_nis_, 1.0));
 }
 
-bool ConstraintFilter::isKeyframe(const ImageFeatures& features) const {
+bool ConstraintFilter::isKeyframe(const ImageFeatures& features) {
   const auto keyframe = frameOf(keyframe_id_);
   if (!keyframe) return true;
   if (motion_ == CameraMotion::kResting) return false;
@@ -159,7 +159,7 @@ bool ConstraintFilter::isKeyframe(const ImageFeatures& features) const {
   if (motion_ != CameraMotion::kRotating &&
       static_cast<double>(newest().stamp_ns - last.stamp_ns) * 1e-9 > config_.keyframe_s)
     return true;
-  const TrackWindow::Motion motion = tracks_.motionSince(last, newest(), features);
+  const TrackWindow::Motion motion = tracks_.motionSince(last, newest(), features, order_);
   return motion.lost > motion.common || motion.common == 0 ||
          motion.median_px > config_.keyframe_px;
 }
@@ -167,12 +167,13 @@ bool ConstraintFilter::isKeyframe(const ImageFeatures& features) const {
 const std::vector<UsedTrack>& ConstraintFilter::track(const ImageFeatures& features) {
   used_.clear();
   candidates_ = 0;
+  order_.reset(features);
   watchForRest(features);
   if (!isKeyframe(features)) return used_;
   newest_is_keyframe_ = true;
   keyframe_id_ = newest().id;
   if (reference_id_ == keyframe_id_) reference_is_keyframe_ = true;
-  tracks_.add(newest().id, features);
+  tracks_.add(newest().id, features, order_);
   chooseAnchor();
   const int others = reference_is_keyframe_ || !frameOf(reference_id_) ? 0 : 1;
   const bool is_full = static_cast<int>(state_.frames().size()) - others > config_.window_frames;
@@ -219,7 +220,7 @@ std::vector<AnchorDrift> ConstraintFilter::drifts() const {
   return drifts;
 }
 
-bool ConstraintFilter::hasKnownBaseline(const std::vector<TrackView>& views) const {
+bool ConstraintFilter::hasKnownBaseline(TrackViews views) const {
   const std::size_t first = views.front().frame;
   const std::size_t last = views.back().frame;
   const Eigen::Matrix3d relative =

@@ -28,8 +28,7 @@ Eigen::Vector3d cameraOf(const WindowPose& pose, const Eigen::Vector3d& camera_b
 
 /// The point nearest to all rays, a start for the iteration on angles.
 Eigen::Vector3d nearestPoint(const std::vector<WindowPose>& frames,
-                             const Eigen::Vector3d& camera_base,
-                             const std::vector<TrackView>& views) {
+                             const Eigen::Vector3d& camera_base, TrackViews views) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   for (const TrackView& view : views) {
@@ -71,8 +70,7 @@ std::optional<RayResidual> rayResidual(const WindowPose& pose, const Eigen::Vect
 }
 
 std::optional<TrackPoint> triangulateTrack(const std::vector<WindowPose>& frames,
-                                           const Eigen::Vector3d& camera_base,
-                                           const std::vector<TrackView>& views,
+                                           const Eigen::Vector3d& camera_base, TrackViews views,
                                            double angle_deviation_rad) {
   if (views.size() < 2) return std::nullopt;
   TrackPoint point;
@@ -152,8 +150,7 @@ void TrackConstraint::addTo(Information& information, double weight) const {
 }
 
 std::optional<TrackConstraint> constraintOf(const WindowState& state,
-                                            const Eigen::Vector3d& camera_base,
-                                            const std::vector<TrackView>& views,
+                                            const Eigen::Vector3d& camera_base, TrackViews views,
                                             const TrackPoint& point, double angle_deviation_rad) {
   const auto n = static_cast<Eigen::Index>(views.size());
   TrackConstraint constraint;

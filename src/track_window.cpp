@@ -5,87 +5,117 @@
 
 namespace ardrone_vslam {
 
+TrackWindow::Track* TrackWindow::Tracks::find(std::uint32_t id) {
+  const auto track =
+      std::lower_bound(tracks.begin(), tracks.end(), id,
+                       [](const Track& one, std::uint32_t other) { return one.id < other; });
+  return track != tracks.end() && track->id == id ? &*track : nullptr;
+}
+
+void TrackWindow::Tracks::take(const Track& track, const Tracks& from) {
+  tracks.push_back(track);
+  tracks.back().first = static_cast<std::uint32_t>(sightings.size());
+  const auto first = from.sightings.begin() + track.first;
+  sightings.insert(sightings.end(), first, first + track.count);
+}
+
 TrackWindow::Motion TrackWindow::motionSince(const WindowPose& frame, const WindowPose& present,
-                                             const ImageFeatures& features) const {
+                                             const ImageFeatures& features,
+                                             const TrackOrder& order) {
   const Eigen::Matrix3d R_frame_cam =
       frame.R_map_base.transpose() * present.R_map_base * R_base_cam_;
-  std::vector<double> moved_px;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const auto track = tracks_.find(features.track_id[i]);
-    if (track == tracks_.end() || track->second.sightings.back().frame_id != frame.id) continue;
-    const Eigen::Vector3d now = R_frame_cam * features.bearing_cam[i].cast<double>();
-    moved_px.push_back((now - track->second.sightings.back().bearing_base).norm() *
-                       features.focal_length_px);
-  }
+  moved_px_.clear();
   Motion motion;
-  motion.common = static_cast<int>(moved_px.size());
-  for (const auto& [id, track] : tracks_)
-    motion.lost += track.sightings.back().frame_id == frame.id ? 1 : 0;
-  motion.lost -= motion.common;
-  if (moved_px.empty()) return motion;
-  const auto middle = moved_px.begin() + static_cast<std::ptrdiff_t>(moved_px.size() / 2);
-  std::nth_element(moved_px.begin(), middle, moved_px.end());
+  const TrackedFeature* seen = order.begin();
+  for (const Track& track : now_.tracks) {
+    if (now_.newest(track).frame_id != frame.id) continue;
+    while (seen != order.end() && seen->track_id < track.id) ++seen;
+    if (seen == order.end() || seen->track_id != track.id) {
+      ++motion.lost;
+      continue;
+    }
+    const Eigen::Vector3d now = R_frame_cam * features.bearing_cam[seen->feature].cast<double>();
+    moved_px_.push_back((now - now_.newest(track).bearing_base).norm() * features.focal_length_px);
+  }
+  motion.common = static_cast<int>(moved_px_.size());
+  if (moved_px_.empty()) return motion;
+  const auto middle = moved_px_.begin() + static_cast<std::ptrdiff_t>(moved_px_.size() / 2);
+  std::nth_element(moved_px_.begin(), middle, moved_px_.end());
   motion.median_px = *middle;
   return motion;
 }
 
-void TrackWindow::add(std::uint32_t frame_id, const ImageFeatures& features) {
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (features.track_id[i] == kNoTrack) continue;
-    Track& track = tracks_[features.track_id[i]];
-    track.sightings.push_back({frame_id, R_base_cam_ * features.bearing_cam[i].cast<double>()});
-    track.descriptor = features.descriptor[i];
+void TrackWindow::add(std::uint32_t frame_id, const ImageFeatures& features,
+                      const TrackOrder& order) {
+  next_.tracks.clear();
+  next_.sightings.clear();
+  auto known = now_.tracks.begin();
+  for (const TrackedFeature& seen : order) {
+    for (; known != now_.tracks.end() && known->id < seen.track_id; ++known)
+      next_.take(*known, now_);
+    Track begun;
+    begun.id = seen.track_id;
+    const bool goes_on = known != now_.tracks.end() && known->id == seen.track_id;
+    next_.take(goes_on ? *known++ : begun, now_);
+    Track& track = next_.tracks.back();
+    next_.sightings.push_back(
+        {frame_id, R_base_cam_ * features.bearing_cam[seen.feature].cast<double>()});
+    ++track.count;
+    track.descriptor = features.descriptor[seen.feature];
   }
+  for (; known != now_.tracks.end(); ++known) next_.take(*known, now_);
+  std::swap(now_, next_);
 }
 
 void TrackWindow::assignLandmark(std::uint32_t track_id, std::uint32_t landmark_id) {
-  const auto track = tracks_.find(track_id);
-  if (track != tracks_.end()) track->second.landmark_id = landmark_id;
+  if (Track* track = now_.find(track_id)) track->landmark_id = landmark_id;
 }
 
-std::vector<FinishedTrack> TrackWindow::takeFinished(const std::vector<WindowPose>& frames,
-                                                     bool oldest_goes) {
+const std::vector<FinishedTrack>& TrackWindow::takeFinished(const std::vector<WindowPose>& frames,
+                                                            bool oldest_goes) {
   const std::uint32_t newest_id = frames.back().id;
   const std::uint32_t oldest_id = frames.front().id;
-  std::vector<FinishedTrack> finished;
-  for (auto entry = tracks_.begin(); entry != tracks_.end();) {
-    Track& track = entry->second;
-    const bool has_ended = track.sightings.back().frame_id != newest_id;
-    const bool spans = oldest_goes && track.sightings.front().frame_id == oldest_id;
-    if (!has_ended && !spans) {
-      ++entry;
-      continue;
-    }
-    FinishedTrack result;
-    result.track_id = entry->first;
-    result.descriptor = track.descriptor;
-    result.landmark_id = track.landmark_id;
+  finished_.clear();
+  finished_views_.clear();
+  finished_views_.reserve(now_.sightings.size());  // the tracks below point into it
+  const auto takeEnded = [&](const Track& track) {
+    const bool has_ended = now_.newest(track).frame_id != newest_id;
+    const bool spans = oldest_goes && now_.oldest(track).frame_id == oldest_id;
+    if (!has_ended && !spans) return false;
+    const std::size_t first_view = finished_views_.size();
     std::size_t frame = 0;
-    for (const Sighting& sighting : track.sightings) {
-      while (frames[frame].id != sighting.frame_id) ++frame;
-      result.views.push_back({frame, sighting.bearing_base});
+    for (std::uint32_t i = track.first; i < track.first + track.count; ++i) {
+      while (frames[frame].id != now_.sightings[i].frame_id) ++frame;
+      finished_views_.push_back({frame, now_.sightings[i].bearing_base});
     }
-    finished.push_back(std::move(result));
-    entry = has_ended ? tracks_.erase(entry) : std::next(entry);
-  }
-  std::sort(finished.begin(), finished.end(),
-            [](const FinishedTrack& a, const FinishedTrack& b) { return a.track_id < b.track_id; });
-  return finished;
+    finished_.push_back({track.id,
+                         {finished_views_.data() + first_view, track.count},
+                         track.descriptor,
+                         track.landmark_id});
+    return has_ended;
+  };
+  auto& tracks = now_.tracks;
+  tracks.erase(std::remove_if(tracks.begin(), tracks.end(), takeEnded), tracks.end());
+  return finished_;
 }
 
 void TrackWindow::keepNewestView(std::uint32_t track_id) {
-  const auto entry = tracks_.find(track_id);
-  if (entry == tracks_.end()) return;
-  auto& sightings = entry->second.sightings;
-  sightings.erase(sightings.begin(), sightings.end() - 1);
+  Track* track = now_.find(track_id);
+  if (track == nullptr) return;
+  track->first += track->count - 1;
+  track->count = 1;
 }
 
 void TrackWindow::dropFrame(std::uint32_t frame_id) {
-  for (auto entry = tracks_.begin(); entry != tracks_.end();) {
-    auto& sightings = entry->second.sightings;
-    if (sightings.front().frame_id == frame_id) sightings.erase(sightings.begin());
-    entry = sightings.empty() ? tracks_.erase(entry) : std::next(entry);
+  for (Track& track : now_.tracks) {
+    if (now_.oldest(track).frame_id != frame_id) continue;
+    ++track.first;
+    --track.count;
   }
+  auto& tracks = now_.tracks;
+  tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
+                              [](const Track& track) { return track.count == 0; }),
+               tracks.end());
 }
 
 }  // namespace ardrone_vslam

@@ -159,8 +159,8 @@ class ConstraintFilter {
   bool holdStill(std::size_t reference);
   void makeReference();
   std::optional<std::size_t> frameOf(std::uint32_t id) const;
-  bool isKeyframe(const ImageFeatures& features) const;
-  bool hasKnownBaseline(const std::vector<TrackView>& views) const;
+  bool isKeyframe(const ImageFeatures& features);
+  bool hasKnownBaseline(TrackViews views) const;
   void chooseAnchor();
   void useTracks(const std::vector<FinishedTrack>& finished, double sigma_a);
   void dropOldest();
@@ -171,6 +171,7 @@ class ConstraintFilter {
   Eigen::Vector3d camera_base_;
   Eigen::Matrix3d R_base_cam_;
   WindowState state_;
+  TrackOrder order_;  // of the newest frame's features
   TrackWindow tracks_;
   RestDetector rest_;
   CameraMotion motion_ = CameraMotion::kUnknown;

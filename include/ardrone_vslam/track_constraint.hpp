@@ -15,6 +15,25 @@ struct TrackView {
   Eigen::Vector3d bearing_base = Eigen::Vector3d::UnitX();  ///< measured unit ray, axes of base
 };
 
+/// The views of one track, ascending in the frame, that somebody else holds.
+class TrackViews {
+ public:
+  TrackViews() = default;
+  TrackViews(const TrackView* first, std::size_t count) : first_(first), count_(count) {}
+  // NOLINTNEXTLINE(google-explicit-constructor): a vector is one
+  TrackViews(const std::vector<TrackView>& views) : TrackViews(views.data(), views.size()) {}
+
+  std::size_t size() const { return count_; }
+  const TrackView* begin() const { return first_; }
+  const TrackView* end() const { return first_ + count_; }
+  const TrackView& front() const { return *first_; }
+  const TrackView& back() const { return *(end() - 1); }
+
+ private:
+  const TrackView* first_ = nullptr;
+  std::size_t count_ = 0;
+};
+
 /// A point by all its views.
 struct TrackPoint {
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
@@ -40,8 +59,7 @@ std::optional<RayResidual> rayResidual(const WindowPose& pose, const Eigen::Vect
 /// Least-squares point of rays from given poses.
 /// @return nothing for fewer than two views, parallel rays, or a point behind a camera
 std::optional<TrackPoint> triangulateTrack(const std::vector<WindowPose>& frames,
-                                           const Eigen::Vector3d& camera_base,
-                                           const std::vector<TrackView>& views,
+                                           const Eigen::Vector3d& camera_base, TrackViews views,
                                            double angle_deviation_rad);
 
 /// What a track says of its frames when nothing is known of its point: rows r = A e + n of unit
@@ -64,8 +82,7 @@ struct TrackConstraint {
 
 /// @return nothing when a ray is too far off its prediction
 std::optional<TrackConstraint> constraintOf(const WindowState& state,
-                                            const Eigen::Vector3d& camera_base,
-                                            const std::vector<TrackView>& views,
+                                            const Eigen::Vector3d& camera_base, TrackViews views,
                                             const TrackPoint& point, double angle_deviation_rad);
 
 /// The value below which a chi-square variable lies in 95 % of the cases, within 1 % (Wilson and

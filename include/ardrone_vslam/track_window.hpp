@@ -3,23 +3,25 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/track_constraint.hpp"
+#include "ardrone_vslam/track_order.hpp"
 
 namespace ardrone_vslam {
 
 /// A track that may be used: its views, and what its point would need to become a landmark.
 struct FinishedTrack {
   std::uint32_t track_id = 0;
-  std::vector<TrackView> views;
+  TrackViews views;               ///< held by the TrackWindow until it is asked again
   Descriptor descriptor;          ///< of its last view
   std::uint32_t landmark_id = 0;  ///< of the landmark it belongs to, 0: none
 };
 
-/// The tracks through the frames of the window.
+/// The tracks through the frames of the window. Tracks ascend in their id, and their sightings lie
+/// one behind the other, so that each of these steps is one pass: O(tracks and features), and
+/// nothing is allocated once there have been as many.
 class TrackWindow {
  public:
   /// @param R_base_cam  the camera's mounting
@@ -31,17 +33,19 @@ class TrackWindow {
     int common = 0;  ///< tracks of that frame that go on
     int lost = 0;    ///< and those that do not
   };
+  /// @param order  of these features
   Motion motionSince(const WindowPose& frame, const WindowPose& present,
-                     const ImageFeatures& features) const;
+                     const ImageFeatures& features, const TrackOrder& order);
 
   /// Appends a view to the track of each feature.
-  void add(std::uint32_t frame_id, const ImageFeatures& features);
+  void add(std::uint32_t frame_id, const ImageFeatures& features, const TrackOrder& order);
   /// A track belongs to a landmark; unknown tracks are ignored.
   void assignLandmark(std::uint32_t track_id, std::uint32_t landmark_id);
 
   /// Takes out the tracks that ended before the newest frame, and adds what those that began in the
   /// oldest one have so far when that frame is to go. Ascending in track id.
-  std::vector<FinishedTrack> takeFinished(const std::vector<WindowPose>& frames, bool oldest_goes);
+  const std::vector<FinishedTrack>& takeFinished(const std::vector<WindowPose>& frames,
+                                                 bool oldest_goes);
   /// A track that goes on has been used: only its newest view is left for later.
   void keepNewestView(std::uint32_t track_id);
   /// The oldest frame leaves the window.
@@ -53,13 +57,32 @@ class TrackWindow {
     Eigen::Vector3d bearing_base;
   };
   struct Track {
-    std::vector<Sighting> sightings;
-    Descriptor descriptor;
+    std::uint32_t id = 0;
     std::uint32_t landmark_id = 0;
+    std::uint32_t first = 0;  // of its sightings in Tracks::sightings
+    std::uint32_t count = 0;  // at least one
+    Descriptor descriptor;
+  };
+  struct Tracks {
+    std::vector<Track> tracks;
+    std::vector<Sighting>
+        sightings;  // also of tracks and views that are gone, until the next add()
+
+    const Sighting& oldest(const Track& track) const { return sightings[track.first]; }
+    const Sighting& newest(const Track& track) const {
+      return sightings[track.first + track.count - 1];
+    }
+    Track* find(std::uint32_t id);
+    /// Appends a track and its sightings of another store.
+    void take(const Track& track, const Tracks& from);
   };
 
   Eigen::Matrix3d R_base_cam_;
-  std::unordered_map<std::uint32_t, Track> tracks_;
+  Tracks now_;
+  Tracks next_;  // add() builds it and changes it for the other
+  std::vector<FinishedTrack> finished_;
+  std::vector<TrackView> finished_views_;
+  std::vector<double> moved_px_;
 };
 
 }  // namespace ardrone_vslam

@@ -109,7 +109,8 @@ TEST(TriangulateTrack, HasNoPointForParallelOrSpreadingRays) {
   const std::vector<TrackView> spreading{{0, Eigen::Vector3d(1, -0.1, 0).normalized()},
                                          {2, Eigen::Vector3d(1, 0.1, 0).normalized()}};
   EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_base, spreading, 0.001));
-  EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_base, {{0, {1, 0, 0}}}, 0.001));
+  const std::vector<TrackView> alone{{0, {1, 0, 0}}};
+  EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_base, alone, 0.001));
 }
 
 TEST(TrackConstraint, DoesNotSeeTheScaleNorWhereTheMapIs) {

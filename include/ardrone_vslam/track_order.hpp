@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+
+namespace ardrone_vslam {
+
+/// A feature that belongs to a track.
+struct TrackedFeature {
+  std::uint32_t track_id = 0;
+  std::uint32_t feature = 0;  ///< index into ImageFeatures
+};
+
+/// The features of one image ascending in track id, so that two images, or an image and what is
+/// known of its tracks, are gone through side by side.
+class TrackOrder {
+ public:
+  void reset(const ImageFeatures& features);
+
+  const TrackedFeature* begin() const { return entries_.data(); }
+  const TrackedFeature* end() const { return entries_.data() + entries_.size(); }
+  /// @return nullptr when the track does not go through the image. O(log size).
+  const TrackedFeature* find(std::uint32_t track_id) const;
+
+ private:
+  std::vector<TrackedFeature> entries_;
+};
+
+}  // namespace ardrone_vslam
