@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace ardrone_vslam {
 namespace {
@@ -25,20 +24,14 @@ void Associator::begin(const FrameView& view, std::size_t target_count) {
   best_of_target_.assign(target_count, BestTwo{});
   feature_taken_.assign(view.size(), false);
   targets_in_view_.clear();
-  feature_of_track_.clear();
-  oldest_track_ = std::numeric_limits<std::uint32_t>::max();
-  for (std::size_t i = 0; i < view.size(); ++i) {
-    const std::uint32_t track_id = view.features().track_id[i];
-    if (track_id == kNoTrack) continue;
-    feature_of_track_[track_id] = static_cast<int>(i);
-    oldest_track_ = std::min(oldest_track_, track_id);
-  }
+  tracks_.reset(view.features());
 }
 
 int Associator::featureOfTrack(std::uint32_t track_id) const {
-  if (track_id < oldest_track_) return kNobody;  // most landmarks of a large map
-  const auto entry = feature_of_track_.find(track_id);
-  return entry == feature_of_track_.end() ? kNobody : entry->second;
+  // Most landmarks of a large map were seen last before the oldest of the frame's tracks began.
+  if (tracks_.begin() == tracks_.end() || track_id < tracks_.begin()->track_id) return kNobody;
+  const TrackedFeature* entry = tracks_.find(track_id);
+  return entry == nullptr ? kNobody : static_cast<int>(entry->feature);
 }
 
 int Associator::bestFeature(int target) const {

@@ -94,12 +94,11 @@ void RestDetector::refer(const ImageFeatures& features) {
   is_reference_ = true;
   stillness_.R_reference_now.setIdentity();
   reference_.clear();
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    reference_.push_back(
-        {features.track_id[i], features.bearing_cam[i].cast<double>(), features.descriptor[i]});
+  order_.reset(features);
+  for (const TrackedFeature& one : order_) {
+    reference_.push_back({one.track_id, features.bearing_cam[one.feature].cast<double>(),
+                          features.descriptor[one.feature]});
   }
-  std::sort(reference_.begin(), reference_.end(),
-            [](const Corner& a, const Corner& b) { return a.track_id < b.track_id; });
 }
 
 void RestDetector::pairUp(const ImageFeatures& features) {

@@ -57,11 +57,14 @@ void Slam::State::fixByLandmarks() {
 void Slam::State::moveLandmarks() {
   const std::vector<AnchorMove> moves = constraint->takeMoves(view.focalLength_px());
   if (moves.empty()) return;
+  // Most landmarks stay where they are and are not touched; their anchors lie close together in
+  // the columns.
+  const LandmarkColumns& columns = landmark_map.columns(view.origin_map());
   // Neighbours mostly belong to one anchor.
   std::uint32_t anchor_id = 0;
   auto move = moves.end();
-  for (std::size_t i = 0; i < landmark_map.size(); ++i) {
-    const std::uint32_t its_anchor = landmark_map.all()[i].anchor_id;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::uint32_t its_anchor = columns.anchorId(i);
     if (its_anchor != anchor_id) {
       anchor_id = its_anchor;
       move = std::find_if(moves.begin(), moves.end(), [anchor_id](const AnchorMove& one) {

@@ -27,6 +27,14 @@ Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
   return Eigen::Matrix3d::Identity() - unit * unit.transpose();
 }
 
+/// I + B' P B, its lower half.
+Eigen::MatrixXd innovation(const InformationRoot& root, const Eigen::MatrixXd& P_B) {
+  Eigen::MatrixXd M(P_B.cols(), P_B.cols());
+  M.triangularView<Eigen::Lower>() = root.rows.transpose() * P_B;
+  M.diagonal().array() += 1;
+  return M;
+}
+
 }  // namespace
 
 Information::Information(std::vector<int> of_coordinates) : coordinates(std::move(of_coordinates)) {
@@ -208,9 +216,9 @@ std::optional<Eigen::VectorXd> WindowState::preview(const Information& informati
   if (root.measured.size() == 0) return Eigen::VectorXd::Zero(information.vector.size());
   const Eigen::MatrixXd P_ww = covariance()(w, w);
   const Eigen::MatrixXd P_B = P_ww * root.rows;
-  Eigen::MatrixXd M = root.rows.transpose() * P_B;
-  M.diagonal().array() += 1;
-  const Eigen::VectorXd error = P_B * M.llt().solve(root.measured);
+  Eigen::MatrixXd M = innovation(root, P_B);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
+  const Eigen::VectorXd error = P_B * inner.solve(root.measured);
   if (!error.allFinite()) return std::nullopt;
   return error;
 }
@@ -223,8 +231,7 @@ bool WindowState::update(const Information& information) {
   auto P = covariance_.all();
   const Eigen::MatrixXd P_w = P(Eigen::all, w);
   Eigen::MatrixXd G = P_w * root.rows;
-  Eigen::MatrixXd M = root.rows.transpose() * G(w, Eigen::all);
-  M.diagonal().array() += 1;
+  Eigen::MatrixXd M = innovation(root, G(w, Eigen::all));
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
   if (inner.info() != Eigen::Success) return false;
   inner.matrixU().solveInPlace<Eigen::OnTheRight>(G);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <unordered_map>
 #include <vector>
 
 #include "ardrone_vslam/descriptor_matcher.hpp"
@@ -10,6 +9,7 @@
 #include "ardrone_vslam/global_matcher.hpp"
 #include "ardrone_vslam/landmark_map.hpp"
 #include "ardrone_vslam/parameters.hpp"
+#include "ardrone_vslam/track_order.hpp"
 #include "ardrone_vslam/window_search.hpp"
 
 namespace ardrone_vslam {
@@ -127,8 +127,7 @@ class Associator {
   std::vector<bool> feature_taken_;
   std::vector<bool> landmark_taken_;
   std::vector<int> targets_in_view_;
-  std::unordered_map<std::uint32_t, int> feature_of_track_;
-  std::uint32_t oldest_track_ = kNoTrack;  // of the frame's
+  TrackOrder tracks_;  // of the frame's features
 };
 
 }  // namespace ardrone_vslam

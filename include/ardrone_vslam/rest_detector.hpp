@@ -7,6 +7,7 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/parameters.hpp"
+#include "ardrone_vslam/track_order.hpp"
 
 namespace ardrone_vslam {
 
@@ -96,6 +97,7 @@ class RestDetector {
   void followTurn(std::int64_t stamp_ns);
 
   RestConfig config_;
+  TrackOrder order_;               // of the newest reference's features
   std::vector<Corner> reference_;  // ascending in track id
   std::vector<Pair> pairs_;
   Stillness stillness_;
