@@ -2,6 +2,7 @@
 // Localisation and mapping with `estimator: constraint`.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "slam_state.hpp"
 
@@ -31,19 +32,30 @@ Landmark landmarkOf(const UsedTrack& used, const FrameView& view) {
 
 }  // namespace
 
+void Slam::State::setDrifts() {
+  std::vector<AnchorDrift> drifts = constraint->drifts();
+  blind_clock.widen(drifts, config.association.widening_s);
+  view.setDrifts(std::move(drifts));
+}
+
 void Slam::State::fixByLandmarks() {
   std::vector<LandmarkSighting> seen;
   seen.reserve(landmark_matches.matches.size());
   for (const Association& match : landmark_matches.matches) {
     const Landmark& landmark = landmark_map.all()[static_cast<std::size_t>(match.target)];
     const auto feature = static_cast<std::size_t>(match.feature);
+    const double distance_m = (landmark.position_map - view.origin_map()).norm();
     seen.push_back({T_base_cam.linear() * view.features().bearing_cam[feature].cast<double>(),
-                    landmark.position_map, landmark.covariance_m2, landmark.anchor_id});
+                    landmark.position_map, landmark.covariance_m2, landmark.anchor_id,
+                    associator.threshold_rad(view, landmark, distance_m)});
   }
   switch (constraint->fix(seen, view.focalLength_px())) {
     case FixOutcome::kApplied:
     case FixOutcome::kNotNeeded:
       result.state = SlamState::kLocalised;
+      break;
+    case FixOutcome::kRelocated:
+      result.state = SlamState::kRelocated;
       break;
     case FixOutcome::kRejected:
       result.state = SlamState::kFixRejected;
@@ -52,6 +64,27 @@ void Slam::State::fixByLandmarks() {
       result.state = landmark_map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTracking;
       break;
   }
+  judgeMatches();
+}
+
+void Slam::State::judgeMatches() {
+  trusted_matches.clear();
+  std::vector<std::uint32_t> anchors;
+  for (std::size_t i = 0; i < landmark_matches.matches.size(); ++i) {
+    const Association& match = landmark_matches.matches[i];
+    const SightingVerdict verdict = constraint->verdicts()[i];
+    if (verdict == SightingVerdict::kAgrees)
+      anchors.push_back(landmark_map.all()[static_cast<std::size_t>(match.target)].anchor_id);
+    if (verdict == SightingVerdict::kAgrees || verdict == SightingVerdict::kUnjudged)
+      trusted_matches.push_back(match);
+  }
+  const bool is_blind =
+      static_cast<int>(trusted_matches.size()) < config.constraint_filter.min_fix_landmarks;
+  const std::int64_t now_ns = view.features().stamp_ns;
+  if (is_blind && last_stamp_ns)
+    blind_clock.pass(static_cast<double>(now_ns - *last_stamp_ns) * 1e-9);
+  last_stamp_ns = now_ns;
+  blind_clock.link(anchors);
 }
 
 void Slam::State::moveLandmarks() {
@@ -74,8 +107,9 @@ void Slam::State::moveLandmarks() {
 
 void Slam::State::useTracks(const ImageFeatures& features) {
   const std::vector<UsedTrack>& used_tracks = constraint->track(features);
-  const bool is_located =
-      result.state == SlamState::kLocalised || result.state == SlamState::kFixRejected;
+  const bool is_located = result.state == SlamState::kLocalised ||
+                          result.state == SlamState::kRelocated ||
+                          result.state == SlamState::kFixRejected;
   if (!is_located && constraint->motion() == CameraMotion::kResting)
     result.state = SlamState::kResting;
   if (!is_located && constraint->motion() == CameraMotion::kRotating)
@@ -84,8 +118,8 @@ void Slam::State::useTracks(const ImageFeatures& features) {
                  constraint->newest().R_map_base * T_base_cam.translation());
   setVariance();
   moveLandmarks();
-  Mapper::remember(view, landmark_matches.matches, landmark_map);
-  for (const Association& match : landmark_matches.matches) {
+  Mapper::remember(view, trusted_matches, landmark_map);
+  for (const Association& match : trusted_matches) {
     const Landmark& landmark = landmark_map.all()[static_cast<std::size_t>(match.target)];
     constraint->assignLandmark(landmark.track_id, landmark.id);
   }
