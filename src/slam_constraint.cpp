@@ -2,6 +2,7 @@
 // Localisation and mapping with `estimator: constraint`.
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include "slam_state.hpp"
@@ -87,6 +88,31 @@ void Slam::State::judgeMatches() {
   blind_clock.link(anchors);
 }
 
+int Slam::State::dropFailing() {
+  // A place is in view when some of its landmarks are found; behind a wall none of them is.
+  constexpr int kOneIn = 10;
+  struct Place {
+    int found = 0;
+    int missed = 0;
+  };
+  std::unordered_map<std::uint32_t, Place> places;
+  const auto anchorOf = [this](int target) {
+    return landmark_map.all()[static_cast<std::size_t>(target)].anchor_id;
+  };
+  for (const Association& match : trusted_matches) ++places[anchorOf(match.target)].found;
+  for (const int target : landmark_matches.missed) ++places[anchorOf(target)].missed;
+  std::vector<int> failed;
+  for (const int target : landmark_matches.missed) {
+    const Place& place = places[anchorOf(target)];
+    if (kOneIn * place.found >= place.found + place.missed) failed.push_back(target);
+  }
+  for (std::size_t i = 0; i < landmark_matches.matches.size(); ++i) {
+    if (constraint->verdicts()[i] == SightingVerdict::kContradicts)
+      failed.push_back(landmark_matches.matches[i].target);
+  }
+  return mapper.countFailed(failed, landmark_map);
+}
+
 void Slam::State::moveLandmarks() {
   const std::vector<AnchorMove> moves = constraint->takeMoves(view.focalLength_px());
   if (moves.empty()) return;
@@ -123,9 +149,7 @@ void Slam::State::useTracks(const ImageFeatures& features) {
     const Landmark& landmark = landmark_map.all()[static_cast<std::size_t>(match.target)];
     constraint->assignLandmark(landmark.track_id, landmark.id);
   }
-  // An image that shows nothing (dark, lens covered) says nothing about the landmarks either.
-  if (view.size() > 0)
-    result.removed_landmarks = mapper.countMissed(landmark_matches.missed, landmark_map);
+  result.removed_landmarks = dropFailing();
   for (const UsedTrack& one : used_tracks) {
     if (landmark_map.find(one.track.landmark_id) != nullptr) continue;
     constraint->assignLandmark(one.track.track_id, landmark_map.add(landmarkOf(one, view)));

@@ -63,6 +63,7 @@ struct Slam::State {
   void fixByLandmarks();
   void useTracks(const ImageFeatures& features);
   void judgeMatches();
+  int dropFailing();
   void moveLandmarks();
 };
 

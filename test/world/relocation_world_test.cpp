@@ -145,5 +145,84 @@ TEST(RelocationWorld, APlaceThatOnlyLooksAlikeIsNotTakenForOneSeenBefore) {
   }
 }
 
+/// Laps of the room; from the second one on the frames are changed by somebody.
+class FailingLandmarks : public ::testing::Test {
+ protected:
+  static constexpr std::size_t kLap = 200;
+
+  FailingLandmarks() : flight_(test::lapsFlight(kLap, 4, kRate_hz)), world_(1) {
+    world_.addRoom({10, 8, 3}, 1200);
+  }
+  ImageFeatures look(std::size_t frame) {
+    return world_.look(flight_[frame].T_map_base * test::forwardMounting(),
+                       flight_[frame].stamp_ns);
+  }
+  FlightRun flyThrough() const {
+    return test::run(frames_, test::observe(flight_, {}, 1), config_);
+  }
+  static int removedOf(const FlightRun& run) {
+    int removed = 0;
+    for (const FrameResult& result : run.results) removed += result.removed_landmarks;
+    return removed;
+  }
+  int lostOf(const FlightRun& run) const {  // not seen in the last two laps
+    const std::int64_t since_ns = flight_[2 * kLap].stamp_ns;
+    return static_cast<int>(
+        std::count_if(run.landmarks.begin(), run.landmarks.end(),
+                      [&](const Landmark& one) { return one.last_seen_ns < since_ns; }));
+  }
+
+  Flight flight_;
+  PointWorld world_;
+  std::vector<ImageFeatures> frames_;
+  SlamConfig config_ = constraintConfig();
+};
+
+TEST_F(FailingLandmarks, WhatIsNoLongerThereIsDropped) {
+  for (std::size_t i = 0; i < flight_.size(); ++i) {
+    if (i == kLap) world_.exchangeDescriptors(0.3);
+    frames_.push_back(look(i));
+  }
+  const FlightRun run = flyThrough();
+  config_.mapper.drop_failing_ratio = 1e6;
+  const FlightRun kept = flyThrough();
+  EXPECT_GT(removedOf(run), 80);  // measured: 117
+  EXPECT_EQ(removedOf(kept), 0);
+  EXPECT_LT(lostOf(run), lostOf(kept) / 2);  // measured: 53 of 170
+}
+
+TEST_F(FailingLandmarks, WhatIsHiddenForAWhileStays) {
+  for (std::size_t i = 0; i < flight_.size(); ++i) {
+    ImageFeatures all = look(i);
+    const bool is_hidden = i >= kLap && i < kLap + 50;
+    ImageFeatures seen = world_.emptyView(all.stamp_ns);
+    for (std::size_t f = 0; f < all.size(); ++f) {
+      if (is_hidden && all.pixel_px[f].x() < 0.4F * static_cast<float>(all.width_px)) continue;
+      seen.pixel_px.push_back(all.pixel_px[f]);
+      seen.bearing_cam.push_back(all.bearing_cam[f]);
+      seen.score.push_back(all.score[f]);
+      seen.descriptor.push_back(all.descriptor[f]);
+      seen.track_id.push_back(all.track_id[f]);
+      seen.age_frames.push_back(all.age_frames[f]);
+    }
+    frames_.push_back(std::move(seen));
+  }
+  EXPECT_EQ(removedOf(flyThrough()), 0);
+}
+
+TEST_F(FailingLandmarks, BehindAWallNoneFails) {
+  PointWorld elsewhere(2);
+  elsewhere.addRoom({10, 8, 3}, 1200);
+  for (std::size_t i = 0; i < flight_.size(); ++i) {
+    const bool is_behind = i >= kLap && i < 2 * kLap;
+    frames_.push_back(is_behind ? elsewhere.look(flight_[i].T_map_base * test::forwardMounting(),
+                                                 flight_[i].stamp_ns)
+                                : look(i));
+    if (!is_behind) continue;
+    for (auto& track_id : frames_.back().track_id) track_id += 1000000;
+  }
+  EXPECT_EQ(removedOf(flyThrough()), 0);
+}
+
 }  // namespace
 }  // namespace ardrone_vslam
