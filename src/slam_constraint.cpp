@@ -76,8 +76,12 @@ void Slam::State::judgeMatches() {
     const SightingVerdict verdict = constraint->verdicts()[i];
     if (verdict == SightingVerdict::kAgrees)
       anchors.push_back(landmark_map.all()[static_cast<std::size_t>(match.target)].anchor_id);
-    if (verdict == SightingVerdict::kAgrees || verdict == SightingVerdict::kUnjudged)
-      trusted_matches.push_back(match);
+    // A corner found beside its landmark still belongs to it, or it would become another landmark;
+    // among the matches of a relocation most are simply wrong.
+    const bool is_wrong =
+        verdict == SightingVerdict::kDoubtful ||
+        (verdict == SightingVerdict::kContradicts && result.state == SlamState::kRelocated);
+    if (!is_wrong) trusted_matches.push_back(match);
   }
   const bool is_blind =
       static_cast<int>(trusted_matches.size()) < config.constraint_filter.min_fix_landmarks;
@@ -107,8 +111,12 @@ int Slam::State::dropFailing() {
     if (kOneIn * place.found >= place.found + place.missed) failed.push_back(target);
   }
   for (std::size_t i = 0; i < landmark_matches.matches.size(); ++i) {
-    if (constraint->verdicts()[i] == SightingVerdict::kContradicts)
-      failed.push_back(landmark_matches.matches[i].target);
+    if (constraint->verdicts()[i] != SightingVerdict::kContradicts) continue;
+    const int target = landmark_matches.matches[i].target;
+    failed.push_back(target);
+    // It was remembered, but not as a sighting that speaks for it.
+    if (result.state != SlamState::kRelocated)
+      --landmark_map.atPlace(static_cast<std::size_t>(target)).times_seen;
   }
   return mapper.countFailed(failed, landmark_map);
 }
