@@ -64,6 +64,8 @@ std::uint8_t stateOf(SlamState state) {
       return Status::RESTING;
     case SlamState::kRotating:
       return Status::ROTATING;
+    case SlamState::kRelocated:
+      return Status::RELOCATED;
   }
   assert(false && "a SlamState that Status.msg does not know");
   return Status::OBSERVER_ONLY;
@@ -171,7 +173,7 @@ PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isome
   message.deviation = result.deviation_m;
   message.corrected = result.state == SlamState::kLocalised ||
                       result.state == SlamState::kTracking || result.state == SlamState::kResting ||
-                      result.state == SlamState::kRotating;
+                      result.state == SlamState::kRotating || result.state == SlamState::kRelocated;
   return message;
 }
 

@@ -114,7 +114,8 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
   const bool is_well =
       (latest_.state == Status::LOCALISED || latest_.state == Status::BUILDING_MAP ||
        latest_.state == Status::TRACKING || latest_.state == Status::RESTING ||
-       latest_.state == Status::ROTATING || latest_.state == Status::OBSERVER_ONLY) &&
+       latest_.state == Status::ROTATING || latest_.state == Status::RELOCATED ||
+       latest_.state == Status::OBSERVER_ONLY) &&
       speed_.absurd_m_s() == 0;
   const auto level = is_stuck  ? DiagnosticStatus::ERROR
                      : is_well ? DiagnosticStatus::OK

@@ -162,17 +162,21 @@ void Associator::matchGlobally(const FrameView& view, LandmarkMap& map,
   }
 }
 
+double Associator::threshold_rad(const FrameView& view, const Landmark& landmark,
+                                 double distance_m) const {
+  const double drift_px =
+      margin_px(view, landmark.anchor_id, landmark.position_variance_m2, distance_m);
+  return std::min((config_.landmark_threshold_px + drift_px) / view.focalLength_px(), M_PI);
+}
+
 bool Associator::isLandmarkMismatch(const FrameView& view, const Landmark& landmark,
                                     int feature) const {
   const Ray ray = view.ray(static_cast<std::size_t>(feature));
   const Eigen::Vector3d offset = landmark.position_map - ray.origin_map;
   const double distance_m = offset.norm();
   const Eigen::Vector3d predicted = offset / distance_m;
-  const double angle =
-      (config_.landmark_threshold_px +
-       margin_px(view, landmark.anchor_id, landmark.position_variance_m2, distance_m)) /
-      view.focalLength_px();
-  return !(predicted.dot(ray.direction_map) > std::cos(std::min(angle, M_PI)));  // (5.36)
+  const double angle = threshold_rad(view, landmark, distance_m);
+  return !(predicted.dot(ray.direction_map) > std::cos(angle));  // (5.36)
 }
 
 void Associator::matchMapFeatures(const FrameView& view, const FeatureMap& map,

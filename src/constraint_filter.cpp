@@ -111,46 +111,6 @@ std::optional<std::size_t> ConstraintFilter::anchorOf(std::uint32_t id) const {
   return indexOf(state_.anchors(), id);
 }
 
-FixOutcome ConstraintFilter::fix(const std::vector<LandmarkSighting>& sightings,
-                                 double focal_length_px) {
-  fix_outcome_ = fixBySightings(sightings, focal_length_px);
-  return fix_outcome_;
-}
-
-FixOutcome ConstraintFilter::fixBySightings(const std::vector<LandmarkSighting>& sightings,
-                                            double focal_length_px) {
-  const double sigma_a = config_.track_deviation_px / focal_length_px;
-  std::vector<MapSighting> old;
-  for (const LandmarkSighting& s : sightings) {
-    const auto anchor = anchorOf(s.anchor_id);
-    if (!anchor) continue;
-    const auto age_ns = newest().stamp_ns - state_.anchors()[*anchor].stamp_ns;
-    if (static_cast<double>(age_ns) * 1e-9 >= config_.fix_min_age_s)
-      old.push_back({s.bearing_base, s.point_map, s.covariance_m2, *anchor});
-  }
-  if (static_cast<int>(old.size()) < config_.min_fix_landmarks) return FixOutcome::kNone;
-  const SightingConsensus consensus = agreeOnPosition(newest(), camera_base_, old, sigma_a);
-  // In wide windows some wrong matches agree by chance, but not most of all.
-  if (static_cast<int>(consensus.sightings.size()) < config_.min_fix_landmarks ||
-      2 * consensus.sightings.size() < old.size())
-    return FixOutcome::kNone;
-  const MapFix fix =
-      fixBy(state_, camera_base_, consensus, sigma_a, config_.fix_independent_landmarks);
-  learnFrom(fix);
-  if (fix.drift.topLeftCorner<3, 3>().trace() <
-      config_.fix_drift_share * fix.covariance.topLeftCorner<3, 3>().trace())
-    return FixOutcome::kNotNeeded;
-  if (!(fix.distance() < 6 * squared(config_.fix_gate_deviations))) return FixOutcome::kRejected;
-  return state_.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;
-}
-
-void ConstraintFilter::learnFrom(const MapFix& fix) {
-  constexpr double kShare = 0.1;  // of one fix in the mean
-  constexpr double kWorst = 10;
-  fix_nis_ += kShare * (std::min(fix.distance() / 6, kWorst) - fix_nis_);
-  state_.inflate(std::max(fix_nis_, 1.0));
-}
-
 bool ConstraintFilter::isKeyframe(const ImageFeatures& features) {
   const auto keyframe = frameOf(keyframe_id_);
   if (!keyframe) return true;

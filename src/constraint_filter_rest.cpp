@@ -20,8 +20,9 @@ void ConstraintFilter::watchForRest(const ImageFeatures& features) {
   }
   motion_ = rest_.see(features, R_reference_now, attitude_deviation_rad);
   const bool is_still = motion_ == CameraMotion::kResting || motion_ == CameraMotion::kRotating;
-  const bool is_located =
-      fix_outcome_ == FixOutcome::kApplied || fix_outcome_ == FixOutcome::kNotNeeded;
+  const bool is_located = fix_outcome_ == FixOutcome::kApplied ||
+                          fix_outcome_ == FixOutcome::kRelocated ||
+                          fix_outcome_ == FixOutcome::kNotNeeded;
   if (is_still && reference && !is_located && !holdStill(*reference))
     motion_ = CameraMotion::kMoving;
   if (!is_still) odometry_way_.setZero();

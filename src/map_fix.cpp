@@ -6,53 +6,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "ardrone_vslam/rotation.hpp"
 #include "ardrone_vslam/track_constraint.hpp"
+#include "sighting_rays.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr int kSamples = 40;
-constexpr double kInlier = 6;            // squared deviations of a ray's two angles, 95 %
-constexpr double kAttitude_rad = 0.005;  // of the predicted attitude, while looking for agreement
-constexpr double kTurn_rad = 0.02;       // keeps the turn of a fix by few landmarks regular
-
-/// A small linear congruential generator: the same samples on every machine.
-class Draws {
- public:
-  std::size_t below(std::size_t count) {
-    state_ = state_ * 1664525U + 1013904223U;
-    return static_cast<std::size_t>((static_cast<std::uint64_t>(state_) * count) >> 32);
-  }
-
- private:
-  std::uint32_t state_ = 12345;
-};
-
-/// Squared deviations between a ray and a landmark seen from a camera position.
-double offRay(const MapSighting& sighting, const Eigen::Vector3d& ray_map,
-              const Eigen::Vector3d& camera_map, double sigma_a) {
-  const Eigen::Vector3d offset = sighting.point_map - camera_map;
-  const double squared_m2 = offset.squaredNorm();
-  constexpr double kFar = 1e9;
-  if (!(ray_map.dot(offset) > 0)) return kFar;
-  const Eigen::Vector3d direction = offset / std::sqrt(squared_m2);
-  const double own_m2 =
-      sighting.covariance_m2.trace() - direction.dot(sighting.covariance_m2 * direction);
-  const double variance = sigma_a * sigma_a + kAttitude_rad * kAttitude_rad + own_m2 / squared_m2;
-  return ray_map.cross(direction).squaredNorm() / variance;
-}
-
-Eigen::Vector3d nearestToRays(const MapSighting& a, const Eigen::Vector3d& ray_a,
-                              const MapSighting& b, const Eigen::Vector3d& ray_b) {
-  const Eigen::Matrix3d across_a = Eigen::Matrix3d::Identity() - ray_a * ray_a.transpose();
-  const Eigen::Matrix3d across_b = Eigen::Matrix3d::Identity() - ray_b * ray_b.transpose();
-  return Eigen::Matrix3d(across_a + across_b)
-      .ldlt()
-      .solve(across_a * a.point_map + across_b * b.point_map);
-}
+constexpr double kTurn_rad = 0.02;  // keeps the turn of a fix by few landmarks regular
 
 /// Coordinates of a fix: scale, newest pose, anchors (each once, ascending).
 struct FixCoordinates {
@@ -93,7 +56,7 @@ SightingConsensus agreeOnPosition(const WindowPose& predicted, const Eigen::Vect
   rays.reserve(sightings.size());
   for (const MapSighting& s : sightings) rays.push_back(predicted.R_map_base * s.bearing_base);
   const auto off = [&](std::size_t i, const Eigen::Vector3d& camera) {
-    return offRay(sightings[i], rays[i], camera, angle_deviation_rad);
+    return offRay(sightings[i], rays[i], camera, angle_deviation_rad, kSlack_rad);
   };
   const auto scoreOf = [&](const Eigen::Vector3d& camera) {
     double score = 0;
@@ -118,6 +81,7 @@ SightingConsensus agreeOnPosition(const WindowPose& predicted, const Eigen::Vect
   }
   SightingConsensus consensus;
   consensus.position_map = best - lever;
+  consensus.R_map_base = predicted.R_map_base;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     if (off(i, best) < kInlier) consensus.sightings.push_back(sightings[i]);
   }
@@ -132,11 +96,13 @@ MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
              const SightingConsensus& consensus, double angle_deviation_rad, int independent) {
   const FixCoordinates coordinates(state, consensus.sightings);
   MapFix fix{Information(coordinates.all)};
-  // Jacobians at the agreed position: the prediction may be far off.
+  // Jacobians at the agreed pose: the prediction may be far off.
   WindowPose pose = state.frames().back();
   Vector6d moved = Vector6d::Zero();
   moved.head<3>() = consensus.position_map - pose.position_map;
+  moved.tail<3>() = rotationVectorOf(consensus.R_map_base * pose.R_map_base.transpose());
   pose.position_map = consensus.position_map;
+  pose.R_map_base = consensus.R_map_base;
   for (const MapSighting& s : consensus.sightings) {
     const auto ray = rayResidual(pose, camera_base, s.bearing_base, s.point_map);
     if (!ray) continue;

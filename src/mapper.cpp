@@ -86,6 +86,18 @@ int Mapper::countMissed(const std::vector<int>& missed, LandmarkMap& map) const 
   return static_cast<int>(dropped.size());
 }
 
+int Mapper::countFailed(const std::vector<int>& failed, LandmarkMap& map) const {
+  std::vector<std::uint32_t> dropped;
+  for (const int index : failed) {
+    const int times_failed = map.addFailure(static_cast<std::size_t>(index));
+    const Landmark& landmark = map.all()[static_cast<std::size_t>(index)];
+    if (times_failed > config_.drop_failing_ratio * landmark.times_seen)
+      dropped.push_back(landmark.id);
+  }
+  for (const std::uint32_t id : dropped) map.remove(id);
+  return static_cast<int>(dropped.size());
+}
+
 int Mapper::triangulateMatches(const FrameView& view, const std::vector<Association>& matches,
                                FeatureMap& features, LandmarkMap& landmarks,
                                std::vector<bool>& used) const {

@@ -133,7 +133,7 @@ void Slam::State::predict(const ImageFeatures& features, const ObserverState& ob
 void Slam::State::setVariance() {
   view.setPositionVariance(covariance().topLeftCorner<3, 3>().trace() / 3,
                            constraint || config.thesis_filter.common_drift);
-  if (constraint) view.setDrifts(constraint->drifts());
+  if (constraint) setDrifts();
 }
 
 void Slam::State::localise() {
@@ -221,6 +221,9 @@ const char* explain(SlamState state) {
     case SlamState::kRotating:
       return "the camera turns on the spot, so the position is held; that shows no distances, so "
              "there are no new landmarks";
+    case SlamState::kRelocated:
+      return "a place seen before was found again after the pose had become uncertain; the pose "
+             "may have jumped there";
     case SlamState::kNotFinite:
       return "the pose is not finite and is not published; the map begins anew: check odometry, "
              "calibration and mounting for absurd values";

@@ -2,6 +2,8 @@
 // Localisation and mapping with `estimator: constraint`.
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
 
 #include "slam_state.hpp"
 
@@ -31,19 +33,30 @@ Landmark landmarkOf(const UsedTrack& used, const FrameView& view) {
 
 }  // namespace
 
+void Slam::State::setDrifts() {
+  std::vector<AnchorDrift> drifts = constraint->drifts();
+  blind_clock.widen(drifts, config.association.widening_s);
+  view.setDrifts(std::move(drifts));
+}
+
 void Slam::State::fixByLandmarks() {
   std::vector<LandmarkSighting> seen;
   seen.reserve(landmark_matches.matches.size());
   for (const Association& match : landmark_matches.matches) {
     const Landmark& landmark = landmark_map.all()[static_cast<std::size_t>(match.target)];
     const auto feature = static_cast<std::size_t>(match.feature);
+    const double distance_m = (landmark.position_map - view.origin_map()).norm();
     seen.push_back({T_base_cam.linear() * view.features().bearing_cam[feature].cast<double>(),
-                    landmark.position_map, landmark.covariance_m2, landmark.anchor_id});
+                    landmark.position_map, landmark.covariance_m2, landmark.anchor_id,
+                    associator.threshold_rad(view, landmark, distance_m)});
   }
   switch (constraint->fix(seen, view.focalLength_px())) {
     case FixOutcome::kApplied:
     case FixOutcome::kNotNeeded:
       result.state = SlamState::kLocalised;
+      break;
+    case FixOutcome::kRelocated:
+      result.state = SlamState::kRelocated;
       break;
     case FixOutcome::kRejected:
       result.state = SlamState::kFixRejected;
@@ -52,6 +65,60 @@ void Slam::State::fixByLandmarks() {
       result.state = landmark_map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTracking;
       break;
   }
+  judgeMatches();
+}
+
+void Slam::State::judgeMatches() {
+  trusted_matches.clear();
+  std::vector<std::uint32_t> anchors;
+  for (std::size_t i = 0; i < landmark_matches.matches.size(); ++i) {
+    const Association& match = landmark_matches.matches[i];
+    const SightingVerdict verdict = constraint->verdicts()[i];
+    if (verdict == SightingVerdict::kAgrees)
+      anchors.push_back(landmark_map.all()[static_cast<std::size_t>(match.target)].anchor_id);
+    // A corner found beside its landmark still belongs to it, or it would become another landmark;
+    // among the matches of a relocation most are simply wrong.
+    const bool is_wrong =
+        verdict == SightingVerdict::kDoubtful ||
+        (verdict == SightingVerdict::kContradicts && result.state == SlamState::kRelocated);
+    if (!is_wrong) trusted_matches.push_back(match);
+  }
+  const bool is_blind =
+      static_cast<int>(trusted_matches.size()) < config.constraint_filter.min_fix_landmarks;
+  const std::int64_t now_ns = view.features().stamp_ns;
+  if (is_blind && last_stamp_ns)
+    blind_clock.pass(static_cast<double>(now_ns - *last_stamp_ns) * 1e-9);
+  last_stamp_ns = now_ns;
+  blind_clock.link(anchors);
+}
+
+int Slam::State::dropFailing() {
+  // A place is in view when some of its landmarks are found; behind a wall none of them is.
+  constexpr int kOneIn = 10;
+  struct Place {
+    int found = 0;
+    int missed = 0;
+  };
+  std::unordered_map<std::uint32_t, Place> places;
+  const auto anchorOf = [this](int target) {
+    return landmark_map.all()[static_cast<std::size_t>(target)].anchor_id;
+  };
+  for (const Association& match : trusted_matches) ++places[anchorOf(match.target)].found;
+  for (const int target : landmark_matches.missed) ++places[anchorOf(target)].missed;
+  std::vector<int> failed;
+  for (const int target : landmark_matches.missed) {
+    const Place& place = places[anchorOf(target)];
+    if (kOneIn * place.found >= place.found + place.missed) failed.push_back(target);
+  }
+  for (std::size_t i = 0; i < landmark_matches.matches.size(); ++i) {
+    if (constraint->verdicts()[i] != SightingVerdict::kContradicts) continue;
+    const int target = landmark_matches.matches[i].target;
+    failed.push_back(target);
+    // It was remembered, but not as a sighting that speaks for it.
+    if (result.state != SlamState::kRelocated)
+      --landmark_map.atPlace(static_cast<std::size_t>(target)).times_seen;
+  }
+  return mapper.countFailed(failed, landmark_map);
 }
 
 void Slam::State::moveLandmarks() {
@@ -77,8 +144,9 @@ void Slam::State::moveLandmarks() {
 
 void Slam::State::useTracks(const ImageFeatures& features) {
   const std::vector<UsedTrack>& used_tracks = constraint->track(features);
-  const bool is_located =
-      result.state == SlamState::kLocalised || result.state == SlamState::kFixRejected;
+  const bool is_located = result.state == SlamState::kLocalised ||
+                          result.state == SlamState::kRelocated ||
+                          result.state == SlamState::kFixRejected;
   if (!is_located && constraint->motion() == CameraMotion::kResting)
     result.state = SlamState::kResting;
   if (!is_located && constraint->motion() == CameraMotion::kRotating)
@@ -87,14 +155,12 @@ void Slam::State::useTracks(const ImageFeatures& features) {
                  constraint->newest().R_map_base * T_base_cam.translation());
   setVariance();
   moveLandmarks();
-  Mapper::remember(view, landmark_matches.matches, landmark_map);
-  for (const Association& match : landmark_matches.matches) {
+  Mapper::remember(view, trusted_matches, landmark_map);
+  for (const Association& match : trusted_matches) {
     const Landmark& landmark = landmark_map.all()[static_cast<std::size_t>(match.target)];
     constraint->assignLandmark(landmark.track_id, landmark.id);
   }
-  // An image that shows nothing (dark, lens covered) says nothing about the landmarks either.
-  if (view.size() > 0)
-    result.removed_landmarks = mapper.countMissed(landmark_matches.missed, landmark_map);
+  result.removed_landmarks = dropFailing();
   for (const UsedTrack& one : used_tracks) {
     if (landmark_map.find(one.track.landmark_id) != nullptr) continue;
     constraint->assignLandmark(one.track.track_id, landmark_map.add(landmarkOf(one, view)));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "ardrone_vslam/mapper.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/thesis_filter.hpp"
+#include "blind_clock.hpp"
 
 namespace ardrone_vslam {
 
@@ -40,12 +42,16 @@ struct Slam::State {
   FrameView view;
   AssociationResult landmark_matches;
   AssociationResult feature_matches;
+  std::vector<Association> trusted_matches;   // constraint filter: of landmark_matches
+  BlindClock blind_clock;                     // constraint filter
+  std::optional<std::int64_t> last_stamp_ns;  // constraint filter
   std::vector<Sighting> sightings;
   std::vector<bool> used;  // the frame's features that need not be stored
   FrameResult result;
 
   void predict(const ImageFeatures& features, const ObserverState& observer);
   void setVariance();
+  void setDrifts();  // constraint filter
   /// Pose of base by the filter in use.
   Eigen::Isometry3d poseAt(const ObserverState& observer) const;
   Matrix6d covariance() const;
@@ -56,6 +62,8 @@ struct Slam::State {
   // The same two steps by the constraint filter (slam_constraint.cpp).
   void fixByLandmarks();
   void useTracks(const ImageFeatures& features);
+  void judgeMatches();
+  int dropFailing();
   void moveLandmarks();
 };
 

@@ -19,6 +19,7 @@ struct AssociationConfig {
   double landmark_threshold_px = 8.0;
   double epipolar_threshold_px = 2.0;
   double threshold_deviations = 3.0;
+  double widening_s = 10.0;
   double max_view_angle_deg = 60.0;
   double max_distance_ratio = 10.0;
   double max_window_share = 0.5;
@@ -42,6 +43,11 @@ void visitParameters(AssociationConfig& c, Visitor&& visit) {
                       "adds this many deviations of the pose, seen at the landmark's distance, to "
                       "window and threshold; 0: fixed"},
         c.threshold_deviations);
+  visit(ParameterInfo{"widening_s", "s", 0.01, 1e6,
+                      "constraint filter: those deviations are taken for twice as large after so "
+                      "many seconds in which nothing was recognised, three times after twice as "
+                      "many, and so on"},
+        c.widening_s);
   visit(ParameterInfo{"max_view_angle_deg", "deg", 1, 180,
                       "landmarks last seen from a direction further off are not searched"},
         c.max_view_angle_deg);
@@ -92,6 +98,9 @@ class Associator {
   /// A match whose ray is off the prediction by more than the threshold is a mismatch (5.36).
   /// O(landmarks + pairs inside windows), or as matchExact or DescriptorIndex::search.
   void matchLandmarks(const FrameView& view, LandmarkMap& map, AssociationResult& result);
+
+  /// A match is a mismatch when it is off the prediction by more than this.
+  double threshold_rad(const FrameView& view, const Landmark& landmark, double distance_m) const;
 
   /// Map features seen again by those of the frame's features that `taken` does not mark: by track,
   /// else by descriptor around where rotation alone would put them; matches off the epipolar plane

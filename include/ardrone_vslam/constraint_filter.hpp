@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <unordered_set>
@@ -37,6 +38,8 @@ struct ConstraintFilterConfig {
   double fix_min_age_s = 3;
   double fix_drift_share = 1;
   double fix_gate_deviations = 2;
+  double relocation_window_deg = 15;
+  double relocation_gate_deviations = 5;
   RestConfig rest;
 };
 
@@ -93,6 +96,16 @@ void visitParameters(ConstraintFilterConfig& c, Visitor&& visit) {
                     "a fix that disagrees by more than this in the mean of its six coordinates is "
                     "rejected"},
       c.fix_gate_deviations);
+  visit(ParameterInfo{"relocation_window_deg", "deg", 0.1, 180,
+                      "of landmarks that were looked for further around their prediction a few may "
+                      "fix the pose, "
+                      "too, when more agree than chance can explain; else it takes most of all "
+                      "that were found"},
+        c.relocation_window_deg);
+  visit(ParameterInfo{"relocation_gate_deviations", "-", 0.5, 1e6,
+                      "fix_gate_deviations of such a fix: after a blind stretch the odometry has "
+                      "often drifted more than it claims"},
+        c.relocation_gate_deviations);
   visitParameters(c.rest, visit);
 }
 
@@ -102,6 +115,15 @@ struct LandmarkSighting {
   Eigen::Vector3d point_map = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
   std::uint32_t anchor_id = 0;
+  double window_rad = M_PI;  ///< it was looked for so far around its prediction
+};
+
+/// What a fix makes of a sighting.
+enum class SightingVerdict {
+  kUnjudged,     ///< nothing: a young landmark, or there was no fix
+  kAgrees,       ///< with an accepted fix
+  kContradicts,  ///< an accepted fix
+  kDoubtful      ///< found in a wide window, and no fix says that it is right
 };
 
 /// A used track: its point may become a landmark.
@@ -111,7 +133,13 @@ struct UsedTrack {
   std::uint32_t anchor_id = 0;  ///< the frame whose error the point shares
 };
 
-enum class FixOutcome { kNone, kNotNeeded, kApplied, kRejected };
+enum class FixOutcome {
+  kNone,
+  kNotNeeded,
+  kApplied,
+  kRelocated,  ///< applied, by landmarks found in wide windows
+  kRejected
+};
 
 /// Fuses the observer with the camera: every track constrains, once, the frames that saw it,
 /// without a landmark in the state; landmarks of earlier visits correct the drift since, and are
@@ -124,6 +152,8 @@ class ConstraintFilter {
   void start(const ObserverState& observer);
   void predict(const ObserverState& observer);
   FixOutcome fix(const std::vector<LandmarkSighting>& sightings, double focal_length_px);
+  /// Of the sightings given to the last fix().
+  const std::vector<SightingVerdict>& verdicts() const { return verdicts_; }
   /// Takes in the newest frame's tracks; at a keyframe uses those that are complete.
   /// @return the tracks used, good until the next call
   const std::vector<UsedTrack>& track(const ImageFeatures& features);
@@ -153,7 +183,12 @@ class ConstraintFilter {
   CameraMotion motion() const { return motion_; }
 
  private:
-  FixOutcome fixBySightings(const std::vector<LandmarkSighting>& sightings, double focal_length_px);
+  FixOutcome fixBySightings(const std::vector<LandmarkSighting>& sightings, double sigma_a);
+  FixOutcome fixByFew(const std::vector<MapSighting>& sightings, double sigma_a);
+  FixOutcome fixByMost(const std::vector<MapSighting>& sightings, double sigma_a);
+  FixOutcome apply(const SightingConsensus& consensus, double sigma_a, double gate_deviations);
+  void judge(const std::vector<MapSighting>& sightings, const SightingConsensus& consensus);
+  double attitudeDeviation_rad(const std::vector<MapSighting>& sightings) const;
   void learnFrom(const MapFix& fix);
   void watchForRest(const ImageFeatures& features);
   bool holdStill(std::size_t reference);
@@ -176,6 +211,7 @@ class ConstraintFilter {
   RestDetector rest_;
   CameraMotion motion_ = CameraMotion::kUnknown;
   FixOutcome fix_outcome_ = FixOutcome::kNone;  // of the newest frame
+  std::vector<SightingVerdict> verdicts_;
   // The frame that stays in the window, keyframe or not, to compare the newest one with.
   std::uint32_t reference_id_ = 0;
   bool reference_is_keyframe_ = false;

@@ -36,6 +36,7 @@ struct Landmark {
       0;  ///< above the camera that saw it last; used in 2-D mode, where positions have no height
   int times_seen = 0;
   int times_missed = 0;  ///< in view but not matched, since the last match
+  int times_failed = 0;  ///< constraint filter: missed where others were found, or matched wrongly
   std::int64_t first_seen_ns = 0;
   std::int64_t last_seen_ns = 0;
 };
@@ -73,6 +74,7 @@ class LandmarkMap {
   Landmark& atPlace(std::size_t index);
   /// One more view in which the landmark should have been seen and was not. @return times_missed
   int addMiss(std::size_t index) { return ++landmarks_[index].times_missed; }
+  int addFailure(std::size_t index) { return ++landmarks_[index].times_failed; }
   /// @return nullptr when there is none of this id
   const Landmark* find(std::uint32_t id) const;
 

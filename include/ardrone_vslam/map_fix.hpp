@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -17,11 +18,14 @@ struct MapSighting {
   Eigen::Matrix3d covariance_m2 =
       Eigen::Matrix3d::Zero();  ///< beside what its anchor's errors cause
   std::size_t anchor = 0;       ///< index into WindowState::anchors()
+  std::size_t index = 0;        ///< among the frame's sightings
+  double window_rad = M_PI;     ///< it was looked for so far around its prediction
 };
 
-/// The sightings that agree on one position, and where it is.
+/// The sightings that agree on one pose of base, and which.
 struct SightingConsensus {
-  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();  ///< of base
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d R_map_base = Eigen::Matrix3d::Identity();
   std::vector<MapSighting> sightings;
 };
 

@@ -18,6 +18,7 @@ struct MapperConfig {
   double baseline_growth = 1.2;
   double max_depth_m = 1000.0;
   int drop_unconfirmed_after = 5;
+  double drop_failing_ratio = 10;
 };
 
 template <class Visitor>
@@ -43,6 +44,11 @@ void visitParameters(MapperConfig& c, Visitor&& visit) {
           "drop_unconfirmed_after", "frames", 1, 1000000,
           "a landmark seen at most twice is dropped after so many frames in view without a match"},
       c.drop_unconfirmed_after);
+  visit(ParameterInfo{"drop_failing_ratio", "-", 0.1, 1e6,
+                      "constraint filter: a landmark is dropped after so many failures for every "
+                      "time it was seen: not found while others of its place are, or off an "
+                      "accepted fix"},
+        c.drop_failing_ratio);
 }
 
 /// Makes, refines and removes landmarks (thesis 5.2, 5.4, algorithm 5) from a pose that
@@ -69,6 +75,12 @@ class Mapper {
   /// landmark indices.
   /// @return landmarks removed
   int countMissed(const std::vector<int>& missed, LandmarkMap& map) const;
+
+  /// Counts landmarks that were not found though their place is in view, or that contradict an
+  /// accepted fix; drops those that fail much more often than they are seen. Invalidates landmark
+  /// indices.
+  /// @return landmarks removed
+  int countFailed(const std::vector<int>& failed, LandmarkMap& map) const;
 
   /// Matched map features with enough parallax become landmarks and leave the feature map; those
   /// with too little wait.

@@ -24,10 +24,11 @@ enum class SlamState {
   kTracking,      ///< constraint filter: tracks correct the pose, no place seen before is in view
   kResting,       ///< constraint filter: the image is still and holds the position
   kRotating,      ///< constraint filter: the camera turns on the spot, the image holds the position
+  kRelocated,     ///< constraint filter: as kLocalised, by landmarks looked for nearly everywhere
 };
-constexpr std::array<const char*, 9> kSlamStateNames{
+constexpr std::array<const char*, 10> kSlamStateNames{
     "building_map", "localised", "too_few_landmarks", "fix_rejected", "observer_only",
-    "not_finite",   "tracking",  "resting",           "rotating"};
+    "not_finite",   "tracking",  "resting",           "rotating",     "relocated"};
 
 /// One frame's answer.
 struct FrameResult {

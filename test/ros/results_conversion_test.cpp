@@ -109,6 +109,7 @@ TEST(ResultConversion, EveryOtherStateHasAReason) {
       {SlamState::kFixRejected, Status::FIX_REJECTED},
       {SlamState::kResting, Status::RESTING},
       {SlamState::kRotating, Status::ROTATING},
+      {SlamState::kRelocated, Status::RELOCATED},
       {SlamState::kObserverOnly, Status::OBSERVER_ONLY},
       {SlamState::kNotFinite, Status::NOT_FINITE}};
   for (const auto& [state, constant] : states) {

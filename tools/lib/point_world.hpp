@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
@@ -73,6 +74,20 @@ class PointWorld {
   /// Moves everything (points only: cameras are the caller's).
   void transform(const Eigen::Isometry3d& T_new_old) {
     for (WorldPoint& point : points_) point.position_map = T_new_old * point.position_map;
+  }
+
+  /// So many of the points take each other's descriptors: they look like points elsewhere. With all
+  /// of them it is another place that looks alike.
+  void exchangeDescriptors(double share) {
+    std::vector<std::size_t> taken;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (random_.chance(share)) taken.push_back(i);
+    }
+    for (std::size_t k = taken.size(); k > 1; --k) {  // one cycle (Sattolo): nobody keeps its own
+      const auto other = static_cast<std::size_t>(random_.integer(0, static_cast<int>(k) - 2));
+      std::swap(points_[taken[k - 1]].descriptor, points_[taken[other]].descriptor);
+      std::swap(taken[k - 1], taken[other]);
+    }
   }
 
   const std::vector<WorldPoint>& points() const { return points_; }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "ardrone_vslam/map_fix.hpp"
+
+namespace ardrone_vslam {
+
+/// Where the camera is by landmarks that were matched nearly anywhere in the image, most of them
+/// wrongly: random sample consensus over pairs, which give a position at the predicted attitude;
+/// what agrees with the best ones, within that attitude's deviation, refines position and attitude.
+/// The samples are the same in every run. O(sightings).
+/// @param angle_deviation_rad     sigma_a of a ray
+/// @param attitude_deviation_rad  of the predicted attitude relative to the landmarks, per axis
+/// @return nothing when so many wrong matches might agree by chance, see agreementsByChance
+std::optional<SightingConsensus> relocate(const WindowPose& predicted,
+                                          const Eigen::Vector3d& camera_base,
+                                          const std::vector<MapSighting>& sightings,
+                                          double angle_deviation_rad,
+                                          double attitude_deviation_rad);
+
+/// How many poses, of all that three of the matches may give, so many of them are expected to agree
+/// with if every match is wrong and agrees with the probability `share`: an upper bound (Chernoff's
+/// of the binomial tail).
+double agreementsByChance(std::size_t matches, std::size_t agreeing, double share);
+
+}  // namespace ardrone_vslam

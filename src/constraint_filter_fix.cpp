@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Corrections by landmarks of earlier visits.
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "ardrone_vslam/constraint_filter.hpp"
+#include "ardrone_vslam/relocation.hpp"
+
+namespace ardrone_vslam {
+
+FixOutcome ConstraintFilter::fix(const std::vector<LandmarkSighting>& sightings,
+                                 double focal_length_px) {
+  verdicts_.assign(sightings.size(), SightingVerdict::kUnjudged);
+  fix_outcome_ = fixBySightings(sightings, config_.track_deviation_px / focal_length_px);
+  return fix_outcome_;
+}
+
+FixOutcome ConstraintFilter::fixBySightings(const std::vector<LandmarkSighting>& sightings,
+                                            double sigma_a) {
+  const double widest_rad = config_.relocation_window_deg * M_PI / 180;
+  std::vector<MapSighting> old;
+  std::vector<MapSighting> wide;
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const LandmarkSighting& s = sightings[i];
+    const auto anchor = anchorOf(s.anchor_id);
+    if (!anchor) continue;
+    const auto age_ns = newest().stamp_ns - state_.anchors()[*anchor].stamp_ns;
+    if (static_cast<double>(age_ns) * 1e-9 < config_.fix_min_age_s) continue;
+    old.push_back({s.bearing_base, s.point_map, s.covariance_m2, *anchor, i, s.window_rad});
+    if (s.window_rad <= widest_rad) continue;
+    wide.push_back(old.back());
+    verdicts_[i] = SightingVerdict::kDoubtful;
+  }
+  // The wide ones first: of a map that was begun anew meanwhile they are seldom the most.
+  const FixOutcome by_few = fixByFew(wide, sigma_a);
+  if (by_few == FixOutcome::kRelocated) return by_few;
+  const FixOutcome by_most = fixByMost(old, sigma_a);
+  if (by_most == FixOutcome::kNone) return by_few;
+  if (by_most != FixOutcome::kRejected) return by_most;
+  // The odometry is more wrong than it claims, or the landmarks are: more than chance decides.
+  const FixOutcome by_all = fixByFew(old, sigma_a);
+  return by_all == FixOutcome::kNone ? by_most : by_all;
+}
+
+FixOutcome ConstraintFilter::fixByFew(const std::vector<MapSighting>& sightings, double sigma_a) {
+  if (static_cast<int>(sightings.size()) < config_.min_fix_landmarks) return FixOutcome::kNone;
+  const auto consensus =
+      relocate(newest(), camera_base_, sightings, sigma_a, attitudeDeviation_rad(sightings));
+  if (!consensus || static_cast<int>(consensus->sightings.size()) < config_.min_fix_landmarks)
+    return FixOutcome::kNone;
+  const FixOutcome outcome = apply(*consensus, sigma_a, config_.relocation_gate_deviations);
+  if (outcome != FixOutcome::kRejected) judge(sightings, *consensus);
+  return outcome == FixOutcome::kApplied ? FixOutcome::kRelocated : outcome;
+}
+
+FixOutcome ConstraintFilter::fixByMost(const std::vector<MapSighting>& sightings, double sigma_a) {
+  if (static_cast<int>(sightings.size()) < config_.min_fix_landmarks) return FixOutcome::kNone;
+  const SightingConsensus consensus = agreeOnPosition(newest(), camera_base_, sightings, sigma_a);
+  // In windows some wrong matches agree by chance, but not most of all.
+  if (static_cast<int>(consensus.sightings.size()) < config_.min_fix_landmarks ||
+      2 * consensus.sightings.size() < sightings.size())
+    return FixOutcome::kNone;
+  const FixOutcome outcome = apply(consensus, sigma_a, config_.fix_gate_deviations);
+  if (outcome != FixOutcome::kRejected) judge(sightings, consensus);
+  return outcome;
+}
+
+FixOutcome ConstraintFilter::apply(const SightingConsensus& consensus, double sigma_a,
+                                   double gate_deviations) {
+  const MapFix fix =
+      fixBy(state_, camera_base_, consensus, sigma_a, config_.fix_independent_landmarks);
+  learnFrom(fix);
+  if (fix.drift.topLeftCorner<3, 3>().trace() <
+      config_.fix_drift_share * fix.covariance.topLeftCorner<3, 3>().trace())
+    return FixOutcome::kNotNeeded;
+  if (!(fix.distance() < 6 * gate_deviations * gate_deviations)) return FixOutcome::kRejected;
+  return state_.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;
+}
+
+void ConstraintFilter::judge(const std::vector<MapSighting>& sightings,
+                             const SightingConsensus& consensus) {
+  for (const MapSighting& s : sightings) verdicts_[s.index] = SightingVerdict::kContradicts;
+  for (const MapSighting& s : consensus.sightings) verdicts_[s.index] = SightingVerdict::kAgrees;
+}
+
+double ConstraintFilter::attitudeDeviation_rad(const std::vector<MapSighting>& sightings) const {
+  const int newest = state_.frameCoordinate(state_.frames().size() - 1);
+  std::vector<bool> is_seen(state_.anchors().size(), false);
+  for (const MapSighting& s : sightings) is_seen[s.anchor] = true;
+  double variance_rad2 = 0;
+  for (std::size_t i = 0; i < is_seen.size(); ++i) {
+    if (!is_seen[i]) continue;
+    const Matrix6d relative = state_.relativeCovariance(newest, state_.anchorCoordinate(i));
+    variance_rad2 = std::max(variance_rad2, relative.bottomRightCorner<3, 3>().trace() / 3);
+  }
+  return std::sqrt(variance_rad2);
+}
+
+void ConstraintFilter::learnFrom(const MapFix& fix) {
+  constexpr double kShare = 0.1;  // of one fix in the mean
+  constexpr double kWorst = 10;
+  fix_nis_ += kShare * (std::min(fix.distance() / 6, kWorst) - fix_nis_);
+  state_.inflate(std::max(fix_nis_, 1.0));
+}
+
+}  // namespace ardrone_vslam

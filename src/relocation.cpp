@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/relocation.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "ardrone_vslam/rotation.hpp"
+#include "ardrone_vslam/track_constraint.hpp"
+#include "sighting_rays.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kMostSamples = 1000;  // a tenth of right matches are found in nearly every frame
+constexpr double kLeastAttitude_rad = 0.0175;
+constexpr double kParallelSine = 0.03;  // of two rays that tell no distance
+constexpr double kMostByChance = 1e-6;  // a lost drone asks in every frame
+constexpr std::size_t kFewest = 4;      // three of them are taken by the pose
+
+class Relocator {
+ public:
+  Relocator(const WindowPose& predicted, const Eigen::Vector3d& camera_base,
+            const std::vector<MapSighting>& sightings, double sigma_a, double attitude_rad)
+      : predicted_(predicted),
+        camera_base_(camera_base),
+        sightings_(sightings),
+        sigma_a_(sigma_a),
+        attitude_rad_(std::max(attitude_rad, kLeastAttitude_rad)) {}
+
+  /// @return the pose that most sightings agree with
+  std::optional<WindowPose> search() const;
+  std::vector<std::size_t> agreeing(const WindowPose& pose, double slack_rad) const;
+  /// Probability that a wrong match agrees with a pose.
+  double shareByChance(const WindowPose& pose) const;
+
+ private:
+  std::optional<WindowPose> poseOf(std::size_t a, std::size_t b) const;
+  WindowPose refined(WindowPose pose) const;
+  double off(const WindowPose& pose, std::size_t i, double slack_rad) const {
+    return offRay(sightings_[i], pose.R_map_base * sightings_[i].bearing_base,
+                  pose.position_map + pose.R_map_base * camera_base_, sigma_a_, slack_rad);
+  }
+  double score(const WindowPose& pose, double slack_rad) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < sightings_.size(); ++i)
+      sum += std::max(0.0, 1 - off(pose, i, slack_rad) / kInlier);
+    return sum;
+  }
+
+  const WindowPose& predicted_;
+  const Eigen::Vector3d& camera_base_;
+  const std::vector<MapSighting>& sightings_;
+  double sigma_a_;
+  double attitude_rad_;
+};
+
+std::optional<WindowPose> Relocator::poseOf(std::size_t a, std::size_t b) const {
+  const Eigen::Vector3d ray_a = predicted_.R_map_base * sightings_[a].bearing_base;
+  const Eigen::Vector3d ray_b = predicted_.R_map_base * sightings_[b].bearing_base;
+  if (!(ray_a.cross(ray_b).norm() > kParallelSine)) return std::nullopt;
+  const Eigen::Vector3d camera = nearestToRays(sightings_[a], ray_a, sightings_[b], ray_b);
+  if (!camera.allFinite()) return std::nullopt;
+  WindowPose pose = predicted_;
+  pose.position_map = camera - predicted_.R_map_base * camera_base_;
+  // Two rays have one angle to spare: most wrong pairs end here.
+  if (!(off(pose, a, attitude_rad_) < kInlier && off(pose, b, attitude_rad_) < kInlier))
+    return std::nullopt;
+  return pose;
+}
+
+WindowPose Relocator::refined(WindowPose pose) const {
+  // The prediction's attitude errs alike for all, so it is found; then what agrees is told better.
+  for (const double slack_rad : {attitude_rad_, 0.5 * attitude_rad_, kSlack_rad, kSlack_rad}) {
+    Matrix6d matrix = Matrix6d::Zero();
+    Vector6d vector = Vector6d::Zero();
+    const double attitude_weight = 1 / (attitude_rad_ * attitude_rad_);
+    matrix.diagonal().tail<3>().setConstant(attitude_weight);
+    vector.tail<3>() =
+        attitude_weight * rotationVectorOf(predicted_.R_map_base * pose.R_map_base.transpose());
+    for (const std::size_t i : agreeing(pose, slack_rad)) {
+      const MapSighting& s = sightings_[i];
+      const auto ray = rayResidual(pose, camera_base_, s.bearing_base, s.point_map);
+      if (!ray) continue;
+      const Eigen::Matrix2d noise = sigma_a_ * sigma_a_ * Eigen::Matrix2d::Identity() +
+                                    ray->point * s.covariance_m2 * ray->point.transpose();
+      const Eigen::Matrix<double, 6, 2> weighted = ray->pose.transpose() * noise.inverse();
+      matrix += weighted * ray->pose;
+      vector += weighted * ray->residual;
+    }
+    const Vector6d step = matrix.ldlt().solve(vector);
+    if (!step.allFinite()) break;
+    pose.position_map += step.head<3>();
+    pose.R_map_base = rotationOf(step.tail<3>()) * pose.R_map_base;
+  }
+  return pose;
+}
+
+std::vector<std::size_t> Relocator::agreeing(const WindowPose& pose, double slack_rad) const {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < sightings_.size(); ++i) {
+    if (off(pose, i, slack_rad) < kInlier) indices.push_back(i);
+  }
+  return indices;
+}
+
+std::optional<WindowPose> Relocator::search() const {
+  std::optional<WindowPose> best;
+  double best_rough = 0;
+  double best_score = 0;
+  double samples = kMostSamples;
+  Draws draws;
+  for (int k = 0; k < samples; ++k) {
+    const std::size_t a = draws.below(sightings_.size());
+    const std::size_t b = draws.below(sightings_.size());
+    if (a == b) continue;
+    const auto pose = poseOf(a, b);
+    if (!pose) continue;
+    const double rough = score(*pose, attitude_rad_);
+    if (rough <= best_rough) continue;
+    best_rough = rough;
+    const WindowPose better = refined(*pose);
+    const double its_score = score(better, kSlack_rad);
+    if (its_score <= best_score) continue;
+    best_score = its_score;
+    best = better;
+    // Until two right ones have been drawn with a probability of 0.999; of these every other pair
+    // lies well.
+    const double share = its_score / static_cast<double>(sightings_.size());
+    samples = std::min(samples, std::log(0.001) / std::log1p(-0.5 * share * share));
+  }
+  return best;
+}
+
+double Relocator::shareByChance(const WindowPose& pose) const {
+  const Eigen::Vector3d camera = pose.position_map + pose.R_map_base * camera_base_;
+  const std::size_t count = sightings_.size();
+  // Anywhere in its window ..
+  double by_window = 0;
+  for (const MapSighting& s : sightings_) {
+    const Eigen::Vector3d offset = s.point_map - camera;
+    const double variance =
+        acrossVariance_rad2(s, offset.normalized(), offset.norm(), sigma_a_, kSlack_rad);
+    by_window += std::min(1.0, kInlier * variance / (s.window_rad * s.window_rad));
+  }
+  // .. but corners and landmarks stand in groups: so often do the same ones agree in other pairs.
+  constexpr std::size_t kRounds = 20;
+  std::size_t trials = 0;
+  std::size_t by_pairs = 0;
+  for (std::size_t round = 1; round <= kRounds; ++round) {
+    const std::size_t shift = round * count / (kRounds + 1);
+    if (shift == 0) continue;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3d ray = pose.R_map_base * sightings_[(i + shift) % count].bearing_base;
+      by_pairs += offRay(sightings_[i], ray, camera, sigma_a_, kSlack_rad) < kInlier ? 1U : 0U;
+      ++trials;
+    }
+  }
+  return std::max(by_window / static_cast<double>(count),
+                  static_cast<double>(by_pairs + 1) / static_cast<double>(trials + 1));
+}
+
+}  // namespace
+
+double agreementsByChance(std::size_t matches, std::size_t agreeing, double share) {
+  const double poses = std::pow(static_cast<double>(matches), 3) / 6;
+  if (agreeing < kFewest || matches < agreeing || !(share < 1)) return poses;
+  const double others = static_cast<double>(matches - 3);
+  const double q = static_cast<double>(agreeing - 3) / others;
+  if (q <= share) return poses;
+  double divergence = q * std::log(q / share);
+  if (q < 1) divergence += (1 - q) * std::log((1 - q) / (1 - share));
+  return poses * std::exp(-others * divergence);
+}
+
+std::optional<SightingConsensus> relocate(const WindowPose& predicted,
+                                          const Eigen::Vector3d& camera_base,
+                                          const std::vector<MapSighting>& sightings,
+                                          double angle_deviation_rad,
+                                          double attitude_deviation_rad) {
+  if (sightings.size() < kFewest) return std::nullopt;
+  const Relocator relocator(predicted, camera_base, sightings, angle_deviation_rad,
+                            attitude_deviation_rad);
+  const auto pose = relocator.search();
+  if (!pose) return std::nullopt;
+  const std::vector<std::size_t> agreeing = relocator.agreeing(*pose, kSlack_rad);
+  if (agreementsByChance(sightings.size(), agreeing.size(), relocator.shareByChance(*pose)) >
+      kMostByChance)
+    return std::nullopt;
+  SightingConsensus consensus;
+  consensus.position_map = pose->position_map;
+  consensus.R_map_base = pose->R_map_base;
+  for (const std::size_t i : agreeing) consensus.sightings.push_back(sightings[i]);
+  return consensus;
+}
+
+}  // namespace ardrone_vslam
