@@ -143,7 +143,9 @@ MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
     const WindowPose& anchor = state.anchors()[s.anchor];
     const Eigen::Vector3d from_anchor = s.point_map - anchor.position_map;
     Eigen::Matrix<double, 2, 14> H;
-    H.col(0) = -ray->point * from_anchor;
+    // The covariance's dilation is that of the predicted position: seen from the agreed one, the
+    // fix would seem to tell the scale.
+    H.col(0) = -ray->point * (from_anchor - moved.head<3>());
     H.middleCols<6>(1) = ray->pose;
     H.middleCols<3>(7) = ray->point;
     H.middleCols<3>(10) = -ray->point * skew(from_anchor);
