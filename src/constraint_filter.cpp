@@ -66,12 +66,15 @@ ConstraintFilter::ConstraintFilter(const ConstraintFilterConfig& config,
       R_base_cam_(T_base_cam.linear()),
       state_(config.observer),
       tracks_(T_base_cam.linear()),
-      rest_(config.rest) {
+      rest_(config.rest),
+      height_(config.height) {
   validate(config);
 }
 
 void ConstraintFilter::start(const ObserverState& observer) {
   state_.start(observer);
+  height_ = HeightUpdate(config_.height);
+  height_m_ = observer.height_m;
 }
 
 void ConstraintFilter::predict(const ObserverState& observer) {
@@ -80,6 +83,7 @@ void ConstraintFilter::predict(const ObserverState& observer) {
   if (!is_kept) state_.removeFrame(state_.frames().size() - 2);
   newest_is_keyframe_ = false;
   fix_outcome_ = FixOutcome::kNone;
+  height_m_ = observer.height_m;
 }
 
 std::optional<std::size_t> ConstraintFilter::frameOf(std::uint32_t id) const {
@@ -105,6 +109,10 @@ Matrix6d ConstraintFilter::covariance() const {
   covariance.bottomRightCorner<3, 3>() +=
       R_map_base * P.block<3, 3>(kMounting, kMounting) * R_map_base.transpose();
   return covariance;
+}
+
+double ConstraintFilter::scaleDeviation() const {
+  return std::sqrt(state_.covariance()(WindowState::kScale, WindowState::kScale));
 }
 
 std::optional<std::size_t> ConstraintFilter::anchorOf(std::uint32_t id) const {
@@ -168,6 +176,7 @@ const std::vector<UsedTrack>& ConstraintFilter::track(const ImageFeatures& featu
   used_.clear();
   candidates_ = 0;
   watchForRest(features);
+  height_outcome_ = height_m_ ? height_.apply(*height_m_, state_) : HeightOutcome::kNone;
   if (!isKeyframe(features)) return used_;
   newest_is_keyframe_ = true;
   keyframe_id_ = newest().id;

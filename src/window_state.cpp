@@ -49,6 +49,7 @@ void WindowState::start(const ObserverState& observer) {
   scale_error_ = 0;
   speed_error_m_s_ = 0;
   speed_m_s_ = 0;
+  floor_map_m_ = 0;
   anchors_.clear();
   frames_.assign(1, {next_id_++, observer.stamp_ns, observer.T_odom_base.translation(),
                      observer.T_odom_base.linear(), config_.slow_speed_m_s, 1});
@@ -185,6 +186,14 @@ void WindowState::holdNewest(std::size_t reference, const Eigen::Vector3d& camer
   P_.block<3, 3>(to, to) += deviation_m2;
 }
 
+void WindowState::beginFloor(double height_m, double variance_m2) {
+  floor_map_m_ = frames_.back().position_map.z() - height_m;
+  const int z = frameCoordinate(frames_.size() - 1) + 2;
+  P_.row(kFloor) = P_.row(z).eval();
+  P_.col(kFloor) = P_.col(z).eval();
+  P_(kFloor, kFloor) += variance_m2;
+}
+
 std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {
   const Eigen::MatrixXd P_ww = P_(information.coordinates, information.coordinates);
   Eigen::MatrixXd M = P_ww * information.matrix;
@@ -227,6 +236,7 @@ void WindowState::inject(const Eigen::VectorXd& error) {
   velocity_bias_m_s_ += error.segment<3>(kBias);
   scale_error_ += error(kScale);
   speed_error_m_s_ += error(kSpeed);
+  floor_map_m_ += error(kFloor);
   // A scale error stretches map and window as they now are, not as they were: the covariance must
   // say so, or later constraints would take the difference for a sight of the scale. The speed's
   // error stretches the window alone, about the newest frame.
@@ -237,6 +247,7 @@ void WindowState::inject(const Eigen::VectorXd& error) {
     pose.stretch *= 1 - error(kScale) - speed_error_m_s / pose.speed_m_s;
     T.block<3, 1>(at, 0) = error.segment<3>(at);
   };
+  T(kFloor, 0) = error(kFloor);
   const Eigen::Vector3d shift = error.segment<3>(frameCoordinate(frames_.size() - 1));
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     const int at = frameCoordinate(i);

@@ -11,6 +11,7 @@
 #include "ardrone_vslam/anchor_moves.hpp"
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/frame_view.hpp"
+#include "ardrone_vslam/height_update.hpp"
 #include "ardrone_vslam/map_fix.hpp"
 #include "ardrone_vslam/parameters.hpp"
 #include "ardrone_vslam/rest_detector.hpp"
@@ -38,6 +39,7 @@ struct ConstraintFilterConfig {
   double fix_drift_share = 1;
   double fix_gate_deviations = 2;
   RestConfig rest;
+  HeightConfig height;
 };
 
 template <class Visitor>
@@ -94,6 +96,7 @@ void visitParameters(ConstraintFilterConfig& c, Visitor&& visit) {
                     "rejected"},
       c.fix_gate_deviations);
   visitParameters(c.rest, visit);
+  visitParameters(c.height, visit);
 }
 
 /// A landmark as seen by the newest frame.
@@ -116,7 +119,8 @@ enum class FixOutcome { kNone, kNotNeeded, kApplied, kRejected };
 /// Fuses the observer with the camera: every track constrains, once, the frames that saw it,
 /// without a landmark in the state; landmarks of earlier visits correct the drift since, and are
 /// themselves taken along with what is corrected; while the image is still and no such landmark is
-/// in view, the camera is held where it is. Between keyframes only the last two are applied.
+/// in view, the camera is held where it is; heights above the floor tell the scale. Between
+/// keyframes all but the tracks are applied.
 class ConstraintFilter {
  public:
   ConstraintFilter(const ConstraintFilterConfig& config, const Eigen::Isometry3d& T_base_cam);
@@ -143,6 +147,11 @@ class ConstraintFilter {
   /// Of T_map_base: position [m^2], rotation vector [rad^2], axes of map.
   Matrix6d covariance() const;
   const WindowState& state() const { return state_; }
+  /// Of the observer: it reports (1 + error) times the way.
+  double scaleError() const { return state_.scaleError(); }
+  double scaleDeviation() const;
+  /// Of the last frame's height.
+  HeightOutcome heightOutcome() const { return height_outcome_; }
   /// Of the last frame: tracks with enough parallax, and those of them that agreed and were used.
   int candidates() const { return candidates_; }
   int used() const { return static_cast<int>(used_.size()); }
@@ -175,6 +184,9 @@ class ConstraintFilter {
   RestDetector rest_;
   CameraMotion motion_ = CameraMotion::kUnknown;
   FixOutcome fix_outcome_ = FixOutcome::kNone;  // of the newest frame
+  HeightUpdate height_;
+  std::optional<double> height_m_;  // at the newest frame
+  HeightOutcome height_outcome_ = HeightOutcome::kNone;
   // The frame that stays in the window, keyframe or not, to compare the newest one with.
   std::uint32_t reference_id_ = 0;
   bool reference_is_keyframe_ = false;
