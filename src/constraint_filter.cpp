@@ -64,7 +64,7 @@ ConstraintFilter::ConstraintFilter(const ConstraintFilterConfig& config,
     : config_(config),
       camera_base_(T_base_cam.translation()),
       R_base_cam_(T_base_cam.linear()),
-      state_(config.observer),
+      state_(config.observer, config.attitude_states),
       tracks_(T_base_cam.linear()),
       rest_(config.rest),
       height_(config.height) {
@@ -148,14 +148,15 @@ FixOutcome ConstraintFilter::fixBySightings(const std::vector<LandmarkSighting>&
   if (fix.drift.topLeftCorner<3, 3>().trace() <
       config_.fix_drift_share * fix.covariance.topLeftCorner<3, 3>().trace())
     return FixOutcome::kNotNeeded;
-  if (!(fix.distance() < 6 * squared(config_.fix_gate_deviations))) return FixOutcome::kRejected;
+  if (!(fix.distance() < fixCoordinates() * squared(config_.fix_gate_deviations)))
+    return FixOutcome::kRejected;
   return state_.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;
 }
 
 void ConstraintFilter::learnFrom(const MapFix& fix) {
   constexpr double kShare = 0.1;  // of one fix in the mean
   constexpr double kWorst = 10;
-  fix_nis_ += kShare * (std::min(fix.distance() / 6, kWorst) - fix_nis_);
+  fix_nis_ += kShare * (std::min(fix.distance() / fixCoordinates(), kWorst) - fix_nis_);
   state_.inflate(std::max(fix_nis_, 1.0));
 }
 

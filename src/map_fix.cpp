@@ -18,6 +18,7 @@ constexpr int kSamples = 40;
 constexpr double kInlier = 6;            // squared deviations of a ray's two angles, 95 %
 constexpr double kAttitude_rad = 0.005;  // of the predicted attitude, while looking for agreement
 constexpr double kTurn_rad = 0.02;       // keeps the turn of a fix by few landmarks regular
+constexpr double kNoTurn_rad = 1e-6;     // where the attitude is taken as exact
 
 /// A small linear congruential generator: the same samples on every machine.
 class Draws {
@@ -165,7 +166,10 @@ MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
   fix.information.vector *= share;
 
   Matrix6d on_pose = fix.information.matrix.block<6, 6>(1, 1);
-  on_pose.diagonal().tail<3>().array() += 1 / (kTurn_rad * kTurn_rad);
+  const int attitude = state.frameCoordinate(state.frames().size() - 1) + 3;
+  const bool is_exact = state.covariance().diagonal().segment<3>(attitude).isZero(0);
+  const double turn_rad = is_exact ? kNoTurn_rad : kTurn_rad;
+  on_pose.diagonal().tail<3>().array() += 1 / (turn_rad * turn_rad);
   fix.covariance = on_pose.inverse();
   const Eigen::MatrixXd J = fix.covariance * fix.information.matrix.middleRows<6>(1);
   fix.offset = fix.covariance * fix.information.vector.segment<6>(1);

@@ -28,6 +28,73 @@ Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
   return Eigen::Matrix3d::Identity() - unit * unit.transpose();
 }
 
+/// Where the coordinates that two ascending lists share stand in each of them.
+struct Places {
+  std::vector<int> in_first;
+  std::vector<int> in_second;
+
+  Places(const std::vector<int>& first, const std::vector<int>& second) {
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      while (k < second.size() && second[k] < first[i]) ++k;
+      if (k == second.size() || second[k] != first[i]) continue;
+      in_first.push_back(static_cast<int>(i));
+      in_second.push_back(static_cast<int>(k));
+    }
+  }
+
+  /// Of information on the first list: on the shared coordinates alone.
+  Information only(const Information& information) const {
+    std::vector<int> coordinates;
+    coordinates.reserve(in_first.size());
+    for (const int i : in_first)
+      coordinates.push_back(information.coordinates[static_cast<std::size_t>(i)]);
+    Information shared(std::move(coordinates));
+    shared.matrix = information.matrix(in_first, in_first);
+    for (std::size_t i = 0; i < in_first.size(); ++i)
+      shared.vector(static_cast<Eigen::Index>(i)) = information.vector(in_first[i]);
+    return shared;
+  }
+};
+
+/// Zeros but for these coordinates.
+Eigen::VectorXd spread(const Eigen::VectorXd& values, const std::vector<int>& coordinates,
+                       Eigen::Index size) {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(size);
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    all(coordinates[i]) = values(static_cast<Eigen::Index>(i));
+  return all;
+}
+
+/// Kalman update of a covariance.
+/// @return the error to correct; nothing when the covariance is not positive or the result not
+/// finite, and then nothing is changed
+std::optional<Eigen::VectorXd> condition(const Information& information, Eigen::MatrixXd& P) {
+  const std::vector<int>& w = information.coordinates;
+  const auto size = static_cast<Eigen::Index>(w.size());
+  // With P_ww = C C' and N = C' information C the posterior is P - G (I - (I + N)^-1) G', where
+  // G = P_w C'^-1: positive whatever the rank of the information.
+  constexpr double kRounding = 1e-14;
+  const Eigen::MatrixXd P_ww = P(w, w);
+  const Eigen::LLT<Eigen::MatrixXd> prior(P_ww + kRounding * Eigen::MatrixXd::Identity(size, size));
+  if (prior.info() != Eigen::Success) return std::nullopt;
+  const Eigen::MatrixXd C = prior.matrixL();
+  Eigen::MatrixXd M = C.transpose() * information.matrix * C;
+  M.diagonal().array() += 1;
+  const Eigen::LLT<Eigen::MatrixXd> inner(M);
+  if (inner.info() != Eigen::Success) return std::nullopt;
+  const Eigen::MatrixXd P_w = P(Eigen::all, w);
+  const Eigen::MatrixXd G = prior.matrixL().solve(P_w.transpose()).transpose();
+  const Eigen::VectorXd error = G * inner.solve(C.transpose() * information.vector);
+  if (!error.allFinite()) return std::nullopt;
+
+  const Eigen::MatrixXd gain =
+      Eigen::MatrixXd::Identity(size, size) - inner.solve(Eigen::MatrixXd::Identity(size, size));
+  P -= G * (gain * G.transpose());
+  P = (0.5 * (P + P.transpose())).eval();
+  return error;
+}
+
 }  // namespace
 
 Information::Information(std::vector<int> of_coordinates) : coordinates(std::move(of_coordinates)) {
@@ -36,8 +103,15 @@ Information::Information(std::vector<int> of_coordinates) : coordinates(std::mov
   vector = Eigen::VectorXd::Zero(size);
 }
 
-WindowState::WindowState(const ObserverNoiseConfig& config) : config_(config) {
+WindowState::WindowState(const ObserverNoiseConfig& config, bool attitude_states)
+    : config_(config), attitude_states_(attitude_states) {
   validate(config);
+  if (attitude_states) return;
+  config_.tilt_deviation_deg = 0;
+  config_.yaw_walk_deg_per_sqrt_s = 0;
+  config_.yaw_walk_deg_per_sqrt_m = 0;
+  config_.attitude_noise_deg = 0;
+  config_.mounting_deviation_deg = 0;
 }
 
 void WindowState::start(const ObserverState& observer) {
@@ -194,39 +268,52 @@ void WindowState::beginFloor(double height_m, double variance_m2) {
   P_(kFloor, kFloor) += variance_m2;
 }
 
+std::vector<int> WindowState::uncertain() const {
+  std::vector<int> coordinates;
+  const auto add = [&coordinates](int first, int count) {
+    for (int k = first; k < first + count; ++k) coordinates.push_back(k);
+  };
+  add(kBias, kMounting - kBias);
+  add(kFloor, kGlobals - kFloor);
+  for (std::size_t i = 0; i < frames_.size(); ++i) add(frameCoordinate(i), 3);
+  for (std::size_t i = 0; i < anchors_.size(); ++i) {
+    add(anchorCoordinate(i), 3);
+    add(anchorCoordinate(i) + kFrame, kAnchor - kFrame);
+  }
+  return coordinates;
+}
+
 std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {
-  const Eigen::MatrixXd P_ww = P_(information.coordinates, information.coordinates);
-  Eigen::MatrixXd M = P_ww * information.matrix;
-  M.diagonal().array() += 1;
-  const Eigen::VectorXd error = M.partialPivLu().solve(P_ww * information.vector);
-  if (!error.allFinite()) return std::nullopt;
-  return error;
+  const auto previewOn = [this](const Information& its) -> std::optional<Eigen::VectorXd> {
+    const Eigen::MatrixXd P_ww = P_(its.coordinates, its.coordinates);
+    Eigen::MatrixXd M = P_ww * its.matrix;
+    M.diagonal().array() += 1;
+    const Eigen::VectorXd error = M.partialPivLu().solve(P_ww * its.vector);
+    if (!error.allFinite()) return std::nullopt;
+    return error;
+  };
+  if (attitude_states_) return previewOn(information);
+  const Places places(information.coordinates, uncertain());
+  const auto error = previewOn(places.only(information));
+  if (!error) return std::nullopt;
+  return spread(*error, places.in_first, information.vector.size());
 }
 
 bool WindowState::update(const Information& information) {
-  const std::vector<int>& w = information.coordinates;
-  const auto size = static_cast<Eigen::Index>(w.size());
-  // With P_ww = C C' and N = C' information C the posterior is P - G (I - (I + N)^-1) G', where
-  // G = P_w C'^-1: positive whatever the rank of the information.
-  constexpr double kRounding = 1e-14;
-  const Eigen::MatrixXd P_ww = P_(w, w);
-  const Eigen::LLT<Eigen::MatrixXd> prior(P_ww + kRounding * Eigen::MatrixXd::Identity(size, size));
-  if (prior.info() != Eigen::Success) return false;
-  const Eigen::MatrixXd C = prior.matrixL();
-  Eigen::MatrixXd M = C.transpose() * information.matrix * C;
-  M.diagonal().array() += 1;
-  const Eigen::LLT<Eigen::MatrixXd> inner(M);
-  if (inner.info() != Eigen::Success) return false;
-  const Eigen::MatrixXd P_w = P_(Eigen::all, w);
-  const Eigen::MatrixXd G = prior.matrixL().solve(P_w.transpose()).transpose();
-  const Eigen::VectorXd error = G * inner.solve(C.transpose() * information.vector);
-  if (!error.allFinite()) return false;
-
-  const Eigen::MatrixXd gain =
-      Eigen::MatrixXd::Identity(size, size) - inner.solve(Eigen::MatrixXd::Identity(size, size));
-  P_ -= G * (gain * G.transpose());
-  P_ = (0.5 * (P_ + P_.transpose())).eval();
-  inject(error);
+  if (attitude_states_) {
+    const auto error = condition(information, P_);
+    if (error) inject(*error);
+    return error.has_value();
+  }
+  const std::vector<int> states = uncertain();
+  const Places places(information.coordinates, states);
+  Information its = places.only(information);
+  its.coordinates = places.in_second;
+  Eigen::MatrixXd P = P_(states, states);
+  const auto error = condition(its, P);
+  if (!error) return false;
+  P_(states, states) = P;
+  inject(spread(*error, states, P_.rows()));
   return true;
 }
 

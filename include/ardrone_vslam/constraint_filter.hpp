@@ -23,6 +23,7 @@ namespace ardrone_vslam {
 
 struct ConstraintFilterConfig {
   ObserverNoiseConfig observer;
+  bool attitude_states = true;
   double track_deviation_px = 1.5;
   int window_frames = 12;
   double keyframe_px = 15;
@@ -45,6 +46,11 @@ struct ConstraintFilterConfig {
 template <class Visitor>
 void visitParameters(ConstraintFilterConfig& c, Visitor&& visit) {
   visitParameters(c.observer, visit);
+  visit(
+      ParameterInfo{"attitude_states", "switch", 0, 0,
+                    "constraint filter: estimate attitude errors; false: the cheaper linear form, "
+                    "which takes the odometry's attitude and the mounting as exact"},
+      c.attitude_states);
   visit(ParameterInfo{"track_deviation_px", "px", 0.01, 100,
                       "constraint filter: deviation of a track's rays"},
         c.track_deviation_px);
@@ -154,6 +160,8 @@ class ConstraintFilter {
   HeightOutcome heightOutcome() const { return height_outcome_; }
   /// Of the last frame: tracks with enough parallax, and those of them that agreed and were used.
   int candidates() const { return candidates_; }
+  /// Whether the newest frame is a keyframe.
+  bool isKeyframe() const { return newest_is_keyframe_; }
   int used() const { return static_cast<int>(used_.size()); }
   /// Squared deviations of the fixes over what the covariance says of them, mean of the last ten or
   /// so: 1 is honest. Above, the odometry's velocity is taken for so much worse than configured.
@@ -164,6 +172,8 @@ class ConstraintFilter {
  private:
   FixOutcome fixBySightings(const std::vector<LandmarkSighting>& sightings, double focal_length_px);
   void learnFrom(const MapFix& fix);
+  /// Coordinates of a pose that a fix may find wrong.
+  int fixCoordinates() const { return config_.attitude_states ? 6 : 3; }
   void watchForRest(const ImageFeatures& features);
   bool holdStill(std::size_t reference);
   void makeReference();

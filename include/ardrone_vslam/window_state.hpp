@@ -59,7 +59,9 @@ class WindowState {
   static constexpr int kFrame = 6;
   static constexpr int kAnchor = 7;
 
-  explicit WindowState(const ObserverNoiseConfig& config);
+  /// @param attitude_states  false: the linear form. Attitudes and mounting are taken as exact:
+  /// their coordinates stay, without variance, but updates work on the others alone.
+  explicit WindowState(const ObserverNoiseConfig& config, bool attitude_states = true);
 
   /// Map equals odom; the first frame is the window's only one.
   void start(const ObserverState& observer);
@@ -113,8 +115,10 @@ class WindowState {
  private:
   void propagateGlobals(const ObserverState& observer, double dt_s, double way_m);
   void inject(const Eigen::VectorXd& error);
+  std::vector<int> uncertain() const;
 
   ObserverNoiseConfig config_;
+  bool attitude_states_;
   double inflation_ = 1;
   ObserverState observer_;
   std::uint32_t next_id_ = 1;
