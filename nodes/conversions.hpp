@@ -8,11 +8,13 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/Range.h>
 #include <visualization_msgs/Marker.h>
 
 #include <string>
 
 #include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/height_input.hpp"
 #include "ardrone_vslam/landmark_map.hpp"
 #include "ardrone_vslam/late_fusion.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
@@ -32,6 +34,9 @@ ros::Time toRosTime(std::int64_t stamp_ns);
 /// Pose of base in odom with a normalised quaternion, within rangeFault's bounds. The covariance is
 /// the message's, also one that counts as not given (covarianceFault).
 Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry);
+
+/// Its range is not looked at: HeightInput knows what is one.
+Checked<RangeReading> toRangeReading(const sensor_msgs::Range& message);
 
 /// Poses with normalised quaternions, within faultOf(LateCorrection)'s bounds. The frames are not
 /// looked at.

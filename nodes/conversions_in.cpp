@@ -98,6 +98,16 @@ Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
   return {state, {}};
 }
 
+Checked<RangeReading> toRangeReading(const sensor_msgs::Range& message) {
+  if (message.header.stamp.isZero()) return {std::nullopt, "its stamp is zero; set header.stamp"};
+  RangeReading reading;
+  reading.stamp_ns = toNanoseconds(message.header.stamp);
+  reading.range_m = message.range;
+  reading.min_m = message.min_range;
+  reading.max_m = message.max_range;
+  return {reading, {}};
+}
+
 Checked<LateCorrection> toLateCorrection(const PoseCorrection& message) {
   if (message.header.stamp.isZero()) return {std::nullopt, "its stamp is zero; set header.stamp"};
   const auto T_odom_base = toIsometry(message.observer_pose);

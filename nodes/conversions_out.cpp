@@ -200,6 +200,9 @@ void toStatus(const FrameResult& result, const std::string& map_frame, Status& s
   status.landmarks = count(result.landmarks);
   status.map_features = count(result.map_features);
   status.fix_nis = std::isfinite(result.fix_nis) ? result.fix_nis : 0;
+  const bool has_scale = std::isfinite(result.scale_error + result.scale_deviation);
+  status.scale_error = has_scale ? result.scale_error : 0;
+  status.scale_deviation = has_scale ? result.scale_deviation : 0;
   status.deviation = result.state == SlamState::kNotFinite ? 0 : result.deviation_m;
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kTick_s = 0.05;                // how late the end of a wait may be noticed
 constexpr std::uint32_t kOdometryQueue = 2000;  // 10 s at 200 Hz, while the mapper is busy
+constexpr std::uint32_t kRangeQueue = 500;
 
 double now_s() {
   return ros::SteadyTime::now().toSec();
@@ -40,6 +41,8 @@ void MapperNodelet::onInit() {
   });
   odometry_sub_ = nh.subscribe("odometry", kOdometryQueue, &MapperNodelet::onOdometry, this,
                                ros::TransportHints().tcpNoDelay());
+  if (config_.height_input.use_range)
+    range_sub_ = nh.subscribe("range", kRangeQueue, &MapperNodelet::onRange, this);
   features_sub_ = nh.subscribe("features", static_cast<std::uint32_t>(node_config_.queue_size),
                                &MapperNodelet::onFeatures, this);
 }
@@ -54,6 +57,7 @@ void MapperNodelet::readParameters() {
     // Some faults lie between parameters: tell them now, not in mid-air.
     Slam(config_, Eigen::Isometry3d::Identity());
     matcher_ = std::make_unique<FrameMatcher>(config_.observer, node_config_.odometry_wait_s);
+    heights_ = std::make_unique<HeightInput>(config_.height_input, config_.observer.buffer_s);
   } catch (const ConfigError& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;
@@ -140,6 +144,26 @@ void MapperNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
   warn(odometry_sub_.getTopic(), fault);
 }
 
+void MapperNodelet::onRange(const sensor_msgs::RangeConstPtr& range) {
+  const auto checked = toRangeReading(*range);
+  if (!checked.value) {
+    ++totals_.ranges_refused;
+    return warn(range_sub_.getTopic(), checked.fault);
+  }
+  if (heights_->newestStamp_ns() - checked.value->stamp_ns >= StampGuard::kRestart_ns)
+    heights_->clear();
+  // Out of bounds is how the sensor says that there is no echo: counted, no fault.
+  switch (heights_->push(*checked.value)) {
+    case HeightInput::Push::kAccepted:
+      return;
+    case HeightInput::Push::kNotAscending:
+      warn(range_sub_.getTopic(), "its stamp is not after the one before; stamps must ascend");
+      [[fallthrough]];
+    case HeightInput::Push::kOutOfRange:
+      ++totals_.ranges_refused;
+  }
+}
+
 void MapperNodelet::takeFrameNames(const nav_msgs::Odometry& odometry) {
   const auto chosen = [](const std::string& parameter, const std::string& header) -> const auto& {
     return parameter.empty() ? header : parameter;
@@ -178,7 +202,11 @@ bool MapperNodelet::prepareSlam() {
 
 void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   toFeatures(*frame.features, features_);
-  const FrameResult& result = slam_->process(features_, frame.observer, stage_clock_.hook());
+  ObserverState observer = frame.observer;
+  observer.height_m = heights_->at(observer);
+  const FrameResult& result = slam_->process(features_, observer, stage_clock_.hook());
+  totals_.heights_tilted = heights_->tilted();
+  if (result.height == HeightOutcome::kRejected) ++totals_.heights_rejected;
   has_answer_ = true;
   if (result.state == SlamState::kNotFinite) return refuseResult(result, *frame.features);
   answered_ns_ = result.stamp_ns;

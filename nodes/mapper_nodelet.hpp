@@ -30,6 +30,7 @@ class MapperNodelet : public nodelet::Nodelet {
 
   void onFeatures(const FeaturesConstPtr& features);
   void onOdometry(const nav_msgs::OdometryConstPtr& odometry);
+  void onRange(const sensor_msgs::RangeConstPtr& range);
   void onSecond();
 
   bool acceptFeatures(const Features& features);
@@ -62,6 +63,7 @@ class MapperNodelet : public nodelet::Nodelet {
 
   ros::Subscriber features_sub_;
   ros::Subscriber odometry_sub_;
+  ros::Subscriber range_sub_;
   ros::Publisher status_pub_;
   ros::WallTimer tick_timer_;
   ros::WallTimer map_timer_;
@@ -71,6 +73,7 @@ class MapperNodelet : public nodelet::Nodelet {
   std::unique_ptr<MapperOutputs> outputs_;
 
   std::unique_ptr<FrameMatcher> matcher_;
+  std::unique_ptr<HeightInput> heights_;
   std::unique_ptr<Slam> slam_;
   Eigen::Isometry3d T_base_cam_ = Eigen::Isometry3d::Identity();  // as slam_ has it
   StandstillWatch standstill_;

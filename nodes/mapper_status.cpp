@@ -91,6 +91,9 @@ void MapperNodelet::fillTotals(Status& status) const {
   status.dropped_no_odometry = totals_.dropped_no_odometry;
   status.dropped_no_extrinsics = totals_.dropped_no_extrinsics;
   status.odometry_refused = totals_.odometry_refused;
+  status.ranges_refused = totals_.ranges_refused;
+  status.heights_tilted = totals_.heights_tilted;
+  status.heights_rejected = totals_.heights_rejected;
   status.results_not_finite = totals_.results_not_finite;
   status.restarts = totals_.restarts;
 }
@@ -130,6 +133,12 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
   if (speed_.absurd_m_s() > 0) {
     wrapper.add("odometry speed",
                 explainSpeed("the odometry on " + odometry_sub_.getTopic(), speed_.absurd_m_s()));
+  }
+  if (config_.height_input.use_range) {
+    wrapper.add("ranges refused", totals_.ranges_refused);
+    wrapper.add("heights rejected", totals_.heights_rejected);
+    wrapper.add("scale error", latest_.scale_error);
+    wrapper.add("scale deviation", latest_.scale_deviation);
   }
   wrapper.add("results not finite", totals_.results_not_finite);
   wrapper.add("landmarks", latest_.landmarks);

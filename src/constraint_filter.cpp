@@ -64,14 +64,17 @@ ConstraintFilter::ConstraintFilter(const ConstraintFilterConfig& config,
     : config_(config),
       camera_base_(T_base_cam.translation()),
       R_base_cam_(T_base_cam.linear()),
-      state_(config.observer),
+      state_(config.observer, config.attitude_states),
       tracks_(T_base_cam.linear()),
-      rest_(config.rest) {
+      rest_(config.rest),
+      height_(config.height) {
   validate(config);
 }
 
 void ConstraintFilter::start(const ObserverState& observer) {
   state_.start(observer);
+  height_ = HeightUpdate(config_.height);
+  height_m_ = observer.height_m;
 }
 
 void ConstraintFilter::predict(const ObserverState& observer) {
@@ -80,6 +83,7 @@ void ConstraintFilter::predict(const ObserverState& observer) {
   if (!is_kept) state_.removeFrame(state_.frames().size() - 2);
   newest_is_keyframe_ = false;
   fix_outcome_ = FixOutcome::kNone;
+  height_m_ = observer.height_m;
 }
 
 std::optional<std::size_t> ConstraintFilter::frameOf(std::uint32_t id) const {
@@ -107,6 +111,10 @@ Matrix6d ConstraintFilter::covariance() const {
   return covariance;
 }
 
+double ConstraintFilter::scaleDeviation() const {
+  return std::sqrt(state_.covariance()(WindowState::kScale, WindowState::kScale));
+}
+
 std::optional<std::size_t> ConstraintFilter::anchorOf(std::uint32_t id) const {
   return indexOf(state_.anchors(), id);
 }
@@ -129,6 +137,7 @@ const std::vector<UsedTrack>& ConstraintFilter::track(const ImageFeatures& featu
   candidates_ = 0;
   order_.reset(features);
   watchForRest(features);
+  height_outcome_ = height_m_ ? height_.apply(*height_m_, state_) : HeightOutcome::kNone;
   if (!isKeyframe(features)) return used_;
   newest_is_keyframe_ = true;
   keyframe_id_ = newest().id;

@@ -74,7 +74,8 @@ FixOutcome ConstraintFilter::apply(const SightingConsensus& consensus, double si
   if (fix.drift.topLeftCorner<3, 3>().trace() <
       config_.fix_drift_share * fix.covariance.topLeftCorner<3, 3>().trace())
     return FixOutcome::kNotNeeded;
-  if (!(fix.distance() < 6 * gate_deviations * gate_deviations)) return FixOutcome::kRejected;
+  if (!(fix.distance() < fixCoordinates() * gate_deviations * gate_deviations))
+    return FixOutcome::kRejected;
   return state_.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;
 }
 
@@ -100,7 +101,7 @@ double ConstraintFilter::attitudeDeviation_rad(const std::vector<MapSighting>& s
 void ConstraintFilter::learnFrom(const MapFix& fix) {
   constexpr double kShare = 0.1;  // of one fix in the mean
   constexpr double kWorst = 10;
-  fix_nis_ += kShare * (std::min(fix.distance() / 6, kWorst) - fix_nis_);
+  fix_nis_ += kShare * (std::min(fix.distance() / fixCoordinates(), kWorst) - fix_nis_);
   state_.inflate(std::max(fix_nis_, 1.0));
 }
 

@@ -15,6 +15,9 @@ void ConstraintFilter::watchForRest(const ImageFeatures& features) {
     const Matrix6d relative = state_.relativeCovariance(
         state_.frameCoordinate(*reference), state_.frameCoordinate(state_.frames().size() - 1));
     attitude_deviation_rad = std::sqrt(relative.bottomRightCorner<3, 3>().trace() / 3);
+    // Taken as exact or not, the attitude is noisy.
+    if (!config_.attitude_states)
+      attitude_deviation_rad = std::sqrt(2.0) * config_.observer.attitude_noise_deg * M_PI / 180;
     R_reference_now = (state_.frames()[*reference].R_map_base * R_base_cam_).transpose() *
                       newest().R_map_base * R_base_cam_;
   }

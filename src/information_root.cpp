@@ -7,12 +7,12 @@
 
 namespace ardrone_vslam {
 
-InformationRoot::InformationRoot(const Information& information) {
+InformationRoot::InformationRoot(const Information& information, const Eigen::VectorXd& variances) {
   // Of a pivot so much is left by rounding alone.
   constexpr double kRounding = 1e-13;
   const Eigen::MatrixXd& N = information.matrix;
   const Eigen::Index size = N.rows();
-  const Eigen::VectorXd whole = N.diagonal();
+  const Eigen::VectorXd whole = (variances.array() > 0).select(N.diagonal(), 0.0);
   Eigen::VectorXd left = whole;
   rows.resize(size, size);
   measured.resize(size);

@@ -14,9 +14,11 @@ struct InformationRoot {
   Eigen::MatrixXd rows;  ///< transposed: a column a measurement
   Eigen::VectorXd measured;
 
-  /// Cholesky decomposition up to the rank, the largest remaining share of a pivot first.
+  /// Cholesky decomposition up to the rank, the largest remaining share of a pivot first. Exact
+  /// coordinates are no pivots: what is measured of them alone corrects nothing.
   /// O(size * rank^2).
-  explicit InformationRoot(const Information& information);
+  /// @param variances  of the coordinates; zero: exact
+  InformationRoot(const Information& information, const Eigen::VectorXd& variances);
 };
 
 }  // namespace ardrone_vslam

@@ -15,7 +15,8 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr int kSamples = 40;
-constexpr double kTurn_rad = 0.02;  // keeps the turn of a fix by few landmarks regular
+constexpr double kTurn_rad = 0.02;    // keeps the turn of a fix by few landmarks regular
+constexpr double kNoTurn_rad = 1e-6;  // where the attitude is taken as exact
 
 /// Coordinates of a fix: scale, newest pose, anchors (each once, ascending).
 struct FixCoordinates {
@@ -109,7 +110,9 @@ MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
     const WindowPose& anchor = state.anchors()[s.anchor];
     const Eigen::Vector3d from_anchor = s.point_map - anchor.position_map;
     Eigen::Matrix<double, 2, 14> H;
-    H.col(0) = -ray->point * from_anchor;
+    // The covariance's dilation is that of the predicted position: seen from the agreed one, the
+    // fix would seem to tell the scale.
+    H.col(0) = -ray->point * (from_anchor - moved.head<3>());
     H.middleCols<6>(1) = ray->pose;
     H.middleCols<3>(7) = ray->point;
     H.middleCols<3>(10) = -ray->point * skew(from_anchor);
@@ -129,7 +132,10 @@ MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
   fix.information.vector *= share;
 
   Matrix6d on_pose = fix.information.matrix.block<6, 6>(1, 1);
-  on_pose.diagonal().tail<3>().array() += 1 / (kTurn_rad * kTurn_rad);
+  const int attitude = state.frameCoordinate(state.frames().size() - 1) + 3;
+  const bool is_exact = state.covariance().diagonal().segment<3>(attitude).isZero(0);
+  const double turn_rad = is_exact ? kNoTurn_rad : kTurn_rad;
+  on_pose.diagonal().tail<3>().array() += 1 / (turn_rad * turn_rad);
   fix.covariance = on_pose.inverse();
   const Eigen::MatrixXd J = fix.covariance * fix.information.matrix.middleRows<6>(1);
   fix.offset = fix.covariance * fix.information.vector.segment<6>(1);

@@ -33,6 +33,8 @@ Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
     throw ConfigError(
         {"planar needs estimator thesis (or observer): the constraint filter has no "
          "2-D mode"});
+  if (config.height_input.use_range && config.height_input.known_height_m > 0)
+    throw ConfigError({"use_range and known_height_m exclude each other: one height is enough"});
   const std::string fault = mountingFault(T_base_cam);
   if (!fault.empty()) throw std::invalid_argument("the camera's mounting: " + fault);
   state_ = std::make_unique<State>(config, T_base_cam);
@@ -195,7 +197,12 @@ void Slam::State::report(const ObserverState& observer) {
   }
   result.landmarks = static_cast<int>(landmark_map.size());
   result.map_features = static_cast<int>(feature_map.size());
-  if (constraint) result.fix_nis = constraint->fixNis();
+  if (constraint) {
+    result.fix_nis = constraint->fixNis();
+    result.scale_error = constraint->scaleError();
+    result.scale_deviation = constraint->scaleDeviation();
+    result.height = constraint->heightOutcome();
+  }
   if (!isFinite(result)) result.state = SlamState::kNotFinite;
 }
 

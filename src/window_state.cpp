@@ -43,8 +43,15 @@ Information::Information(std::vector<int> of_coordinates) : coordinates(std::mov
   vector = Eigen::VectorXd::Zero(size);
 }
 
-WindowState::WindowState(const ObserverNoiseConfig& config) : config_(config) {
+WindowState::WindowState(const ObserverNoiseConfig& config, bool attitude_states)
+    : config_(config) {
   validate(config);
+  if (attitude_states) return;
+  config_.tilt_deviation_deg = 0;
+  config_.yaw_walk_deg_per_sqrt_s = 0;
+  config_.yaw_walk_deg_per_sqrt_m = 0;
+  config_.attitude_noise_deg = 0;
+  config_.mounting_deviation_deg = 0;
 }
 
 void WindowState::start(const ObserverState& observer) {
@@ -56,6 +63,7 @@ void WindowState::start(const ObserverState& observer) {
   scale_error_ = 0;
   speed_error_m_s_ = 0;
   speed_m_s_ = 0;
+  floor_map_m_ = 0;
   anchors_.clear();
   frames_.assign(1, {next_id_++, observer.stamp_ns, observer.T_odom_base.translation(),
                      observer.T_odom_base.linear(), config_.slow_speed_m_s, 1});
@@ -208,11 +216,17 @@ void WindowState::holdNewest(std::size_t reference, const Eigen::Vector3d& camer
   P.block<3, 3>(to, to) += deviation_m2;
 }
 
+void WindowState::beginFloor(double height_m, double variance_m2) {
+  floor_map_m_ = frames_.back().position_map.z() - height_m;
+  covariance_.copy(frameCoordinate(frames_.size() - 1) + 2, kFloor, 1);
+  covariance_.all()(kFloor, kFloor) += variance_m2;
+}
+
 // With the information's rows B (H' W H = B B', H' W r = B m) the gain is P B (I + B' P B)^-1, and
 // only so many columns as there are independent measurements take part.
 std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {
   const std::vector<int>& w = information.coordinates;
-  const InformationRoot root(information);
+  const InformationRoot root(information, covariance().diagonal()(w));
   if (root.measured.size() == 0) return Eigen::VectorXd::Zero(information.vector.size());
   const Eigen::MatrixXd P_ww = covariance()(w, w);
   const Eigen::MatrixXd P_B = P_ww * root.rows;
@@ -226,9 +240,9 @@ std::optional<Eigen::VectorXd> WindowState::preview(const Information& informati
 bool WindowState::update(const Information& information) {
   if (!information.matrix.allFinite() || !information.vector.allFinite()) return false;
   const std::vector<int>& w = information.coordinates;
-  const InformationRoot root(information);
-  if (root.measured.size() == 0) return true;
   auto P = covariance_.all();
+  const InformationRoot root(information, P.diagonal()(w));
+  if (root.measured.size() == 0) return true;
   const Eigen::MatrixXd P_w = P(Eigen::all, w);
   Eigen::MatrixXd G = P_w * root.rows;
   Eigen::MatrixXd M = innovation(root, G(w, Eigen::all));
@@ -257,6 +271,7 @@ void WindowState::inject(const Eigen::VectorXd& error) {
   velocity_bias_m_s_ += error.segment<3>(kBias);
   scale_error_ += error(kScale);
   speed_error_m_s_ += error(kSpeed);
+  floor_map_m_ += error(kFloor);
   const auto correct = [&](WindowPose& pose, int at, double speed_error_m_s) {
     pose.position_map += error.segment<3>(at);
     pose.R_map_base = rotationOf(error.segment<3>(at + 3)) * pose.R_map_base;
@@ -275,6 +290,7 @@ void WindowState::inject(const Eigen::VectorXd& error) {
 // error stretches the window alone, about the newest frame.
 Eigen::MatrixX2d WindowState::stretchBy(const Eigen::VectorXd& error) const {
   Eigen::MatrixX2d T = Eigen::MatrixX2d::Zero(error.size(), 2);
+  T(kFloor, 0) = error(kFloor);
   for (std::size_t i = 0; i < anchors_.size(); ++i) {
     const int at = anchorCoordinate(i);
     T.block<3, 1>(at, 0) = error.segment<3>(at);

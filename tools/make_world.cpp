@@ -55,7 +55,11 @@ void addOptions(CLI::App& app, Options& o) {
                  "(config/observer_profiles.yaml); default: drone in a bag, no odometry in a "
                  "folder. A,B@S: A, from second S on B; laps_then_hover hovers with `hover` unless "
                  "this says otherwise");
-  addSeed(app, "--seed", o.world.seed, "of the noise in odometry and images");
+  app.add_option("--range-noise", o.world.range_noise_m,
+                 "also write a range sensor's height above the floor, with this deviation [m]: "
+                 "/range in a bag, range.txt in a folder")
+      ->check(CLI::Range(0.0, 10.0));
+  addSeed(app, "--seed", o.world.seed, "of the noise in odometry, ranges and images");
   addSeed(app, "--world-seed", o.world.world_seed, "of the room");
   app.add_option("--start", o.start,
                  "X,Y,YAW, where the flight begins [m, m, rad] in the room of 8 x 6 m whose middle "

@@ -159,6 +159,11 @@ int run(const Options& o) {
   const FrameSelection selection =
       asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
   const auto sequence = select(openInput(o, config), selection);
+  if (config.mapper.height_input.use_range && sequence->ranges().empty()) {
+    throw std::runtime_error(sequence->name() +
+                             ": holds no ranges, which use_range asks for: record the sensor's "
+                             "topic (a folder: range.txt), or set use_range to false");
+  }
   const std::vector<RunObserver> observers = observersOf(*sequence, o);
   makeFolder(o.out);
   std::vector<RunResult> results;

@@ -12,6 +12,7 @@
 #include "ardrone_vslam/anchor_moves.hpp"
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/frame_view.hpp"
+#include "ardrone_vslam/height_update.hpp"
 #include "ardrone_vslam/map_fix.hpp"
 #include "ardrone_vslam/parameters.hpp"
 #include "ardrone_vslam/rest_detector.hpp"
@@ -23,6 +24,7 @@ namespace ardrone_vslam {
 
 struct ConstraintFilterConfig {
   ObserverNoiseConfig observer;
+  bool attitude_states = true;
   double track_deviation_px = 1.5;
   int window_frames = 12;
   double keyframe_px = 15;
@@ -41,11 +43,17 @@ struct ConstraintFilterConfig {
   double relocation_window_deg = 15;
   double relocation_gate_deviations = 5;
   RestConfig rest;
+  HeightConfig height;
 };
 
 template <class Visitor>
 void visitParameters(ConstraintFilterConfig& c, Visitor&& visit) {
   visitParameters(c.observer, visit);
+  visit(
+      ParameterInfo{"attitude_states", "switch", 0, 0,
+                    "constraint filter: estimate attitude errors; false: the cheaper linear form, "
+                    "which takes the odometry's attitude and the mounting as exact"},
+      c.attitude_states);
   visit(ParameterInfo{"track_deviation_px", "px", 0.01, 100,
                       "constraint filter: deviation of a track's rays"},
         c.track_deviation_px);
@@ -107,6 +115,7 @@ void visitParameters(ConstraintFilterConfig& c, Visitor&& visit) {
                       "often drifted more than it claims"},
         c.relocation_gate_deviations);
   visitParameters(c.rest, visit);
+  visitParameters(c.height, visit);
 }
 
 /// A landmark as seen by the newest frame.
@@ -144,7 +153,8 @@ enum class FixOutcome {
 /// Fuses the observer with the camera: every track constrains, once, the frames that saw it,
 /// without a landmark in the state; landmarks of earlier visits correct the drift since, and are
 /// themselves taken along with what is corrected; while the image is still and no such landmark is
-/// in view, the camera is held where it is. Between keyframes only the last two are applied.
+/// in view, the camera is held where it is; heights above the floor tell the scale. Between
+/// keyframes all but the tracks are applied.
 class ConstraintFilter {
  public:
   ConstraintFilter(const ConstraintFilterConfig& config, const Eigen::Isometry3d& T_base_cam);
@@ -173,8 +183,15 @@ class ConstraintFilter {
   /// Of T_map_base: position [m^2], rotation vector [rad^2], axes of map.
   Matrix6d covariance() const;
   const WindowState& state() const { return state_; }
+  /// Of the observer: it reports (1 + error) times the way.
+  double scaleError() const { return state_.scaleError(); }
+  double scaleDeviation() const;
+  /// Of the last frame's height.
+  HeightOutcome heightOutcome() const { return height_outcome_; }
   /// Of the last frame: tracks with enough parallax, and those of them that agreed and were used.
   int candidates() const { return candidates_; }
+  /// Whether the newest frame is a keyframe.
+  bool isKeyframe() const { return newest_is_keyframe_; }
   int used() const { return static_cast<int>(used_.size()); }
   /// Squared deviations of the fixes over what the covariance says of them, mean of the last ten or
   /// so: 1 is honest. Above, the odometry's velocity is taken for so much worse than configured.
@@ -190,6 +207,8 @@ class ConstraintFilter {
   void judge(const std::vector<MapSighting>& sightings, const SightingConsensus& consensus);
   double attitudeDeviation_rad(const std::vector<MapSighting>& sightings) const;
   void learnFrom(const MapFix& fix);
+  /// Coordinates of a pose that a fix may find wrong.
+  int fixCoordinates() const { return config_.attitude_states ? 6 : 3; }
   void watchForRest(const ImageFeatures& features);
   bool holdStill(std::size_t reference);
   void makeReference();
@@ -212,6 +231,9 @@ class ConstraintFilter {
   CameraMotion motion_ = CameraMotion::kUnknown;
   FixOutcome fix_outcome_ = FixOutcome::kNone;  // of the newest frame
   std::vector<SightingVerdict> verdicts_;
+  HeightUpdate height_;
+  std::optional<double> height_m_;  // at the newest frame
+  HeightOutcome height_outcome_ = HeightOutcome::kNone;
   // The frame that stays in the window, keyframe or not, to compare the newest one with.
   std::uint32_t reference_id_ = 0;
   bool reference_is_keyframe_ = false;

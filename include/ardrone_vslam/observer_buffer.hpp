@@ -25,6 +25,8 @@ struct ObserverState {
   /// Of base, axes of base: linear [m/s], then angular [rad/s]. Only passed on; zero when unknown.
   Vector6d twist_base = Vector6d::Zero();
   Matrix6d twist_covariance = Matrix6d::Zero();  ///< in the same order
+  /// Of base above the floor, measured at this very instant (HeightInput); not interpolated.
+  std::optional<double> height_m = std::nullopt;
 };
 
 /// Bounds of what an observer can mean. Beyond the first two a state is refused: no drone is there,

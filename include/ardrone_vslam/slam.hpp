@@ -42,6 +42,11 @@ struct FrameResult {
   double deviation_m = 0;  ///< of the fused position, per axis (6.12)
   /// Constraint filter: ConstraintFilter::fixNis(); 0 with the others.
   double fix_nis = 0;
+  /// Constraint filter: of the observer, which reports (1 + error) times the way; 0 with the
+  /// others.
+  double scale_error = 0;
+  double scale_deviation = 0;
+  HeightOutcome height = HeightOutcome::kNone;  ///< constraint filter
   /// Base position by the landmarks alone, before the fusion (6.4); nothing when there were too
   /// few.
   std::optional<Eigen::Vector3d> camera_position_map;

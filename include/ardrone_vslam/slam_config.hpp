@@ -6,6 +6,7 @@
 #include "ardrone_vslam/association.hpp"
 #include "ardrone_vslam/constraint_filter.hpp"
 #include "ardrone_vslam/feature_map.hpp"
+#include "ardrone_vslam/height_input.hpp"
 #include "ardrone_vslam/landmark_map.hpp"
 #include "ardrone_vslam/mapper.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
@@ -25,6 +26,7 @@ struct SlamConfig {
   Estimator estimator = Estimator::kThesis;
   bool planar = false;
   ObserverBufferConfig observer;
+  HeightInputConfig height_input;
   AssociationConfig association;
   ThesisFilterConfig thesis_filter;
   ConstraintFilterConfig constraint_filter;
@@ -47,6 +49,7 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
           "2-D mode: all z are zero, for a front camera when height and tilt are unknown"},
       c.planar);
   visitParameters(c.observer, visit);
+  visitParameters(c.height_input, visit);
   visitParameters(c.association, visit);
   visitParameters(c.thesis_filter, visit);
   visitParameters(c.constraint_filter, visit);

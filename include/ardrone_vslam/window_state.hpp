@@ -39,6 +39,7 @@ struct Information {
 ///   6     scale error: the observer reports (1 + s) times the way [-]
 ///   7     slow error of the observer's speed along the way [m/s]
 ///   8-10  attitude of the camera's mounting [rad], axes of base
+///   11    height of the floor in map [m], where heights above it are measured
 ///   then  the anchors: position of base [m], attitude [rad], and the speed error of their time, as
 ///         landmarks share its scale
 ///   then  the frames, oldest first: position and attitude. They come and go with every image, and
@@ -56,11 +57,14 @@ class WindowState {
   static constexpr int kScale = 6;
   static constexpr int kSpeed = 7;
   static constexpr int kMounting = 8;
-  static constexpr int kGlobals = 11;
+  static constexpr int kFloor = 11;
+  static constexpr int kGlobals = 12;
   static constexpr int kFrame = 6;
   static constexpr int kAnchor = 7;
 
-  explicit WindowState(const ObserverNoiseConfig& config);
+  /// @param attitude_states  false: the linear form. Attitudes and mounting are taken as exact:
+  /// their coordinates stay, without variance, and updates leave out what is measured of them.
+  explicit WindowState(const ObserverNoiseConfig& config, bool attitude_states = true);
 
   /// Map equals odom; the first frame is the window's only one.
   void start(const ObserverState& observer);
@@ -71,6 +75,10 @@ class WindowState {
   /// Corrects globals, anchors and frames. O(coordinates^2 x rank of the information).
   /// @return false when the covariance is not positive or the result not finite; nothing is changed
   bool update(const Information& information);
+
+  /// The floor is where a height above it, measured at the newest frame, says; what was known of
+  /// another floor is forgotten.
+  void beginFloor(double height_m, double variance_m2);
 
   /// The camera stands where it stood at a frame: the newest position is taken from there instead
   /// of from the observer's increments, which leave no trace.
@@ -96,6 +104,7 @@ class WindowState {
   void removeAnchor(std::size_t anchor);
 
   double scaleError() const { return scale_error_; }
+  double floor_map_m() const { return floor_map_m_; }
   /// Turns base as the camera's mounting has it into base.
   const Eigen::Matrix3d& R_mounting() const { return R_mounting_; }
   /// Of all coordinates.
@@ -121,6 +130,7 @@ class WindowState {
   double scale_error_ = 0;
   double speed_error_m_s_ = 0;
   double speed_m_s_ = 0;  // smoothed
+  double floor_map_m_ = 0;
   std::vector<WindowPose> frames_;
   std::vector<WindowPose> anchors_;
   CovarianceMatrix covariance_;

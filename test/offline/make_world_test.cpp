@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -80,6 +81,30 @@ TEST_F(MakeWorld, FolderHoldsWhatTheSequenceGives) {
   // The folder's base is the camera: 0.21 m before the drone's, with the same axes.
   EXPECT_TRUE(observer[40].T_map_base.isApprox(
       world.observer()[40].T_odom_base * Eigen::Translation3d(0.21, 0, 0), 1e-7));
+}
+
+TEST_F(MakeWorld, RangesAreTheHeightAlongTheBeamAndAreReadAgain) {
+  WorldOptions options = fewImages();
+  options.T_base_cam = forwardCamera();
+  EXPECT_TRUE(WorldSequence(options).ranges().empty());
+  options.range_noise_m = 0;
+  WorldSequence world(options);
+  const std::vector<RangeReading> ranges = world.ranges();
+  ASSERT_EQ(ranges.size(), 38U);  // 1.5 s, 25 a second
+  const Eigen::Isometry3d T_map_base = world.truth().at(ranges[20].stamp_ns);
+  EXPECT_NEAR((T_map_base * Eigen::Vector3d(0, 0, -ranges[20].range_m)).z(), 0, 1e-12);
+  writeTumFolder(world, path("flight"));
+  const auto read = select(openFolder(path("flight")), {1, {}, 1, false})->ranges();
+  ASSERT_EQ(read.size(), 38U) << "those of the second before the first frame, too";
+  EXPECT_EQ(read[20].stamp_ns, ranges[20].stamp_ns);
+  EXPECT_NEAR(read[20].range_m, ranges[20].range_m, 1e-6);
+
+  options.range_noise_m = 0.1;
+  const std::vector<RangeReading> noisy = WorldSequence(options).ranges();
+  double sum_m2 = 0;
+  for (std::size_t i = 0; i < noisy.size(); ++i)
+    sum_m2 += std::pow(noisy[i].range_m - ranges[i].range_m, 2);
+  EXPECT_NEAR(std::sqrt(sum_m2 / 38), 0.1, 0.04);
 }
 
 TEST_F(MakeWorld, FolderIsReadAgainAsItWas) {

@@ -225,5 +225,20 @@ TEST(TimeConversion, RoundTripIsExact) {
   }
 }
 
+TEST(InputsConversion, RangeKeepsItsBounds) {
+  sensor_msgs::Range message;
+  EXPECT_FALSE(toRangeReading(message).value) << "no stamp";
+  message.header.stamp = ros::Time(3, 5);
+  message.range = 1.5F;
+  message.min_range = 0.25F;
+  message.max_range = 4;
+  const auto reading = toRangeReading(message);
+  ASSERT_TRUE(reading.value);
+  EXPECT_EQ(reading.value->stamp_ns, 3'000'000'005);
+  EXPECT_EQ(reading.value->range_m, 1.5);
+  EXPECT_EQ(reading.value->min_m, 0.25);
+  EXPECT_EQ(reading.value->max_m, 4);
+}
+
 }  // namespace
 }  // namespace ardrone_vslam

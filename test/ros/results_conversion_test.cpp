@@ -24,6 +24,8 @@ FrameResult someResult() {
   }
   result.deviation_m = 0.25;
   result.fix_nis = 1.5;
+  result.scale_error = -0.02;
+  result.scale_deviation = 0.01;
   result.features = 100;
   result.match_method = MatchMethod::kIndexed;
   result.landmark_candidates = 30;
@@ -100,6 +102,8 @@ TEST(ResultConversion, StatusCountsWhatWasRemoved) {
   EXPECT_EQ(status.match_method, "indexed");
   EXPECT_EQ(status.images, 77U);
   EXPECT_EQ(status.fix_nis, 1.5);
+  EXPECT_EQ(status.scale_error, -0.02);
+  EXPECT_EQ(status.scale_deviation, 0.01);
 }
 
 TEST(ResultConversion, EveryOtherStateHasAReason) {

@@ -55,6 +55,7 @@ inline Flight straightFlight(int frames, double rate_hz, double speed_m_s) {
 struct DriftConfig {
   double walk_m_per_sqrt_s = 0.03;
   double bias_m_s = 0.01;  ///< deviation per axis of a constant velocity error
+  double scale_error = 0;  ///< ways are reported (1 + scale_error) times as long
 };
 
 inline std::vector<ObserverState> observe(const Flight& flight, const DriftConfig& drift,
@@ -63,16 +64,20 @@ inline std::vector<ObserverState> observe(const Flight& flight, const DriftConfi
   const Eigen::Vector3d bias_m_s = drift.bias_m_s * random.normal3();
   Eigen::Vector3d error_m = Eigen::Vector3d::Zero();
   std::vector<ObserverState> states;
+  const FlightPose* last = nullptr;
   for (const FlightPose& pose : flight) {
     if (!states.empty()) {
       const double dt_s = static_cast<double>(pose.stamp_ns - states.back().stamp_ns) * 1e-9;
       error_m += bias_m_s * dt_s + drift.walk_m_per_sqrt_s * std::sqrt(dt_s) * random.normal3();
+      error_m +=
+          drift.scale_error * (pose.T_map_base.translation() - last->T_map_base.translation());
     }
     ObserverState state;
     state.stamp_ns = pose.stamp_ns;
     state.T_odom_base = pose.T_map_base;
     state.T_odom_base.translation() += error_m;
     states.push_back(state);
+    last = &pose;
   }
   return states;
 }

@@ -193,5 +193,59 @@ TEST(WindowState, NothingChangesWhenTheInformationIsNotFinite) {
   EXPECT_EQ(state.covariance(), P);
 }
 
+/// A circle with anchors, and what random measurements of all coordinates make of it.
+WindowState measured(const ObserverNoiseConfig& config, bool attitude_states) {
+  RandomSource random(6);
+  WindowState state(config, attitude_states);
+  for (int i = 0; i < 30; ++i) {
+    const double turn = 0.1 * i;
+    const ObserverState observer = observerAt(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
+    i == 0 ? state.start(observer) : state.propagate(observer);
+    if (i % 5 == 4) state.makeAnchor(0);
+    if (i % 3 != 2) continue;
+    Information information(coordinatesFrom(0, state.frameCoordinate(state.frames().size())));
+    for (int row = 0; row < 4; ++row) {
+      Eigen::VectorXd h(information.vector.size());
+      for (Eigen::Index k = 0; k < h.size(); ++k) h(k) = 10 * random.normal();
+      information.matrix += h * h.transpose();
+      information.vector += h * random.normal();
+    }
+    const auto preview = state.preview(information);
+    EXPECT_TRUE(preview && preview->size() == information.vector.size());
+    EXPECT_TRUE(state.update(information));
+  }
+  return state;
+}
+
+TEST(WindowState, TheLinearFormIsTheOtherOneWithoutErrorsOfAttitude) {
+  ObserverNoiseConfig config;
+  config.tilt_deviation_deg = 0;
+  config.yaw_walk_deg_per_sqrt_s = 0;
+  config.yaw_walk_deg_per_sqrt_m = 0;
+  config.attitude_noise_deg = 0.001;  // the least that is allowed
+  const WindowState full = measured(config, true);
+  const WindowState linear = measured(ObserverNoiseConfig(), false);
+  const auto P = full.covariance();
+  EXPECT_LT((linear.covariance() - P).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_GT(P.diagonal().maxCoeff(), 5e-4);
+  EXPECT_NEAR(linear.scaleError(), full.scaleError(), 1e-6);
+  EXPECT_GT(std::abs(full.scaleError()), 1e-3);
+  for (std::size_t i = 0; i < full.frames().size(); ++i)
+    EXPECT_LT((linear.frames()[i].position_map - full.frames()[i].position_map).norm(), 1e-5) << i;
+  for (std::size_t i = 0; i < full.anchors().size(); ++i)
+    EXPECT_LT((linear.anchors()[i].position_map - full.anchors()[i].position_map).norm(), 1e-5);
+}
+
+TEST(WindowState, TheLinearFormLeavesAttitudesToTheBitAsTheObserverSays) {
+  const WindowState state = measured(ObserverNoiseConfig(), false);
+  for (std::size_t i = 0; i < state.frames().size(); ++i) {
+    const int at = state.frameCoordinate(i) + 3;
+    EXPECT_TRUE(state.covariance().middleRows<3>(at).isZero(0));
+  }
+  const double yaw_rad = 0.1 * 29;
+  EXPECT_LT((state.frames().back().R_map_base - rotationOf({0, 0, yaw_rad})).norm(), 1e-12);
+  expectHonest(state);
+}
+
 }  // namespace
 }  // namespace ardrone_vslam

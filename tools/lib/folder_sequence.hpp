@@ -18,6 +18,7 @@ struct FolderContents {
   Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
   Trajectory truth;
   std::vector<ObserverState> observer;
+  std::vector<RangeReading> ranges;
 };
 
 /// A folder of image files; images may be asked for in any order.
@@ -33,6 +34,7 @@ class FolderSequence : public Sequence {
   Eigen::Isometry3d T_base_cam() const override { return contents_.T_base_cam; }
   const Trajectory& truth() const override { return contents_.truth; }
   const std::vector<ObserverState>& observer() const override { return contents_.observer; }
+  std::vector<RangeReading> ranges() const override { return contents_.ranges; }
 
  private:
   FolderContents contents_;

@@ -9,8 +9,8 @@
 namespace ardrone_vslam {
 namespace {
 
-/// Recorded states this long before the first and after the last image stay, so that the stamps of
-/// images (and of late states) are covered.
+/// Recorded states and ranges this long before the first and after the last image stay, so that the
+/// stamps of images (and of late states) are covered.
 constexpr std::int64_t kObserverMargin_ns = 1'000'000'000;
 
 std::optional<std::size_t> parsePart(const std::string& part, const std::string& text) {
@@ -85,6 +85,7 @@ class SelectedSequence : public Sequence {
   Eigen::Isometry3d T_base_cam() const override { return sequence_->T_base_cam(); }
   const Trajectory& truth() const override { return truth_; }
   const std::vector<ObserverState>& observer() const override { return observer_; }
+  std::vector<RangeReading> ranges() const override { return ranges_; }
   ObserverNote observerNote() const override { return sequence_->observerNote(); }
 
  private:
@@ -102,11 +103,15 @@ class SelectedSequence : public Sequence {
   void keepStamps() {
     for (const std::size_t frame : order_) stamps_ns_.push_back(sequence_->stamp_ns(frame));
     truth_ = cut(sequence_->truth(), stamps_ns_.front(), stamps_ns_.back());
+    const auto isCovered = [this](std::int64_t stamp_ns) {
+      return stamp_ns >= stamps_ns_.front() - kObserverMargin_ns &&
+             stamp_ns <= stamps_ns_.back() + kObserverMargin_ns;
+    };
     for (const ObserverState& state : sequence_->observer()) {
-      if (state.stamp_ns >= stamps_ns_.front() - kObserverMargin_ns &&
-          state.stamp_ns <= stamps_ns_.back() + kObserverMargin_ns) {
-        observer_.push_back(state);
-      }
+      if (isCovered(state.stamp_ns)) observer_.push_back(state);
+    }
+    for (const RangeReading& reading : sequence_->ranges()) {
+      if (isCovered(reading.stamp_ns)) ranges_.push_back(reading);
     }
   }
 
@@ -115,6 +120,7 @@ class SelectedSequence : public Sequence {
   std::vector<std::int64_t> stamps_ns_;
   Trajectory truth_;
   std::vector<ObserverState> observer_;
+  std::vector<RangeReading> ranges_;
 };
 
 }  // namespace

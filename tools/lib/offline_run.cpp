@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <future>
+#include <utility>
 
 #include "ardrone_vslam/scene_turn.hpp"
 
@@ -82,11 +83,13 @@ void runFrontEnd(Sequence& sequence, const TrackerConfig& config,
 }
 
 BackEnd::BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
-                 const std::vector<ObserverState>& observer)
+                 const std::vector<ObserverState>& observer, std::vector<RangeReading> ranges)
     : slam_(config, T_base_cam),
       T_base_cam_(T_base_cam),
       buffer_(config.observer),
-      observer_(observer) {}
+      observer_(observer),
+      heights_(config.height_input, config.observer.buffer_s),
+      ranges_(std::move(ranges)) {}
 
 bool BackEnd::observerAt(std::int64_t stamp_ns, ObserverState& state) {
   auto lookup = buffer_.at(stamp_ns, state);
@@ -103,6 +106,12 @@ bool BackEnd::observerAt(std::int64_t stamp_ns, ObserverState& state) {
   return lookup == ObserverBuffer::Lookup::kFound;
 }
 
+std::optional<double> BackEnd::heightAt(const ObserverState& state) {
+  while (next_range_ < ranges_.size() && heights_.newestStamp_ns() < state.stamp_ns)
+    heights_.push(ranges_[next_range_++]);
+  return heights_.at(state);
+}
+
 void BackEnd::process(const TrackedFrame& frame) {
   ObserverState state;
   if (!observerAt(frame.features.stamp_ns, state)) {
@@ -110,6 +119,7 @@ void BackEnd::process(const TrackedFrame& frame) {
     return;
   }
   watch_.see(frame.features, Eigen::Isometry3d((state.T_odom_base * T_base_cam_).linear()));
+  state.height_m = heightAt(state);
   RunFrame run_frame;
   run_frame.times_ms = frame.times_ms;
   StageTimer timer(run_frame.times_ms);
@@ -120,6 +130,8 @@ void BackEnd::process(const TrackedFrame& frame) {
 RunResult BackEnd::finish() {
   run_.images_travel = watch_.isStuck();
   run_.absurd_speed_m_s = speed_.absurd_m_s();
+  run_.ranges_refused = heights_.refused();
+  run_.heights_tilted = heights_.tilted();
   run_.landmarks = slam_.landmarks().all();
   return std::move(run_);
 }

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "../../nodes/speed_watch.hpp"  // no ROS
 #include "../../nodes/standstill_watch.hpp"
 #include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/height_input.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/stages.hpp"
 #include "config_file.hpp"
@@ -38,6 +41,8 @@ struct RunResult {
   int frames_without_observer =
       0;  ///< no odometry at the image's stamp: before the first state, in a gap, or after the last
   int observer_states_refused = 0;  ///< not finite, out of bounds, duplicate or backward stamps
+  std::uint64_t ranges_refused = 0;
+  std::uint64_t heights_tilted = 0;  ///< images without a height as base was tilted
   /// The tracks moved for seconds on end by more than the observer's turning explains.
   bool images_travel = false;
   double absurd_speed_m_s = 0;  ///< of the observer, when it is too fast to be in metres
@@ -56,16 +61,17 @@ void runFrontEnd(Sequence& sequence, const TrackerConfig& config,
                  const std::function<void(const TrackedFrame& frame)>& consume);
 
 /// Features + observer -> poses and map, as the nodelets do it: odometry interpolated at the
-/// image's stamp by an ObserverBuffer.
+/// image's stamp by an ObserverBuffer, ranges by a HeightInput.
 class BackEnd {
  public:
   BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
-          const std::vector<ObserverState>& observer);
+          const std::vector<ObserverState>& observer, std::vector<RangeReading> ranges = {});
   void process(const TrackedFrame& frame);
   RunResult finish();
 
  private:
   bool observerAt(std::int64_t stamp_ns, ObserverState& state);
+  std::optional<double> heightAt(const ObserverState& state);
 
   Slam slam_;
   Eigen::Isometry3d T_base_cam_;
@@ -74,6 +80,9 @@ class BackEnd {
   ObserverBuffer buffer_;
   const std::vector<ObserverState>& observer_;
   std::size_t next_ = 0;
+  HeightInput heights_;
+  std::vector<RangeReading> ranges_;
+  std::size_t next_range_ = 0;
   RunResult run_;
 };
 

@@ -25,8 +25,8 @@ void forEach(std::size_t count, int threads, const Work& work) {
 }  // namespace
 
 void BackEnds::add(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
-                   const RunObserver& observer) {
-  back_ends_.push_back(std::make_unique<BackEnd>(config, T_base_cam, observer.run.states));
+                   const RunObserver& observer, const std::vector<RangeReading>& ranges) {
+  back_ends_.push_back(std::make_unique<BackEnd>(config, T_base_cam, observer.run.states, ranges));
   scale_errors_.push_back(observer.run.scale_error);
 }
 
@@ -48,7 +48,7 @@ std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
                               const Progress& progress) {
   BackEnds back_ends(threads);
   for (const RunObserver& observer : observers)
-    back_ends.add(config.mapper, sequence.T_base_cam(), observer);
+    back_ends.add(config.mapper, sequence.T_base_cam(), observer, sequence.ranges());
   std::size_t done = 0;
   // The front end runs once for all seeds. With `use_attitude` it takes the first seed's: attitudes
   // of one profile differ by no more than the pattern's steps of 1.4 degrees.

@@ -18,7 +18,7 @@ class BackEnds {
   explicit BackEnds(int threads) : threads_(threads) {}
   /// @param observer  must outlive this
   void add(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
-           const RunObserver& observer);
+           const RunObserver& observer, const std::vector<RangeReading>& ranges = {});
   void process(const TrackedFrame& frame);
   /// In the order of add().
   std::vector<RunResult> finish();

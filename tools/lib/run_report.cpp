@@ -106,6 +106,23 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   summary["frames_error_not_finite"] = e.frames_error_not_finite;
 }
 
+void addScale(const RunResult& run, Json& summary) {
+  const FrameResult last = run.frames.empty() ? FrameResult{} : run.frames.back().result;
+  const bool is_estimated = last.scale_deviation > 0;
+  const auto count = [&run](HeightOutcome outcome) {
+    return std::count_if(run.frames.begin(), run.frames.end(), [outcome](const RunFrame& frame) {
+      return frame.result.height == outcome;
+    });
+  };
+  summary["fused_scale_error"] = is_estimated ? orNull(last.scale_error) : Json(nullptr);
+  summary["fused_scale_deviation"] = is_estimated ? orNull(last.scale_deviation) : Json(nullptr);
+  summary["heights_used"] = count(HeightOutcome::kApplied);
+  summary["heights_rejected"] = count(HeightOutcome::kRejected);
+  summary["floors"] = count(HeightOutcome::kNewFloor);
+  summary["heights_tilted"] = run.heights_tilted;
+  summary["ranges_refused"] = run.ranges_refused;
+}
+
 void addCost(const RunResult& run, Json& summary) {
   const std::vector<double> totals = collect(run, [](const RunFrame& f) { return total_ms(f); });
   summary["ms_per_frame_median"] = quantile(totals, 0.5);
@@ -237,6 +254,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["landmarks"] = run.landmarks.size();
   summary["landmarks_not_finite"] =
       std::count_if(run.landmarks.begin(), run.landmarks.end(), isNotFinite);
+  addScale(run, summary);
   addCost(run, summary);
   return summary;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ardrone_vslam/camera_model.hpp"
+#include "ardrone_vslam/height_input.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
 #include "trajectory.hpp"
 
@@ -41,6 +42,8 @@ class Sequence {
   virtual const Trajectory& truth() const = 0;
   /// The recorded observer; empty when there is none.
   virtual const std::vector<ObserverState>& observer() const = 0;
+  /// What a range sensor under base read; empty when there is none.
+  virtual std::vector<RangeReading> ranges() const { return {}; }
   /// How the recorded observer came about; empty when it is a real one or unknown.
   virtual ObserverNote observerNote() const { return {}; }
 };
@@ -62,14 +65,14 @@ struct FrameSelection {
   static FrameSelection parse(const std::string& text, bool ping_pong);
 };
 
-/// View of a sequence through a selection. With ping-pong truth is re-stamped and a recorded
-/// observer is dropped.
+/// View of a sequence through a selection. With ping-pong truth is re-stamped; a recorded
+/// observer and ranges are dropped.
 std::unique_ptr<Sequence> select(std::unique_ptr<Sequence> sequence,
                                  const FrameSelection& selection);
 
 /// KITTI folder (image_0/, calib.txt, times.txt, poses.txt) or TUM-like folder (image/,
-/// camera.yaml, times.txt, poses_tum.txt, observer_tum.txt). @throws std::runtime_error naming the
-/// missing or wrong file and the remedy
+/// camera.yaml, times.txt, poses_tum.txt, observer_tum.txt, range.txt). @throws std::runtime_error
+/// naming the missing or wrong file and the remedy
 std::unique_ptr<Sequence> openFolder(const std::string& path);
 
 }  // namespace ardrone_vslam

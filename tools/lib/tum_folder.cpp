@@ -8,6 +8,7 @@
 #include "camera_yaml.hpp"
 #include "folder_files.hpp"
 #include "folder_sequence.hpp"
+#include "range_readings.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -59,6 +60,7 @@ std::unique_ptr<Sequence> openTumFolder(const std::string& path) {
   for (const auto& pose : readOptional(path + "/observer_tum.txt", false, contents.stamps_ns)) {
     contents.observer.push_back({pose.stamp_ns, pose.T_map_base, Matrix6d::Zero()});
   }
+  contents.ranges = readRanges(path + "/range.txt");
   return std::make_unique<FolderSequence>(std::move(contents));
 }
 

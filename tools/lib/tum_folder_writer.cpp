@@ -9,6 +9,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "range_readings.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -109,6 +111,8 @@ void writeTumFolder(Sequence& sequence, const std::string& path, const TumFolder
     writeImages(sequence, unfinished, options);
     writeText(unfinished / "camera.yaml", cameraYaml(sequence.camera()));
     writePoses(sequence, unfinished, options);
+    const std::vector<RangeReading> ranges = sequence.ranges();
+    if (!ranges.empty()) writeRanges((unfinished / "range.txt").string(), ranges);
     fs::rename(unfinished, target);
   } catch (const fs::filesystem_error& e) {
     std::error_code ignored;

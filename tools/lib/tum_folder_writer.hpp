@@ -16,9 +16,9 @@ struct TumFolderOptions {
 
 /// Writes a TUM-like folder: image/NNNNNN.png, times.txt, camera.yaml as camera_calibration writes
 /// it, poses_tum.txt (T_world_cam) when the truth is known and observer_tum.txt (T_odom_base) when
-/// the sequence has an observer. Base of such a folder is the camera's position with the axes of
-/// REP-103: poses of another base are carried over to it. The folder appears when it is complete; a
-/// failure leaves nothing behind.
+/// the sequence has an observer, range.txt when it has ranges (of its own base). Base of such a
+/// folder is the camera's position with the axes of REP-103: poses of another base are carried over
+/// to it. The folder appears when it is complete; a failure leaves nothing behind.
 /// @throws std::runtime_error naming path, fault and remedy; also when the path exists
 void writeTumFolder(Sequence& sequence, const std::string& path,
                     const TumFolderOptions& options = {});

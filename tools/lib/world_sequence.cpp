@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "random_source.hpp"
+#include "range_readings.hpp"
 #include "world_room.hpp"
 
 namespace ardrone_vslam {
@@ -59,6 +60,7 @@ WorldSequence::WorldSequence(const WorldOptions& options)
       truth_(flyTruth(options)) {
   room_ = makeRoom(options.world_seed);
   if (options.observer) observer_ = simulateObserver(truth_, *options.observer, options.seed);
+  if (options.range_noise_m) ranges_ = simulateRanges(truth_, *options.range_noise_m, options.seed);
 }
 
 cv::Mat WorldSequence::image(std::size_t index) {

@@ -26,8 +26,9 @@ struct WorldOptions {
   double rate_hz = 30;  ///< of the images
   /// The observer's profile; nothing: the sequence has no observer.
   std::optional<ObserverProfile> observer;
-  std::uint64_t seed = 0;        ///< noise of the observer and the images
-  std::uint64_t world_seed = 0;  ///< the room
+  std::optional<double> range_noise_m;  ///< nothing: the sequence has no ranges
+  std::uint64_t seed = 0;               ///< noise of the observer, the ranges and the images
+  std::uint64_t world_seed = 0;         ///< the room
   std::optional<FlightStart> start;
   /// Where base is: the camera always flies at arDroneFrontMount(), so arDroneFrontMount() makes
   /// base the middle of the drone and forwardCamera() the camera's own position.
@@ -53,6 +54,7 @@ class WorldSequence : public Sequence {
   Eigen::Isometry3d T_base_cam() const override { return options_.T_base_cam; }
   const Trajectory& truth() const override { return truth_; }
   const std::vector<ObserverState>& observer() const override { return observer_.states; }
+  std::vector<RangeReading> ranges() const override { return ranges_; }
 
   /// That the observer drew; 0 without one.
   ObserverNote observerNote() const override {
@@ -67,6 +69,7 @@ class WorldSequence : public Sequence {
   WorldRenderer renderer_;
   Trajectory truth_;
   ObserverRun observer_;
+  std::vector<RangeReading> ranges_;
 };
 
 }  // namespace ardrone_vslam

@@ -15,6 +15,8 @@ void BagOptions::addTo(CLI::App& app) {
   add("--camera-info-topic", bag_.camera_info_topic, "of a bag; default: beside the images");
   add("--odometry-topic", bag_.odometry_topic, "of a bag; default: the only one there is");
   add("--truth-topic", bag_.truth_topic, "of a bag; default: the one called truth");
+  add("--range-topic", bag_.range_topic,
+      "of a bag, with use_range; default: the only one there is");
   add("--camera-frame", bag_.camera_frame, "of a bag; default: the images' frame_id");
   add("--base-frame", bag_.base_frame,
       "of a bag; default: mapper/base_frame of the configuration, else the odometry's "
@@ -35,6 +37,7 @@ void BagOptions::refuseForFolder(const std::string& folder) const {
 BagReadOptions BagOptions::read(const PipelineConfig& config) const {
   BagReadOptions options = bag_;
   options.rectified = config.rectified;
+  options.use_range = config.mapper.height_input.use_range;
   if (options.base_frame.empty()) options.base_frame = config.base_frame;
   if (!camera_yaml_.empty()) options.camera = readCameraYaml(camera_yaml_);
   return options;

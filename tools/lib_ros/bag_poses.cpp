@@ -5,6 +5,7 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/Range.h>
 #include <tf2/buffer_core.h>
 #include <tf2/exceptions.h>
 #include <tf2_msgs/TFMessage.h>
@@ -108,6 +109,19 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
                        " poses are equal (zero odometry); check that the observer runs");
   }
   return odometry;
+}
+
+std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& topic) {
+  std::vector<RangeReading> ranges;
+  if (topic.empty()) return ranges;
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto message = readMessage<sensor_msgs::Range>(instance);
+    if (!message) continue;
+    ranges.push_back({toNanoseconds(message->header.stamp), message->range, message->min_range,
+                      message->max_range});
+  }
+  return ranges;
 }
 
 Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic,

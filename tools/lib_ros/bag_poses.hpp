@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ardrone_vslam/height_input.hpp"
 #include "bag_topics.hpp"
 #include "observer_model.hpp"
 
@@ -20,6 +21,9 @@ struct BagOdometry {
 /// nothing moves.
 BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
                          std::vector<std::string>& warnings);
+
+/// All of them, the ones without an echo, too.
+std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& topic);
 
 /// PoseStamped, PoseWithCovarianceStamped or Odometry. Poses that are not finite or whose stamps do
 /// not ascend are dropped; `warnings` says how many.

@@ -7,6 +7,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/Range.h>
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -84,6 +85,12 @@ template <>
 const SerialLayout& serialLayout<nav_msgs::Odometry>() {
   static const SerialLayout kLayout{
       false, {{kStart, 1}, {0, 1}, {kPose + kCovariance + kTwist + kCovariance, 0}}};
+  return kLayout;
+}
+
+template <>
+const SerialLayout& serialLayout<sensor_msgs::Range>() {
+  static const SerialLayout kLayout{false, {{kStart, 1}, {1 + 4 * kNumber, 0}}};
   return kLayout;
 }
 

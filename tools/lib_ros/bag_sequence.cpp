@@ -71,6 +71,7 @@ class BagFile : public BagSequence {
                   : readCameraInfo(bag_, topics.camera_info, options.rectified, warnings_);
     images_ = std::make_unique<BagImages>(bag_, topics, camera_, warnings_);
     BagOdometry odometry = readOdometry(bag_, topics.odometry, warnings_);
+    ranges_ = readRanges(bag_, topics.range);
     truth_ = readTruth(bag_, topics.truth, warnings_);
     const std::string base = options.base_frame.empty() ? odometry.base_frame : options.base_frame;
     if (base.empty() && !odometry.states.empty() && !options.T_base_cam) {
@@ -98,6 +99,7 @@ class BagFile : public BagSequence {
   Eigen::Isometry3d T_base_cam() const override { return T_base_cam_; }
   const Trajectory& truth() const override { return truth_; }
   const std::vector<ObserverState>& observer() const override { return observer_; }
+  std::vector<RangeReading> ranges() const override { return ranges_; }
   ObserverNote observerNote() const override { return note_; }
   const std::vector<std::string>& warnings() const override { return warnings_; }
 
@@ -109,6 +111,7 @@ class BagFile : public BagSequence {
   Eigen::Isometry3d T_base_cam_;
   Trajectory truth_;
   std::vector<ObserverState> observer_;
+  std::vector<RangeReading> ranges_;
   ObserverNote note_;
   std::vector<std::string> warnings_;
 };

@@ -16,7 +16,9 @@ struct BagReadOptions {
   std::string camera_info_topic;
   std::string odometry_topic;  ///< nav_msgs/Odometry
   std::string truth_topic;     ///< PoseStamped, PoseWithCovarianceStamped or Odometry, of base
-  std::string camera_frame;    ///< empty: the images' frame_id
+  std::string range_topic;     ///< sensor_msgs/Range; read only with use_range
+  bool use_range = false;
+  std::string camera_frame;  ///< empty: the images' frame_id
   /// Empty: the odometry's child_frame_id; in a bag without odometry the camera's tf parent.
   std::string base_frame;
   bool rectified = false;  ///< the images are rectified: camera_info's P without distortion

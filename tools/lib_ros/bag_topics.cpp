@@ -15,6 +15,7 @@ const char* const kImage = "sensor_msgs/Image";
 const char* const kCompressed = "sensor_msgs/CompressedImage";
 const char* const kCameraInfo = "sensor_msgs/CameraInfo";
 const char* const kOdometry = "nav_msgs/Odometry";
+const char* const kRange = "sensor_msgs/Range";
 
 /// One role that a topic of the bag can play.
 struct Role {
@@ -152,6 +153,10 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
         // What the mapper publishes is no observer.
         return topic != topics.truth && !endsWith(topic, "odometry_fused");
       });
+  if (options.use_range) {
+    topics.range = chooser.choose({"range", "--range-topic", {kRange}}, options.range_topic,
+                                  [](const std::string&) { return true; });
+  }
   return topics;
 }
 

@@ -21,6 +21,7 @@ struct ChosenTopics {
   std::string camera_info;
   std::string odometry;
   std::string truth;
+  std::string range;
 };
 
 /// The named topics, the others by type.

@@ -6,6 +6,7 @@
 #include <rosbag/bag.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/Range.h>
 #include <sensor_msgs/image_encodings.h>
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
@@ -34,6 +35,7 @@ struct BagContents {
   std::vector<std::int64_t> image_stamps_ns;
   std::vector<ObserverState> observer;
   std::vector<StampedPose> truth;
+  std::vector<RangeReading> ranges;
 };
 
 BagContents collect(const Sequence& sequence, const BagWriteOptions& options,
@@ -43,6 +45,7 @@ BagContents collect(const Sequence& sequence, const BagWriteOptions& options,
     contents.image_stamps_ns.push_back(sequence.stamp_ns(i));
   }
   contents.truth = sequence.truth().poses();
+  contents.ranges = sequence.ranges();
   contents.observer = sequence.observer();
   if (options.observer_profile) {
     if (sequence.truth().empty()) {
@@ -65,6 +68,7 @@ std::int64_t shiftStamps(BagContents& contents, const std::string& name) {
     for (auto& stamp_ns : contents.image_stamps_ns) action(stamp_ns);
     for (auto& state : contents.observer) action(state.stamp_ns);
     for (auto& pose : contents.truth) action(pose.stamp_ns);
+    for (auto& reading : contents.ranges) action(reading.stamp_ns);
   };
   forEachStamp([&](std::int64_t stamp_ns) {
     first_ns = std::min(first_ns, stamp_ns);
@@ -136,7 +140,7 @@ class BagWriter {
   /// All messages by stamp; of equal stamps what an image needs comes before it.
   void writeAll(const std::string& info) {
     writeLatched(info);
-    std::size_t image = 0, odometry = 0, truth = 0;
+    std::size_t image = 0, odometry = 0, truth = 0, range = 0;
     constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
     const auto stampOr = [](const auto& list, std::size_t i) {
       return i < list.size() ? list[i].stamp_ns : kNever_ns;
@@ -144,14 +148,17 @@ class BagWriter {
     while (true) {
       const std::int64_t odometry_ns = stampOr(contents_.observer, odometry);
       const std::int64_t truth_ns = stampOr(contents_.truth, truth);
+      const std::int64_t range_ns = stampOr(contents_.ranges, range);
       const std::int64_t image_ns =
           image < contents_.image_stamps_ns.size() ? contents_.image_stamps_ns[image] : kNever_ns;
-      const std::int64_t next_ns = std::min({odometry_ns, truth_ns, image_ns});
+      const std::int64_t next_ns = std::min({odometry_ns, truth_ns, range_ns, image_ns});
       if (next_ns == kNever_ns) break;
       if (next_ns == odometry_ns) {
         writeOdometry(odometry++);
       } else if (next_ns == truth_ns) {
         writeTruth(contents_.truth[truth++]);
+      } else if (next_ns == range_ns) {
+        writeRange(contents_.ranges[range++]);
       } else {
         writeImage(image++);
       }
@@ -166,6 +173,9 @@ class BagWriter {
       first_ns = std::min(first_ns, contents_.observer.front().stamp_ns);
     }
     if (!contents_.truth.empty()) first_ns = std::min(first_ns, contents_.truth.front().stamp_ns);
+    if (!contents_.ranges.empty()) {
+      first_ns = std::min(first_ns, contents_.ranges.front().stamp_ns);
+    }
     return first_ns;
   }
 
@@ -198,6 +208,16 @@ class BagWriter {
     message.header.frame_id = options_.frames.map;
     message.pose = toPoseMessage(pose.T_map_base);
     bag_.write(options_.topics.truth, message.header.stamp, message);
+  }
+
+  void writeRange(const RangeReading& reading) {
+    sensor_msgs::Range message;
+    message.header.stamp = toRosTime(reading.stamp_ns);
+    message.header.frame_id = options_.frames.base;
+    message.range = static_cast<float>(reading.range_m);
+    message.min_range = static_cast<float>(reading.min_m);
+    message.max_range = static_cast<float>(reading.max_m);
+    bag_.write(options_.topics.range, message.header.stamp, message);
   }
 
   void writeImage(std::size_t index) {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/parameters.hpp"
+
+namespace ardrone_vslam {
+
+/// Where heights above the floor come from.
+struct HeightInputConfig {
+  bool use_range = false;
+  double range_max_gap_s = 0.1;
+  double range_max_tilt_deg = 20;
+  double known_height_m = 0;
+};
+
+template <class Visitor>
+void visitParameters(HeightInputConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"use_range", "switch", 0, 0,
+                      "constraint filter: a range sensor that looks down (the topic `range`) tells "
+                      "the height above the floor, and so the scale when it changes"},
+        c.use_range);
+  visit(ParameterInfo{"range_max_gap_s", "s", 0.001, 10,
+                      "ranges are interpolated at the image's stamp across no longer a hole; at "
+                      "their end the nearest one counts for as long"},
+        c.range_max_gap_s);
+  visit(ParameterInfo{"range_max_tilt_deg", "deg", 0, 80,
+                      "ranges are not used while base is tilted by more"},
+        c.range_max_tilt_deg);
+  visit(ParameterInfo{"known_height_m", "m", 0, 1000,
+                      "constraint filter: constant height of base above a level floor (a robot on "
+                      "wheels); holds z, tells nothing of the scale; 0: not used"},
+        c.known_height_m);
+}
+
+/// What a range sensor under base says, its beam along base's -z. As sensor_msgs/Range: a range
+/// outside its own bounds is none.
+struct RangeReading {
+  std::int64_t stamp_ns = 0;
+  double range_m = 0;
+  double min_m = 0;
+  double max_m = 0;
+};
+
+/// The height of base above the floor at image stamps.
+class HeightInput {
+ public:
+  enum class Push { kAccepted, kOutOfRange, kNotAscending };
+
+  /// @param buffer_s  ranges are kept for so long
+  HeightInput(const HeightInputConfig& config, double buffer_s);
+
+  /// Appends a reading; one that is refused changes nothing.
+  Push push(const RangeReading& reading);
+  /// @param observer  its stamp is the image's, its attitude turns the range into a height
+  /// @return nothing without a range near the stamp, or while base is tilted too much
+  std::optional<double> at(const ObserverState& observer);
+
+  /// Forgets all readings: time began again.
+  void clear() { readings_.clear(); }
+  std::int64_t newestStamp_ns() const { return readings_.empty() ? 0 : readings_.back().stamp_ns; }
+  /// Readings refused, and images without a height because base was tilted.
+  std::uint64_t refused() const { return refused_; }
+  std::uint64_t tilted() const { return tilted_; }
+
+ private:
+  std::optional<double> rangeAt(std::int64_t stamp_ns) const;
+
+  HeightInputConfig config_;
+  double buffer_s_;
+  std::deque<RangeReading> readings_;  // oldest first
+  std::uint64_t refused_ = 0;
+  std::uint64_t tilted_ = 0;
+};
+
+}  // namespace ardrone_vslam

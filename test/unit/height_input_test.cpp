@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/height_input.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+
+RangeReading reading(std::int64_t stamp_ms, double range_m) {
+  return {stamp_ms * kMillisecond_ns, range_m, 0.2, 4};
+}
+
+ObserverState observerAt(std::int64_t stamp_ms, double roll_rad = 0, double pitch_rad = 0) {
+  ObserverState state;
+  state.stamp_ns = stamp_ms * kMillisecond_ns;
+  state.T_odom_base.linear() = (Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()) *
+                                Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
+                                Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX()))
+                                   .toRotationMatrix();
+  return state;
+}
+
+HeightInputConfig withRange() {
+  HeightInputConfig config;
+  config.use_range = true;
+  return config;
+}
+
+TEST(HeightInput, RangesAreInterpolatedAtTheStamp) {
+  HeightInput input(withRange(), 10);
+  input.push(reading(1000, 1.0));
+  input.push(reading(1050, 1.2));
+  EXPECT_NEAR(*input.at(observerAt(1000)), 1.0, 1e-12);
+  EXPECT_NEAR(*input.at(observerAt(1025)), 1.1, 1e-12);
+  EXPECT_NEAR(*input.at(observerAt(1050)), 1.2, 1e-12);
+}
+
+TEST(HeightInput, AtTheEndsTheNearestCountsForAsLongAsAHoleMayBe) {
+  HeightInput input(withRange(), 10);
+  EXPECT_FALSE(input.at(observerAt(1000)));
+  input.push(reading(1000, 1.0));
+  EXPECT_TRUE(input.at(observerAt(901)));
+  EXPECT_FALSE(input.at(observerAt(899)));
+  EXPECT_TRUE(input.at(observerAt(1099)));
+  EXPECT_FALSE(input.at(observerAt(1101)));
+  input.push(reading(1300, 1.2));
+  EXPECT_FALSE(input.at(observerAt(1050))) << "in a hole";
+  EXPECT_TRUE(input.at(observerAt(1300)));
+}
+
+TEST(HeightInput, TheBeamIsAsLongAsTheDroneIsTilted) {
+  HeightInput input(withRange(), 10);
+  input.push(reading(1000, 2.0));
+  const double roll_rad = 0.2;
+  const double pitch_rad = -0.15;
+  EXPECT_NEAR(*input.at(observerAt(1000, roll_rad, pitch_rad)),
+              2.0 * std::cos(roll_rad) * std::cos(pitch_rad), 1e-12);
+  EXPECT_EQ(input.tilted(), 0U);
+  EXPECT_FALSE(input.at(observerAt(1000, 0.4, 0)));
+  EXPECT_FALSE(input.at(observerAt(1000, 3.1, 0))) << "upside down";
+  EXPECT_EQ(input.tilted(), 2U);
+}
+
+TEST(HeightInput, WhatIsNoRangeIsRefusedAndCounted) {
+  HeightInput input(withRange(), 10);
+  using Push = HeightInput::Push;
+  EXPECT_EQ(input.push(reading(1000, std::nan(""))), Push::kOutOfRange);
+  EXPECT_EQ(input.push(reading(1000, std::numeric_limits<double>::infinity())), Push::kOutOfRange);
+  EXPECT_EQ(input.push(reading(1000, 0.1)), Push::kOutOfRange);
+  EXPECT_EQ(input.push(reading(1000, 4.1)), Push::kOutOfRange);
+  EXPECT_EQ(input.push({1, 0, 0, 4}), Push::kOutOfRange);
+  EXPECT_FALSE(input.at(observerAt(1000)));
+  EXPECT_EQ(input.push(reading(1000, 1)), Push::kAccepted);
+  EXPECT_EQ(input.push(reading(1000, 1)), Push::kNotAscending);
+  EXPECT_EQ(input.push(reading(999, 1)), Push::kNotAscending);
+  EXPECT_EQ(input.refused(), 7U);
+  input.clear();
+  EXPECT_EQ(input.push(reading(10, 1)), Push::kAccepted) << "time began again";
+}
+
+TEST(HeightInput, AKnownHeightIsConstantAndNeedsNoRange) {
+  HeightInputConfig config;
+  EXPECT_FALSE(HeightInput(config, 10).at(observerAt(1000)));
+  config.known_height_m = 1.65;
+  EXPECT_EQ(*HeightInput(config, 10).at(observerAt(1000, 0.1)), 1.65);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
