@@ -234,7 +234,9 @@ void ConstraintFilter::useTracks(const std::vector<FinishedTrack>& finished, dou
     tracks_.keepNewestView(c.track->track_id);
     const auto point = triangulateTrack(state_.frames(), camera_base_, c.track->views, sigma_a);
     if (!point) continue;
-    used_.push_back({*c.track, *point, anchor_id_});
+    const Eigen::Matrix3d by_frames = covarianceByFrames(state_, camera_base_, c.track->views,
+                                                         point->position_map, *frameOf(anchor_id_));
+    used_.push_back({*c.track, *point, anchor_id_, point->covariance_m2 + by_frames});
     distances_m.push_back((point->position_map - newest().position_map).norm());
   }
   if (used_.empty()) return;

@@ -68,14 +68,16 @@ FixOutcome ConstraintFilter::fixByMost(const std::vector<MapSighting>& sightings
 
 FixOutcome ConstraintFilter::apply(const SightingConsensus& consensus, double sigma_a,
                                    double gate_deviations) {
-  const MapFix fix =
-      fixBy(state_, camera_base_, consensus, sigma_a, config_.fix_independent_landmarks);
-  learnFrom(fix);
+  MapFix fix = fixBy(state_, camera_base_, consensus, sigma_a, config_.fix_independent_landmarks);
+  consistency_.learn(fix.whitened(), fixCoordinates());
+  state_.inflate(consistency_.odometryFactor());
   if (fix.drift.topLeftCorner<3, 3>().trace() <
       config_.fix_drift_share * fix.covariance.topLeftCorner<3, 3>().trace())
     return FixOutcome::kNotNeeded;
   if (!(fix.distance() < fixCoordinates() * gate_deviations * gate_deviations))
     return FixOutcome::kRejected;
+  fix.information.matrix /= consistency_.mapFactor();
+  fix.information.vector /= consistency_.mapFactor();
   return state_.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;
 }
 
@@ -96,13 +98,6 @@ double ConstraintFilter::attitudeDeviation_rad(const std::vector<MapSighting>& s
     variance_rad2 = std::max(variance_rad2, relative.bottomRightCorner<3, 3>().trace() / 3);
   }
   return std::sqrt(variance_rad2);
-}
-
-void ConstraintFilter::learnFrom(const MapFix& fix) {
-  constexpr double kShare = 0.1;  // of one fix in the mean
-  constexpr double kWorst = 10;
-  fix_nis_ += kShare * (std::min(fix.distance() / fixCoordinates(), kWorst) - fix_nis_);
-  state_.inflate(std::max(fix_nis_, 1.0));
 }
 
 }  // namespace ardrone_vslam

@@ -89,8 +89,12 @@ SightingConsensus agreeOnPosition(const WindowPose& predicted, const Eigen::Vect
   return consensus;
 }
 
+Vector6d MapFix::whitened() const {
+  return Matrix6d(drift + covariance).llt().matrixL().solve(offset);
+}
+
 double MapFix::distance() const {
-  return offset.dot(Matrix6d(drift + covariance).llt().solve(offset));
+  return whitened().squaredNorm();
 }
 
 MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
@@ -116,7 +120,7 @@ MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
     H.middleCols<6>(1) = ray->pose;
     H.middleCols<3>(7) = ray->point;
     H.middleCols<3>(10) = -ray->point * skew(from_anchor);
-    H.col(13) = -ray->point * from_anchor / anchor.speed_m_s;
+    H.col(13) = -ray->point * from_anchor;
     const Eigen::Matrix2d noise =
         angle_deviation_rad * angle_deviation_rad * Eigen::Matrix2d::Identity() +
         ray->point * s.covariance_m2 * ray->point.transpose();

@@ -15,7 +15,7 @@ Landmark landmarkOf(const UsedTrack& used, const FrameView& view) {
   const Eigen::Vector3d offset = used.point.position_map - view.origin_map();
   const double variance_m2 = used.point.covariance_m2.trace();
   landmark.position_map = used.point.position_map;
-  landmark.covariance_m2 = used.point.covariance_m2;
+  landmark.covariance_m2 = used.covariance_m2;
   landmark.anchor_id = used.anchor_id;
   landmark.deviation_m = std::sqrt(variance_m2 / 3);
   landmark.depth_deviation_m = std::sqrt(variance_m2);
@@ -142,6 +142,33 @@ void Slam::State::moveLandmarks() {
   }
 }
 
+bool Slam::State::isWellKnown(const UsedTrack& one) const {
+  const double distance_m = (one.point.position_map - view.origin_map()).norm();
+  return std::sqrt(one.covariance_m2.trace()) <
+         config.constraint_filter.landmark_deviation * distance_m;
+}
+
+void Slam::State::renew(const UsedTrack& one, const Landmark& landmark) {
+  // Its place beside the old anchor is forgotten: the drift since then must be worth it, too, and
+  // once it gives fixes it stays where it is.
+  constexpr double kBetter = 0.5;  // in variance
+  const double age_s =
+      static_cast<double>(view.features().stamp_ns - landmark.first_seen_ns) * 1e-9;
+  if (age_s > config.constraint_filter.fix_min_age_s) return;
+  const double distance_m = (one.point.position_map - view.origin_map()).norm();
+  const double drift_m =
+      distance_m *
+      view.driftAngle_rad(landmark.anchor_id, landmark.position_variance_m2, distance_m);
+  if (one.covariance_m2.trace() + 3 * drift_m * drift_m > kBetter * landmark.covariance_m2.trace())
+    return;
+  Landmark better = landmarkOf(one, view);
+  better.id = landmark.id;
+  better.descriptor = landmark.descriptor;
+  better.first_seen_ns = landmark.first_seen_ns;
+  better.times_seen += landmark.times_seen;
+  landmark_map.atPlace(static_cast<std::size_t>(&landmark - landmark_map.all().data())) = better;
+}
+
 void Slam::State::useTracks(const ImageFeatures& features) {
   const std::vector<UsedTrack>& used_tracks = constraint->track(features);
   const bool is_located = result.state == SlamState::kLocalised ||
@@ -162,9 +189,12 @@ void Slam::State::useTracks(const ImageFeatures& features) {
   }
   result.removed_landmarks = dropFailing();
   for (const UsedTrack& one : used_tracks) {
-    if (landmark_map.find(one.track.landmark_id) != nullptr) continue;
-    constraint->assignLandmark(one.track.track_id, landmark_map.add(landmarkOf(one, view)));
-    ++result.new_landmarks;
+    if (const Landmark* landmark = landmark_map.find(one.track.landmark_id)) {
+      renew(one, *landmark);
+    } else if (isWellKnown(one)) {
+      constraint->assignLandmark(one.track.track_id, landmark_map.add(landmarkOf(one, view)));
+      ++result.new_landmarks;
+    }
   }
   result.removed_landmarks += landmark_map.enforceCap();
 }

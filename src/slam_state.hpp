@@ -65,6 +65,8 @@ struct Slam::State {
   void judgeMatches();
   int dropFailing();
   void moveLandmarks();
+  bool isWellKnown(const UsedTrack& one) const;
+  void renew(const UsedTrack& one, const Landmark& landmark);
 };
 
 }  // namespace ardrone_vslam

@@ -177,6 +177,42 @@ std::optional<TrackConstraint> constraintOf(const WindowState& state,
   return constraint;
 }
 
+Eigen::Matrix3d covarianceByFrames(const WindowState& state, const Eigen::Vector3d& camera_base,
+                                   TrackViews views, const Eigen::Vector3d& point_map,
+                                   std::size_t anchor) {
+  // Error of the point less that of a point which keeps its place beside the anchor = G e, e the
+  // errors of bias, scale, anchor, and views.
+  constexpr int kBeforeViews = 10;
+  std::vector<int> coordinates;
+  const auto include = [&coordinates](int first, int count) {
+    for (int k = 0; k < count; ++k) coordinates.push_back(first + k);
+  };
+  include(WindowState::kBias, 4);
+  include(state.frameCoordinate(anchor), WindowState::kFrame);
+  Eigen::Matrix<double, 3, Eigen::Dynamic> G(
+      3, kBeforeViews + WindowState::kFrame * static_cast<Eigen::Index>(views.size()));
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  auto column = kBeforeViews;
+  for (const TrackView& view : views) {
+    const auto ray =
+        rayResidual(state.frames()[view.frame], camera_base, view.bearing_base, point_map);
+    if (!ray) continue;
+    A += ray->point.transpose() * ray->point;
+    G.middleCols<6>(column) = ray->point.transpose() * ray->pose;
+    include(state.frameCoordinate(view.frame), WindowState::kFrame);
+    column += WindowState::kFrame;
+  }
+  G.conservativeResize(3, column);
+  G.rightCols(column - kBeforeViews) = -(A.inverse() * G.rightCols(column - kBeforeViews)).eval();
+  const WindowPose& pose = state.frames()[anchor];
+  const Eigen::Vector3d from_anchor = point_map - pose.position_map;
+  G.leftCols<3>() = from_anchor * pose.stretch_by_bias_s_m.transpose();
+  G.col(3) = from_anchor;
+  G.middleCols<3>(4) = -Eigen::Matrix3d::Identity();
+  G.middleCols<3>(7) = skew(from_anchor);
+  return G * state.covariance()(coordinates, coordinates) * G.transpose();
+}
+
 double chiSquare95(int degrees_of_freedom) {
   const double k = degrees_of_freedom;
   const double spread = 2 / (9 * k);

@@ -12,8 +12,7 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr int kAttitude = 0;
-constexpr int kBias = 3;
-constexpr double kSpeedSmoothing_s = 2;
+constexpr double kVelocitySpan_s = 2;
 
 double squared(double value) {
   return value * value;
@@ -61,17 +60,14 @@ void WindowState::start(const ObserverState& observer) {
   inflation_ = 1;
   velocity_bias_m_s_.setZero();
   scale_error_ = 0;
-  speed_error_m_s_ = 0;
-  speed_m_s_ = 0;
   floor_map_m_ = 0;
   anchors_.clear();
   frames_.assign(1, {next_id_++, observer.stamp_ns, observer.T_odom_base.translation(),
-                     observer.T_odom_base.linear(), config_.slow_speed_m_s, 1});
+                     observer.T_odom_base.linear(), Eigen::Vector3d::Zero(), 1});
   covariance_.reset(kGlobals + kFrame);
   auto P = covariance_.all();
   P.diagonal().segment<3>(kBias).setConstant(squared(config_.velocity_bias_m_s));
   P(kScale, kScale) = squared(config_.scale_deviation);
-  P(kSpeed, kSpeed) = squared(config_.velocity_bias_m_s);
   // Yaw is zero by definition; roll and pitch may be off from the start.
   const Eigen::Matrix3d tilt =
       squared(radians(config_.tilt_deviation_deg)) * acrossOf(observer.T_odom_base.linear().col(2));
@@ -96,24 +92,19 @@ void WindowState::propagate(const ObserverState& observer) {
   const Eigen::Vector3d step_odom =
       observer.T_odom_base.translation() - observer_.T_odom_base.translation();
   const double way_m = step_odom.norm();
-  if (dt_s > 0) {
-    const double share = speed_m_s_ > 0 ? dt_s / (dt_s + kSpeedSmoothing_s) : 1;
-    speed_m_s_ += share * (way_m / dt_s - speed_m_s_);
-  }
+  const Eigen::Vector3d velocity_base_m_s = recentVelocity_base_m_s();
 
   WindowPose next;
   next.id = next_id_++;
   next.stamp_ns = observer.stamp_ns;
-  next.speed_m_s = std::max(speed_m_s_, config_.slow_speed_m_s);
+  next.stretch_by_bias_s_m =
+      velocity_base_m_s / (velocity_base_m_s.squaredNorm() + squared(config_.slow_speed_m_s));
   const Eigen::Vector3d step =
-      R_map_odom_ * step_odom * (1 - scale_error_ - speed_error_m_s_ / next.speed_m_s);
-  // Along the way the bias gives way to the speed error as the drone moves.
-  const double slow_m = config_.slow_speed_m_s * dt_s;
-  const double moving = way_m > 0 ? step.squaredNorm() / (step.squaredNorm() + slow_m * slow_m) : 0;
-  const Eigen::Vector3d along = step.normalized();
+      R_map_odom_ * step_odom *
+      (1 - scale_error_ - next.stretch_by_bias_s_m.dot(velocity_bias_m_s_));
   const Eigen::Matrix3d bias_to_step =
-      (Eigen::Matrix3d::Identity() - moving * along * along.transpose()) * R_map_odom_ *
-      observer_.T_odom_base.linear() * dt_s;
+      R_map_odom_ * observer_.T_odom_base.linear() * dt_s *
+      (Eigen::Matrix3d::Identity() - velocity_base_m_s * next.stretch_by_bias_s_m.transpose());
   const Eigen::Vector3d moved = step - bias_to_step * velocity_bias_m_s_;
   next.position_map = last.position_map + moved;
 
@@ -123,9 +114,8 @@ void WindowState::propagate(const ObserverState& observer) {
   auto P = covariance_.all();
   Eigen::Matrix<double, 3, kGlobals> F = Eigen::Matrix<double, 3, kGlobals>::Zero();
   F.middleCols<3>(kAttitude) = -skew(moved);
-  F.middleCols<3>(kBias) = -bias_to_step;
+  F.middleCols<3>(kBias) = -bias_to_step - moved * next.stretch_by_bias_s_m.transpose();
   F.col(kScale) = -moved;
-  F.col(kSpeed) = -moved / next.speed_m_s;
   auto position = P.middleCols<3>(to);
   position = P.middleCols<3>(from);
   position.noalias() += P.leftCols<kGlobals>() * F.transpose();
@@ -152,13 +142,24 @@ void WindowState::propagate(const ObserverState& observer) {
   observer_ = observer;
 }
 
+// Of the corrected poses: the observer's noise would make the velocity jitter, and the bias, which
+// counts as across the way or along it, would seem to be seen.
+Eigen::Vector3d WindowState::recentVelocity_base_m_s() const {
+  Eigen::Vector3d way_base_m = Eigen::Vector3d::Zero();
+  double passed_s = 0;
+  for (std::size_t i = frames_.size() - 1; i-- > 0 && passed_s < kVelocitySpan_s;) {
+    way_base_m += R_mounting_ * frames_[i].R_map_base.transpose() *
+                  (frames_[i + 1].position_map - frames_[i].position_map);
+    passed_s = static_cast<double>(frames_.back().stamp_ns - frames_[i].stamp_ns) * 1e-9;
+  }
+  return passed_s > 0 ? Eigen::Vector3d(way_base_m / passed_s) : Eigen::Vector3d::Zero();
+}
+
 void WindowState::inflate(double factor) {
   const double more = (factor - inflation_) * squared(config_.velocity_bias_m_s);
   inflation_ = factor;
   if (more <= 0) return;
-  auto P = covariance_.all();
-  P.diagonal().segment<3>(kBias).array() += more;
-  P(kSpeed, kSpeed) += more;
+  covariance_.all().diagonal().segment<3>(kBias).array() += more;
 }
 
 void WindowState::propagateGlobals(const ObserverState& observer, double dt_s, double way_m) {
@@ -169,7 +170,6 @@ void WindowState::propagateGlobals(const ObserverState& observer, double dt_s, d
   R_map_odom_ =
       rotationOf(-(1 - keep_tilt) * acrossOf(up) * rotationVectorOf(R_map_odom_)) * R_map_odom_;
   velocity_bias_m_s_ *= keep_bias;
-  speed_error_m_s_ *= keep_bias;
 
   const Eigen::Matrix3d keep_attitude =
       Eigen::Matrix3d::Identity() - (1 - keep_tilt) * acrossOf(up);
@@ -177,11 +177,9 @@ void WindowState::propagateGlobals(const ObserverState& observer, double dt_s, d
   auto globals = P.leftCols<kGlobals>();
   globals.middleCols<3>(kAttitude) *= keep_attitude.transpose();
   globals.middleCols<3>(kBias) *= keep_bias;
-  globals.col(kSpeed) *= keep_bias;
   auto corner = P.topLeftCorner<kGlobals, kGlobals>();
   corner.middleRows<3>(kAttitude) = (keep_attitude * corner.middleRows<3>(kAttitude)).eval();
   corner.middleRows<3>(kBias) *= keep_bias;
-  corner.row(kSpeed) *= keep_bias;
   const double tilt_variance =
       squared(radians(config_.tilt_deviation_deg)) * (1 - keep_tilt * keep_tilt);
   const double yaw_variance = squared(radians(config_.yaw_walk_deg_per_sqrt_s)) * dt_s +
@@ -191,7 +189,6 @@ void WindowState::propagateGlobals(const ObserverState& observer, double dt_s, d
   P.block<3, 3>(kAttitude, kAttitude) +=
       tilt_variance * acrossOf(up) + yaw_variance * up * up.transpose();
   P.diagonal().segment<3>(kBias).array() += bias_variance;
-  P(kSpeed, kSpeed) += bias_variance;
   const auto others = P.rows() - kGlobals;
   P.topRightCorner(kGlobals, others) = P.bottomLeftCorner(others, kGlobals).transpose();
 }
@@ -253,13 +250,13 @@ bool WindowState::update(const Information& information) {
   if (!error.allFinite()) return false;
 
   // P - G G', of which then the dilation is turned: (I - T S) (P - G G') (I - T S)', S picking
-  // scale and speed.
-  const Eigen::MatrixX2d T = stretchBy(error);
-  const Eigen::MatrixX2d P_s = P.middleCols<2>(kScale) - G * G.middleRows<2>(kScale).transpose();
-  const Eigen::MatrixX2d V = P_s - 0.5 * T * P_s.middleRows<2>(kScale);
+  // bias and scale.
+  const Stretch T = stretchBy(error);
+  const Stretch P_s = P.middleCols<4>(kBias) - G * G.middleRows<4>(kBias).transpose();
+  const Stretch V = P_s - 0.5 * T * P_s.middleRows<4>(kBias);
   auto lower = P.selfadjointView<Eigen::Lower>();
   lower.rankUpdate(G, -1);
-  for (int k = 0; k < 2; ++k) lower.rankUpdate(T.col(k), V.col(k), -1);
+  for (int k = 0; k < 4; ++k) lower.rankUpdate(T.col(k), V.col(k), -1);
   covariance_.mirrorLower();
   inject(error);
   return true;
@@ -270,36 +267,37 @@ void WindowState::inject(const Eigen::VectorXd& error) {
   R_mounting_ = rotationOf(error.segment<3>(kMounting)) * R_mounting_;
   velocity_bias_m_s_ += error.segment<3>(kBias);
   scale_error_ += error(kScale);
-  speed_error_m_s_ += error(kSpeed);
   floor_map_m_ += error(kFloor);
-  const auto correct = [&](WindowPose& pose, int at, double speed_error_m_s) {
+  const auto correct = [&](WindowPose& pose, int at, double stretched) {
     pose.position_map += error.segment<3>(at);
     pose.R_map_base = rotationOf(error.segment<3>(at + 3)) * pose.R_map_base;
-    pose.stretch *= 1 - error(kScale) - speed_error_m_s / pose.speed_m_s;
+    pose.stretch *= 1 - error(kScale) - stretched;
   };
   for (std::size_t i = 0; i < anchors_.size(); ++i) {
     const int at = anchorCoordinate(i);
     correct(anchors_[i], at, error(at + kFrame));
   }
   for (std::size_t i = 0; i < frames_.size(); ++i)
-    correct(frames_[i], frameCoordinate(i), error(kSpeed));
+    correct(frames_[i], frameCoordinate(i),
+            frames_[i].stretch_by_bias_s_m.dot(error.segment<3>(kBias)));
 }
 
 // A scale error stretches map and window as they now are, not as they were: the covariance must
-// say so, or later constraints would take the difference for a sight of the scale. The speed's
-// error stretches the window alone, about the newest frame.
-Eigen::MatrixX2d WindowState::stretchBy(const Eigen::VectorXd& error) const {
-  Eigen::MatrixX2d T = Eigen::MatrixX2d::Zero(error.size(), 2);
-  T(kFloor, 0) = error(kFloor);
-  for (std::size_t i = 0; i < anchors_.size(); ++i) {
-    const int at = anchorCoordinate(i);
-    T.block<3, 1>(at, 0) = error.segment<3>(at);
-  }
-  const Eigen::Vector3d shift = error.segment<3>(frameCoordinate(frames_.size() - 1));
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
+// say so, or later constraints would take the difference for a sight of the scale. The velocity's
+// bias stretches the steps of the window alone, each in its way.
+WindowState::Stretch WindowState::stretchBy(const Eigen::VectorXd& error) const {
+  Stretch T = Stretch::Zero(error.size(), 4);
+  const auto scaled = [&](int at) { T.block<3, 1>(at, kScale - kBias) = error.segment<3>(at); };
+  T(kFloor, kScale - kBias) = error(kFloor);
+  for (std::size_t i = 0; i < anchors_.size(); ++i) scaled(anchorCoordinate(i));
+  scaled(frameCoordinate(frames_.size() - 1));
+  for (std::size_t i = frames_.size() - 1; i-- > 0;) {
     const int at = frameCoordinate(i);
-    T.block<3, 1>(at, 0) = error.segment<3>(at);
-    T.block<3, 1>(at, 1) = (error.segment<3>(at) - shift) / frames_[i].speed_m_s;
+    const int next = frameCoordinate(i + 1);
+    scaled(at);
+    T.block<3, 3>(at, 0) =
+        T.block<3, 3>(next, 0) + (error.segment<3>(at) - error.segment<3>(next)) *
+                                     frames_[i + 1].stretch_by_bias_s_m.transpose();
   }
   return T;
 }
@@ -313,7 +311,12 @@ void WindowState::makeAnchor(std::size_t frame) {
   const int anchor = anchorCoordinate(anchors_.size());
   covariance_.insert(anchor, kAnchor);
   covariance_.copy(frameCoordinate(frame) + kAnchor, anchor, kFrame);
-  covariance_.copy(kSpeed, anchor + kFrame, 1);
+  auto P = covariance_.all();
+  const int stretch = anchor + kFrame;
+  const Eigen::Vector3d& by_bias_s_m = frames_[frame].stretch_by_bias_s_m;
+  P.col(stretch) = P.middleCols<3>(kBias) * by_bias_s_m;
+  P(stretch, stretch) = by_bias_s_m.dot(P.block<3, 1>(kBias, stretch));
+  P.row(stretch) = P.col(stretch).transpose();
   anchors_.push_back(frames_[frame]);
   removeFrame(frame);
 }

@@ -11,6 +11,7 @@
 
 #include "ardrone_vslam/anchor_moves.hpp"
 #include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/fix_consistency.hpp"
 #include "ardrone_vslam/frame_view.hpp"
 #include "ardrone_vslam/height_update.hpp"
 #include "ardrone_vslam/map_fix.hpp"
@@ -25,13 +26,14 @@ namespace ardrone_vslam {
 struct ConstraintFilterConfig {
   ObserverNoiseConfig observer;
   bool attitude_states = true;
-  double track_deviation_px = 1.5;
+  double track_deviation_px = 2;
   int window_frames = 12;
   double keyframe_px = 15;
   double keyframe_s = 2;
   int min_track_views = 3;
   double track_parallax_deviations = 6;
   double baseline_uncertainty = 0.5;
+  double landmark_deviation = 0.2;
   double anchor_spacing = 0.3;
   double anchor_turn_deg = 20;
   int max_anchors = 32;
@@ -76,6 +78,10 @@ void visitParameters(ConstraintFilterConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"baseline_uncertainty", "-", 0.001, 1000,
                       "nor those whose baseline is less well known across than this share of it"},
         c.baseline_uncertainty);
+  visit(ParameterInfo{"landmark_deviation", "-", 0.001, 1000,
+                      "constraint filter: a track becomes a landmark when its point is known to "
+                      "this share of its distance"},
+        c.landmark_deviation);
   visit(
       ParameterInfo{"anchor_spacing", "-", 0.01, 100,
                     "landmarks share the error of the frame they belong to; a new one begins after "
@@ -140,6 +146,8 @@ struct UsedTrack {
   FinishedTrack track;
   TrackPoint point;
   std::uint32_t anchor_id = 0;  ///< the frame whose error the point shares
+  /// Of the point beside its anchor, by the noise of the rays and the errors of the frames.
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
 };
 
 enum class FixOutcome {
@@ -194,8 +202,8 @@ class ConstraintFilter {
   bool isKeyframe() const { return newest_is_keyframe_; }
   int used() const { return static_cast<int>(used_.size()); }
   /// Squared deviations of the fixes over what the covariance says of them, mean of the last ten or
-  /// so: 1 is honest. Above, the odometry's velocity is taken for so much worse than configured.
-  double fixNis() const { return fix_nis_; }
+  /// so: 1 is honest.
+  double fixNis() const { return consistency_.nis(); }
   /// Of the last frame, by its image; moving where the odometry contradicts it.
   CameraMotion motion() const { return motion_; }
 
@@ -206,7 +214,6 @@ class ConstraintFilter {
   FixOutcome apply(const SightingConsensus& consensus, double sigma_a, double gate_deviations);
   void judge(const std::vector<MapSighting>& sightings, const SightingConsensus& consensus);
   double attitudeDeviation_rad(const std::vector<MapSighting>& sightings) const;
-  void learnFrom(const MapFix& fix);
   /// Coordinates of a pose that a fix may find wrong.
   int fixCoordinates() const { return config_.attitude_states ? 6 : 3; }
   void watchForRest(const ImageFeatures& features);
@@ -242,7 +249,7 @@ class ConstraintFilter {
   bool newest_is_keyframe_ = false;
   std::vector<UsedTrack> used_;
   int candidates_ = 0;
-  double fix_nis_ = 1;
+  FixConsistency consistency_;
   std::uint32_t anchor_id_ = 0;                       // of the frame that new points belong to
   double point_distance_m_ = 0;                       // median of the last keyframe's points
   std::unordered_set<std::uint32_t> anchors_in_use_;  // frames of the window that points belong to

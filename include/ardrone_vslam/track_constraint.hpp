@@ -85,6 +85,14 @@ std::optional<TrackConstraint> constraintOf(const WindowState& state,
                                             const Eigen::Vector3d& camera_base, TrackViews views,
                                             const TrackPoint& point, double angle_deviation_rad);
 
+/// What the frames' errors do to a triangulated point beside what it shares with its anchor, and so
+/// follows when that is corrected. Errors of attitude count: over a short baseline they are the
+/// greater part of the depth's. O(views^2).
+/// @param anchor  index into WindowState::frames()
+Eigen::Matrix3d covarianceByFrames(const WindowState& state, const Eigen::Vector3d& camera_base,
+                                   TrackViews views, const Eigen::Vector3d& point_map,
+                                   std::size_t anchor);
+
 /// The value below which a chi-square variable lies in 95 % of the cases, within 1 % (Wilson and
 /// Hilferty 1931).
 double chiSquare95(int degrees_of_freedom);

@@ -19,8 +19,10 @@ struct WindowPose {
   std::int64_t stamp_ns = 0;
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
   Eigen::Matrix3d R_map_base = Eigen::Matrix3d::Identity();
-  double speed_m_s = 0;  ///< smoothed; the speed error divided by it is an error of scale
-  double stretch = 1;    ///< by corrections of the scale, of what belongs to it
+  /// By what share an error of the observer's velocity, axes of base, stretches the way here: the
+  /// velocity over its square. What is seen from here shares it.
+  Eigen::Vector3d stretch_by_bias_s_m = Eigen::Vector3d::Zero();
+  double stretch = 1;  ///< by corrections of scale and bias, of what belongs to it
 };
 
 /// Measurements r = H x + n of some error coordinates, compressed to H' W H and H' W r.
@@ -37,11 +39,10 @@ struct Information {
 ///   0-2   attitude of odom in map [rad]: the observer's slow attitude error
 ///   3-5   velocity bias of the observer, axes of base [m/s]
 ///   6     scale error: the observer reports (1 + s) times the way [-]
-///   7     slow error of the observer's speed along the way [m/s]
-///   8-10  attitude of the camera's mounting [rad], axes of base
-///   11    height of the floor in map [m], where heights above it are measured
-///   then  the anchors: position of base [m], attitude [rad], and the speed error of their time, as
-///         landmarks share its scale
+///   7-9   attitude of the camera's mounting [rad], axes of base
+///   10    height of the floor in map [m], where heights above it are measured
+///   then  the anchors: position of base [m], attitude [rad], and the stretch by the bias of
+///         their time, which landmarks share [-]
 ///   then  the frames, oldest first: position and attitude. They come and go with every image, and
 ///         at the end they do so without moving the others.
 /// A frame's attitude is that of base as the camera's mounting has it, error included, so that only
@@ -50,15 +51,15 @@ struct Information {
 ///
 /// One camera sees no scale: all constraints leave the window's dilation open. Two things keep
 /// rounds of linearisation from closing it: what errs along the way does so by a multiple of the
-/// step (coordinates 6 and 7), and the covariance's dilation is turned along whenever poses are
-/// corrected.
+/// step (the scale error, and the bias as far as it has the recent velocity's direction), and the
+/// covariance's dilation is turned along whenever poses are corrected.
 class WindowState {
  public:
+  static constexpr int kBias = 3;
   static constexpr int kScale = 6;
-  static constexpr int kSpeed = 7;
-  static constexpr int kMounting = 8;
-  static constexpr int kFloor = 11;
-  static constexpr int kGlobals = 12;
+  static constexpr int kMounting = 7;
+  static constexpr int kFloor = 10;
+  static constexpr int kGlobals = 11;
   static constexpr int kFrame = 6;
   static constexpr int kAnchor = 7;
 
@@ -118,7 +119,10 @@ class WindowState {
  private:
   void propagateGlobals(const ObserverState& observer, double dt_s, double way_m);
   void inject(const Eigen::VectorXd& error);
-  Eigen::MatrixX2d stretchBy(const Eigen::VectorXd& error) const;
+  /// What an error of bias and scale, the columns, adds to the coordinates after a correction.
+  using Stretch = Eigen::Matrix<double, Eigen::Dynamic, 4>;
+  Stretch stretchBy(const Eigen::VectorXd& error) const;
+  Eigen::Vector3d recentVelocity_base_m_s() const;
 
   ObserverNoiseConfig config_;
   double inflation_ = 1;
@@ -128,8 +132,6 @@ class WindowState {
   Eigen::Matrix3d R_mounting_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d velocity_bias_m_s_ = Eigen::Vector3d::Zero();
   double scale_error_ = 0;
-  double speed_error_m_s_ = 0;
-  double speed_m_s_ = 0;  // smoothed
   double floor_map_m_ = 0;
   std::vector<WindowPose> frames_;
   std::vector<WindowPose> anchors_;

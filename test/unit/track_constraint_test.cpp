@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
 #include "../../tools/lib/random_source.hpp"
 #include "ardrone_vslam/rotation.hpp"
 
@@ -213,6 +215,48 @@ TEST(ChiSquare95, IsThatOfTheTables) {
   EXPECT_NEAR(chiSquare95(1), 3.841, 0.1);
   EXPECT_NEAR(chiSquare95(3), 7.815, 0.05);
   EXPECT_NEAR(chiSquare95(21), 32.67, 0.05);
+}
+
+TEST(CovarianceByFrames, IsTheScatterOfPointsSeenFromFramesThatErr) {
+  RandomSource random(5);
+  const WindowState state = sidewaysWindow(8);
+  const Eigen::Vector3d point(4, 0.5, 1);
+  constexpr std::size_t kAnchor = 5;
+  const Eigen::MatrixXd P = state.covariance();
+  const Eigen::MatrixXd root =
+      Eigen::LLT<Eigen::MatrixXd>(P + 1e-16 * Eigen::MatrixXd::Identity(P.rows(), P.cols()))
+          .matrixL();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  constexpr int kDraws = 3000;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Eigen::VectorXd error(P.rows());
+    for (Eigen::Index k = 0; k < error.size(); ++k) error(k) = 0.1 * random.normal();
+    error = (root * error).eval();
+    std::vector<TrackView> views;
+    for (std::size_t i = 0; i < state.frames().size(); ++i) {
+      WindowPose truly = state.frames()[i];
+      const int at = state.frameCoordinate(i);
+      truly.position_map += error.segment<3>(at);
+      truly.R_map_base = rotationOf(error.segment<3>(at + 3)) * truly.R_map_base;
+      views.push_back({i, bearingTo(point, truly)});
+    }
+    const auto seen = triangulateTrack(state.frames(), kCamera_base, views, 1e-3);
+    ASSERT_TRUE(seen);
+    const WindowPose& anchor = state.frames()[kAnchor];
+    const int at = state.frameCoordinate(kAnchor);
+    const Eigen::Vector3d from_anchor = seen->position_map - anchor.position_map;
+    const double stretch = error(WindowState::kScale) +
+                           anchor.stretch_by_bias_s_m.dot(error.segment<3>(WindowState::kBias));
+    const Eigen::Vector3d moved = seen->position_map + error.segment<3>(at) +
+                                  error.segment<3>(at + 3).cross(from_anchor) -
+                                  stretch * from_anchor;
+    scatter += (point - moved) * (point - moved).transpose() / (0.01 * kDraws);
+  }
+  const std::vector<TrackView> views = viewsOf(point, state, 0, random);
+  const Eigen::Matrix3d covariance = covarianceByFrames(state, kCamera_base, views, point, kAnchor);
+  EXPECT_GT(covariance.trace(), 0.01) << "the depth is uncertain by decimetres";
+  EXPECT_LT((covariance - scatter).norm(), 0.1 * covariance.norm()) << covariance << "\n\n"
+                                                                    << scatter;
 }
 
 }  // namespace

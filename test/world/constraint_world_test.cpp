@@ -62,8 +62,8 @@ TEST(ConstraintWorld, RevisitsTakeTheDriftOutOfTheOdometry) {
     double median;
     double worst;
   };
-  // Measured: medians 0.13, 0.14 and 0.22, worst 0.20, 0.23 and 0.35, NEES 0.7 to 3.1.
-  for (const Case& c : {Case{0, 0.16, 0.25}, Case{0.2, 0.17, 0.3}, Case{0.4, 0.3, 0.5}}) {
+  // Measured: medians 0.14, 0.14 and 0.17, worst 0.23, 0.23 and 0.22, NEES 0.8 to 1.2.
+  for (const Case& c : {Case{0, 0.16, 0.25}, Case{0.2, 0.17, 0.3}, Case{0.4, 0.22, 0.35}}) {
     std::vector<double> ratios;
     std::vector<double> nees;
     for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
@@ -139,11 +139,16 @@ TEST(ConstraintWorld, MovingAndTurningTheWorldMovesTheResultAlike) {
   std::vector<ObserverState> moved = observer;
   for (ObserverState& state : moved) state.T_odom_base = T_there_here * state.T_odom_base;
   const FlightRun there = test::run(frames, moved, constraintConfig());
+  std::vector<double> off_m;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Eigen::Vector3d expected =
         T_there_here * Eigen::Vector3d(here.results[i].T_map_base.translation());
-    ASSERT_LT((there.results[i].T_map_base.translation() - expected).norm(), 1e-5) << "frame " << i;
+    off_m.push_back((there.results[i].T_map_base.translation() - expected).norm());
+    ASSERT_LT(off_m.back(), 0.05) << "frame " << i;
   }
+  // Landmarks are looked for in single precision: sooner or later one at the edge of its window is
+  // found in one world only. Until then rounding is all.
+  EXPECT_LT(median(off_m), 1e-9);
 }
 
 TEST(ConstraintWorld, AnErrorOfTheMountingIsFoundWhereItIsAllowedFor) {
