@@ -62,7 +62,7 @@ class Pipeline(unittest.TestCase):
 
     def test_it_localises(self):
         """Not the observer passed on: most images after the first are corrected by the camera, by
-        tracks on the way out and by landmarks where it has been before."""
+        tracks and, once they are a second old, by landmarks."""
         states = [s.state for s in self.all("status") if s.images > 0]
         self.assertGreater(states.count(Status.LOCALISED) + states.count(Status.TRACKING),
                            len(self.answerable) // 2)
