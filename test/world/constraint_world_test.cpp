@@ -146,8 +146,9 @@ TEST(ConstraintWorld, MovingAndTurningTheWorldMovesTheResultAlike) {
     off_m.push_back((there.results[i].T_map_base.translation() - expected).norm());
     ASSERT_LT(off_m.back(), 0.05) << "frame " << i;
   }
-  // Landmarks are looked for in single precision: sooner or later one at the edge of its window is
-  // found in one world only. Until then rounding is all.
+  // Sooner or later something is decided otherwise by a hair: landmarks, for one, are looked for in
+  // single precision, so that one at the edge of its window may be found in one world only. Until
+  // then rounding is all.
   EXPECT_LT(median(off_m), 1e-9);
 }
 
