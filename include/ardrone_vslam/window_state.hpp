@@ -55,6 +55,7 @@ struct Information {
 /// covariance's dilation is turned along whenever poses are corrected.
 class WindowState {
  public:
+  static constexpr int kAttitude = 0;
   static constexpr int kBias = 3;
   static constexpr int kScale = 6;
   static constexpr int kMounting = 7;

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What measurements do to the window's mean and covariance.
+#include <Eigen/Cholesky>
+
+#include "ardrone_vslam/rotation.hpp"
+#include "ardrone_vslam/window_state.hpp"
+#include "information_root.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+/// I + B' P B, its lower half.
+Eigen::MatrixXd innovation(const InformationRoot& root, const Eigen::MatrixXd& P_B) {
+  Eigen::MatrixXd M(P_B.cols(), P_B.cols());
+  M.triangularView<Eigen::Lower>() = root.rows.transpose() * P_B;
+  M.diagonal().array() += 1;
+  return M;
+}
+
+}  // namespace
+
+Information::Information(std::vector<int> of_coordinates) : coordinates(std::move(of_coordinates)) {
+  const auto size = static_cast<Eigen::Index>(coordinates.size());
+  matrix = Eigen::MatrixXd::Zero(size, size);
+  vector = Eigen::VectorXd::Zero(size);
+}
+
+// With the information's rows B (H' W H = B B', H' W r = B m) the gain is P B (I + B' P B)^-1, and
+// only so many columns as there are independent measurements take part.
+std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {
+  const std::vector<int>& w = information.coordinates;
+  const InformationRoot root(information, covariance().diagonal()(w));
+  if (root.measured.size() == 0) return Eigen::VectorXd::Zero(information.vector.size());
+  const Eigen::MatrixXd P_ww = covariance()(w, w);
+  const Eigen::MatrixXd P_B = P_ww * root.rows;
+  Eigen::MatrixXd M = innovation(root, P_B);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
+  const Eigen::VectorXd error = P_B * inner.solve(root.measured);
+  if (!error.allFinite()) return std::nullopt;
+  return error;
+}
+
+bool WindowState::update(const Information& information) {
+  if (!information.matrix.allFinite() || !information.vector.allFinite()) return false;
+  const std::vector<int>& w = information.coordinates;
+  auto P = covariance_.all();
+  const InformationRoot root(information, P.diagonal()(w));
+  if (root.measured.size() == 0) return true;
+  const Eigen::MatrixXd P_w = P(Eigen::all, w);
+  Eigen::MatrixXd G = P_w * root.rows;
+  Eigen::MatrixXd M = innovation(root, G(w, Eigen::all));
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
+  if (inner.info() != Eigen::Success) return false;
+  inner.matrixU().solveInPlace<Eigen::OnTheRight>(G);
+  const Eigen::VectorXd error = G * inner.matrixL().solve(root.measured);
+  if (!error.allFinite()) return false;
+
+  // P - G G', of which then the dilation is turned: (I - T S) (P - G G') (I - T S)', S picking
+  // bias and scale.
+  const Stretch T = stretchBy(error);
+  const Stretch P_s = P.middleCols<4>(kBias) - G * G.middleRows<4>(kBias).transpose();
+  const Stretch V = P_s - 0.5 * T * P_s.middleRows<4>(kBias);
+  auto lower = P.selfadjointView<Eigen::Lower>();
+  lower.rankUpdate(G, -1);
+  for (int k = 0; k < 4; ++k) lower.rankUpdate(T.col(k), V.col(k), -1);
+  covariance_.mirrorLower();
+  inject(error);
+  return true;
+}
+
+void WindowState::inject(const Eigen::VectorXd& error) {
+  R_map_odom_ = rotationOf(error.segment<3>(kAttitude)) * R_map_odom_;
+  R_mounting_ = rotationOf(error.segment<3>(kMounting)) * R_mounting_;
+  velocity_bias_m_s_ += error.segment<3>(kBias);
+  scale_error_ += error(kScale);
+  floor_map_m_ += error(kFloor);
+  const auto correct = [&](WindowPose& pose, int at, double stretched) {
+    pose.position_map += error.segment<3>(at);
+    pose.R_map_base = rotationOf(error.segment<3>(at + 3)) * pose.R_map_base;
+    pose.stretch *= 1 - error(kScale) - stretched;
+  };
+  for (std::size_t i = 0; i < anchors_.size(); ++i) {
+    const int at = anchorCoordinate(i);
+    correct(anchors_[i], at, error(at + kFrame));
+  }
+  for (std::size_t i = 0; i < frames_.size(); ++i)
+    correct(frames_[i], frameCoordinate(i),
+            frames_[i].stretch_by_bias_s_m.dot(error.segment<3>(kBias)));
+}
+
+// A scale error stretches map and window as they now are, not as they were: the covariance must
+// say so, or later constraints would take the difference for a sight of the scale. The velocity's
+// bias stretches the steps of the window alone, each in its way.
+WindowState::Stretch WindowState::stretchBy(const Eigen::VectorXd& error) const {
+  Stretch T = Stretch::Zero(error.size(), 4);
+  const auto scaled = [&](int at) { T.block<3, 1>(at, kScale - kBias) = error.segment<3>(at); };
+  T(kFloor, kScale - kBias) = error(kFloor);
+  for (std::size_t i = 0; i < anchors_.size(); ++i) scaled(anchorCoordinate(i));
+  scaled(frameCoordinate(frames_.size() - 1));
+  for (std::size_t i = frames_.size() - 1; i-- > 0;) {
+    const int at = frameCoordinate(i);
+    const int next = frameCoordinate(i + 1);
+    scaled(at);
+    T.block<3, 3>(at, 0) =
+        T.block<3, 3>(next, 0) + (error.segment<3>(at) - error.segment<3>(next)) *
+                                     frames_[i + 1].stretch_by_bias_s_m.transpose();
+  }
+  return T;
+}
+
+}  // namespace ardrone_vslam
