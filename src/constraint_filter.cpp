@@ -35,6 +35,15 @@ void sum(const std::vector<Candidate>& candidates, Information& information) {
   }
 }
 
+/// What calibration, rolling shutter and the scene do to the tracks of a keyframe they do to all
+/// alike, so that it does not average out: n of them have the variance 1 / n + common.
+/// @param common  variance of the error they share, over that of a ray
+void limitByCommonError(double n, double common, Information& information) {
+  const double share = 1 / (1 + n * common);
+  information.matrix *= share;
+  information.vector *= share;
+}
+
 /// Wrong tracks may pass a gate as wide as the prior, but they do not agree with the others: their
 /// weight falls with what is left of their residual (Geman and McClure), at last to 0 or 1.
 /// @return whether the information is that of the tracks that agree
@@ -226,7 +235,12 @@ void ConstraintFilter::useTracks(const std::vector<FinishedTrack>& finished, dou
       static_cast<std::size_t>(state_.frameCoordinate(state_.frames().size()) - first));
   std::iota(coordinates.begin(), coordinates.end(), first);
   Information information(std::move(coordinates));
-  if (!agree(state_, candidates, information) || !state_.update(information)) return;
+  if (!agree(state_, candidates, information)) return;
+  const auto n = std::count_if(candidates.begin(), candidates.end(),
+                               [](const Candidate& c) { return c.weight > 0; });
+  limitByCommonError(static_cast<double>(n),
+                     squared(config_.track_common_px / config_.track_deviation_px), information);
+  if (!state_.update(information)) return;
 
   std::vector<double> distances_m;
   for (const Candidate& c : candidates) {

@@ -26,7 +26,8 @@ namespace ardrone_vslam {
 struct ConstraintFilterConfig {
   ObserverNoiseConfig observer;
   bool attitude_states = true;
-  double track_deviation_px = 2;
+  double track_deviation_px = 1;
+  double track_common_px = 0.7;
   int window_frames = 12;
   double keyframe_px = 15;
   double keyframe_s = 2;
@@ -38,7 +39,7 @@ struct ConstraintFilterConfig {
   double anchor_turn_deg = 20;
   int max_anchors = 32;
   int min_fix_landmarks = 6;
-  int fix_independent_landmarks = 3;
+  int fix_independent_landmarks = 10;
   double fix_min_age_s = 3;
   double fix_drift_share = 1;
   double fix_gate_deviations = 2;
@@ -59,6 +60,9 @@ void visitParameters(ConstraintFilterConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"track_deviation_px", "px", 0.01, 100,
                       "constraint filter: deviation of a track's rays"},
         c.track_deviation_px);
+  visit(ParameterInfo{"track_common_px", "px", 0, 10000,
+                      "what a keyframe's tracks err alike: together they are not taken as better"},
+        c.track_common_px);
   visit(ParameterInfo{"window_frames", "frames", 3, 60,
                       "constraint filter: frames of the window; a long track spans so many"},
         c.window_frames);

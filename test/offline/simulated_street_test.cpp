@@ -81,7 +81,8 @@ TEST(SimulatedStreet, ConstraintFilterOnKitti00IsBetterThanItsOdometryAndKnowsIt
   const PipelineConfig config =
       loadConfig(std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/kitti.yaml",
                  {"mapper/estimator=constraint", "mapper/mounting_deviation_deg=0",
-                  "mapper/track_deviation_px=1.5"});  // exact mounting, independent noise
+                  "mapper/track_deviation_px=1.5",
+                  "mapper/track_common_px=0"});  // exact mounting, independent noise
   const ObserverProfile wheel = loadObserverProfile(
       "wheel", std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/observer_profiles.yaml");
   std::vector<RunObserver> observers;

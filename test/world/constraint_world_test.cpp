@@ -193,10 +193,10 @@ TEST(ConstraintWorld, OdometryThatIsWorseThanConfiguredIsToldByItsFixesAndAllowe
     const FlightRun run = test::fly(world, flight, observer, constraintConfig());
     double highest = 0;
     for (const FrameResult& result : run.results) highest = std::max(highest, result.fix_nis);
-    EXPECT_GT(highest, 2) << seed;
-    EXPECT_LT(run.fused.rmse_m / run.observer.rmse_m, 0.4)
-        << seed;  // measured: 0.03, 0.04, 0.27; with the configured error 0.56 to 0.61
-    EXPECT_LT(meanNees(flight, run), 60) << seed;  // 4, 5, 30; else 185 to 200
+    EXPECT_GT(highest, 1.5) << seed;  // measured: 1.9 to 2.6; of honest odometry 1, as it begins
+    EXPECT_LT(run.fused.rmse_m / run.observer.rmse_m, 0.2)
+        << seed;  // measured: 0.04 to 0.05; with the configured error 0.56 to 0.61
+    EXPECT_LT(meanNees(flight, run), 20) << seed;  // 5; else 185 to 200
   }
 }
 
