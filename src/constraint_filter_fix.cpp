@@ -8,6 +8,21 @@
 #include "ardrone_vslam/relocation.hpp"
 
 namespace ardrone_vslam {
+namespace {
+
+/// Wrong matches from narrower windows do little harm.
+constexpr double kHarmlessWindow_rad = 0.05;
+constexpr double kMostByChance = 1e-3;
+
+double medianWindow_rad(const std::vector<MapSighting>& sightings) {
+  std::vector<double> windows_rad;
+  for (const MapSighting& s : sightings) windows_rad.push_back(s.window_rad);
+  const auto middle = windows_rad.begin() + static_cast<std::ptrdiff_t>(windows_rad.size() / 2);
+  std::nth_element(windows_rad.begin(), middle, windows_rad.end());
+  return *middle;
+}
+
+}  // namespace
 
 FixOutcome ConstraintFilter::fix(const std::vector<LandmarkSighting>& sightings,
                                  double focal_length_px) {
@@ -60,6 +75,13 @@ FixOutcome ConstraintFilter::fixByMost(const std::vector<MapSighting>& sightings
   // In windows some wrong matches agree by chance, but not most of all.
   if (static_cast<int>(consensus.sightings.size()) < config_.min_fix_landmarks ||
       2 * consensus.sightings.size() < sightings.size())
+    return FixOutcome::kNone;
+  // Of a place that was hardly seen before there are few matches, and then most may agree as well.
+  WindowPose agreed = newest();
+  agreed.position_map = consensus.position_map;
+  if (medianWindow_rad(sightings) > kHarmlessWindow_rad &&
+      chanceExplains(agreed, camera_base_, sightings, consensus.sightings.size(), sigma_a,
+                     kMostByChance))
     return FixOutcome::kNone;
   const FixOutcome outcome = apply(consensus, sigma_a, config_.fix_gate_deviations);
   if (outcome != FixOutcome::kRejected) judge(sightings, consensus);

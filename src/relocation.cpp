@@ -173,6 +173,14 @@ double agreementsByChance(std::size_t matches, std::size_t agreeing, double shar
   return poses * std::exp(-others * divergence);
 }
 
+bool chanceExplains(const WindowPose& pose, const Eigen::Vector3d& camera_base,
+                    const std::vector<MapSighting>& sightings, std::size_t agreeing,
+                    double angle_deviation_rad, double most_by_chance) {
+  const Relocator relocator(pose, camera_base, sightings, angle_deviation_rad, 0);
+  return agreementsByChance(sightings.size(), agreeing, relocator.shareByChance(pose)) >
+         most_by_chance;
+}
+
 std::optional<SightingConsensus> relocate(const WindowPose& predicted,
                                           const Eigen::Vector3d& camera_base,
                                           const std::vector<MapSighting>& sightings,
@@ -184,8 +192,8 @@ std::optional<SightingConsensus> relocate(const WindowPose& predicted,
   const auto pose = relocator.search();
   if (!pose) return std::nullopt;
   const std::vector<std::size_t> agreeing = relocator.agreeing(*pose, kSlack_rad);
-  if (agreementsByChance(sightings.size(), agreeing.size(), relocator.shareByChance(*pose)) >
-      kMostByChance)
+  if (chanceExplains(*pose, camera_base, sightings, agreeing.size(), angle_deviation_rad,
+                     kMostByChance))
     return std::nullopt;
   SightingConsensus consensus;
   consensus.position_map = pose->position_map;

@@ -28,4 +28,11 @@ std::optional<SightingConsensus> relocate(const WindowPose& predicted,
 /// of the binomial tail).
 double agreementsByChance(std::size_t matches, std::size_t agreeing, double share);
 
+/// Whether more than so many poses are expected that so many of the sightings agree with if all of
+/// them are wrong, given how wide their windows are and how they stand in groups.
+/// @param angle_deviation_rad  sigma_a of a ray
+bool chanceExplains(const WindowPose& pose, const Eigen::Vector3d& camera_base,
+                    const std::vector<MapSighting>& sightings, std::size_t agreeing,
+                    double angle_deviation_rad, double most_by_chance);
+
 }  // namespace ardrone_vslam
