@@ -117,6 +117,13 @@ Matrix6d ConstraintFilter::covariance() const {
   covariance.bottomRows<3>() -= shared.transpose();
   covariance.bottomRightCorner<3, 3>() +=
       R_map_base * P.block<3, 3>(kMounting, kMounting) * R_map_base.transpose();
+  // The linear form takes the attitude as exact, but nobody else should.
+  if (!config_.attitude_states) {
+    const ObserverNoiseConfig& noise = config_.observer;
+    covariance.diagonal().tail<3>().array() +=
+        (squared(noise.attitude_noise_deg) + squared(noise.tilt_deviation_deg)) *
+        squared(M_PI / 180);
+  }
   return covariance;
 }
 

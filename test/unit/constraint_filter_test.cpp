@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
@@ -76,6 +77,17 @@ TEST_F(FixAfterAGap, AFewThatAgreeBecauseTheyStandInGroupsDoNot) {
   const Eigen::Vector3d before_map = filter_.newest().position_map;
   EXPECT_EQ(filter_.fix(sightings, kFocalLength_px), FixOutcome::kNone);
   EXPECT_EQ(filter_.newest().position_map, before_map);
+}
+
+TEST(ConstraintFilterCovariance, TheLinearFormDoesNotClaimAnExactAttitude) {
+  ConstraintFilterConfig config;
+  config.attitude_states = false;
+  ConstraintFilter filter(config, test::forwardMounting());
+  filter.start(ObserverState());
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(filter.covariance());
+  EXPECT_GT(eigen.eigenvalues()(0), 0);
+  const double noise_rad = config.observer.attitude_noise_deg * M_PI / 180;
+  EXPECT_GE(filter.covariance().diagonal().tail<3>().minCoeff(), noise_rad * noise_rad);
 }
 
 }  // namespace
