@@ -64,6 +64,8 @@ std::uint8_t stateOf(SlamState state) {
       return Status::RESTING;
     case SlamState::kRotating:
       return Status::ROTATING;
+    case SlamState::kDistrusted:
+      return Status::DISTRUSTED;
     case SlamState::kRelocated:
       return Status::RELOCATED;
   }

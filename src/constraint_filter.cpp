@@ -76,7 +76,8 @@ ConstraintFilter::ConstraintFilter(const ConstraintFilterConfig& config,
       state_(config.observer, config.attitude_states),
       tracks_(T_base_cam.linear()),
       rest_(config.rest),
-      height_(config.height) {
+      height_(config.height),
+      watchdog_(config.watchdog) {
   validate(config);
 }
 
@@ -91,6 +92,7 @@ void ConstraintFilter::predict(const ObserverState& observer) {
   state_.propagate(observer);
   if (!is_kept) state_.removeFrame(state_.frames().size() - 2);
   newest_is_keyframe_ = false;
+  watchForContradiction();
   fix_outcome_ = FixOutcome::kNone;
   height_m_ = observer.height_m;
 }
@@ -152,9 +154,13 @@ const std::vector<UsedTrack>& ConstraintFilter::track(const ImageFeatures& featu
   used_.clear();
   candidates_ = 0;
   order_.reset(features);
-  watchForRest(features);
+  if (isDistrustful()) {
+    motion_ = CameraMotion::kUnknown;
+  } else {
+    watchForRest(features);
+  }
   height_outcome_ = height_m_ ? height_.apply(*height_m_, state_) : HeightOutcome::kNone;
-  if (!isKeyframe(features)) return used_;
+  if (isDistrustful() || !isKeyframe(features)) return used_;
   newest_is_keyframe_ = true;
   keyframe_id_ = newest().id;
   if (reference_id_ == keyframe_id_) reference_is_keyframe_ = true;

@@ -12,7 +12,7 @@ namespace {
 
 /// Wrong matches from narrower windows do little harm.
 constexpr double kHarmlessWindow_rad = 0.05;
-constexpr double kMostByChance = 1e-3;
+constexpr double kMostByChance = 0.1;
 
 double medianWindow_rad(const std::vector<MapSighting>& sightings) {
   std::vector<double> windows_rad;
@@ -27,6 +27,7 @@ double medianWindow_rad(const std::vector<MapSighting>& sightings) {
 FixOutcome ConstraintFilter::fix(const std::vector<LandmarkSighting>& sightings,
                                  double focal_length_px) {
   verdicts_.assign(sightings.size(), SightingVerdict::kUnjudged);
+  if (isDistrustful()) return FixOutcome::kNone;
   fix_outcome_ = fixBySightings(sightings, config_.track_deviation_px / focal_length_px);
   return fix_outcome_;
 }
@@ -92,6 +93,7 @@ FixOutcome ConstraintFilter::apply(const SightingConsensus& consensus, double si
                                    double gate_deviations) {
   MapFix fix = fixBy(state_, camera_base_, consensus, sigma_a, config_.fix_independent_landmarks);
   consistency_.learn(fix.whitened(), fixCoordinates());
+  fix_was_compared_ = true;
   state_.inflate(consistency_.odometryFactor());
   if (fix.drift.topLeftCorner<3, 3>().trace() <
       config_.fix_drift_share * fix.covariance.topLeftCorner<3, 3>().trace())

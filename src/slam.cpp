@@ -231,6 +231,12 @@ const char* explain(SlamState state) {
     case SlamState::kRelocated:
       return "a place seen before was found again after the pose had become uncertain; the pose "
              "may have jumped there";
+    case SlamState::kDistrusted:
+      return "camera and odometry contradict each other by far more than configured "
+             "(watchdog_deviations, watchdog_nis), so the pose follows the odometry for "
+             "watchdog_pause_s: check calibration and mounting, whether the scene itself moves, "
+             "and "
+             "velocity_bias_m_s";
     case SlamState::kNotFinite:
       return "the pose is not finite and is not published; the map begins anew: check odometry, "
              "calibration and mounting for absurd values";

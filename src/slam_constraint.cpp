@@ -40,6 +40,12 @@ void Slam::State::setDrifts() {
 }
 
 void Slam::State::fixByLandmarks() {
+  if (constraint->isDistrustful()) {
+    landmark_matches = {};
+    judgeMatches();
+    result.state = SlamState::kDistrusted;
+    return;
+  }
   std::vector<LandmarkSighting> seen;
   seen.reserve(landmark_matches.matches.size());
   for (const Association& match : landmark_matches.matches) {

@@ -68,6 +68,40 @@ void WindowState::start(const ObserverState& observer) {
   P.diagonal().segment<3>(kGlobals).setConstant(squared(config_.start_deviation_m));
 }
 
+void WindowState::returnTo(const Eigen::Isometry3d& T_map_odom) {
+  WindowPose& newest = frames_.back();
+  const int to = frameCoordinate(0);
+  const Eigen::Isometry3d T_map_base = T_map_odom * observer_.T_odom_base;
+  const Eigen::Vector3d jump_m = T_map_base.translation() - newest.position_map;
+  const Eigen::Vector3d turn_rad = rotationVectorOf(T_map_odom.linear() * R_map_odom_.transpose());
+  newest.position_map = T_map_base.translation();
+  newest.R_map_base = T_map_base.linear() * R_mounting_;
+  R_map_odom_ = T_map_odom.linear();
+  velocity_bias_m_s_.setZero();
+  inflation_ = 1;
+
+  auto P = covariance_.all();
+  P.middleRows<3>(kBias).setZero();
+  P.middleCols<3>(kBias).setZero();
+  P.diagonal().segment<3>(kBias).setConstant(squared(config_.velocity_bias_m_s));
+  P.block<3, 3>(to, to) += jump_m * jump_m.transpose();
+  const Eigen::Matrix3d turn_variance = turn_rad * turn_rad.transpose();
+  for (const int a : {kAttitude, to + 3})
+    for (const int b : {kAttitude, to + 3}) P.block<3, 3>(a, b) += turn_variance;
+}
+
+Eigen::Isometry3d WindowState::T_map_odom() const {
+  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
+  T_map_odom.linear() = R_map_odom_;
+  T_map_odom.translation() =
+      frames_.back().position_map - R_map_odom_ * observer_.T_odom_base.translation();
+  return T_map_odom;
+}
+
+double WindowState::biasDeviations() const {
+  return config_.velocity_bias_m_s > 0 ? velocity_bias_m_s_.norm() / config_.velocity_bias_m_s : 0;
+}
+
 void WindowState::propagate(const ObserverState& observer) {
   const WindowPose last = frames_.back();
   const double dt_s =

@@ -19,6 +19,7 @@
 #include "ardrone_vslam/rest_detector.hpp"
 #include "ardrone_vslam/track_constraint.hpp"
 #include "ardrone_vslam/track_window.hpp"
+#include "ardrone_vslam/watchdog.hpp"
 #include "ardrone_vslam/window_state.hpp"
 
 namespace ardrone_vslam {
@@ -46,6 +47,7 @@ struct ConstraintFilterConfig {
   double relocation_window_deg = 15;
   double relocation_gate_deviations = 5;
   RestConfig rest;
+  WatchdogConfig watchdog;
   HeightConfig height;
 };
 
@@ -125,6 +127,7 @@ void visitParameters(ConstraintFilterConfig& c, Visitor&& visit) {
                       "often drifted more than it claims"},
         c.relocation_gate_deviations);
   visitParameters(c.rest, visit);
+  visitParameters(c.watchdog, visit);
   visitParameters(c.height, visit);
 }
 
@@ -208,6 +211,8 @@ class ConstraintFilter {
   /// Squared deviations of the fixes over what the covariance says of them, mean of the last ten or
   /// so: 1 is honest.
   double fixNis() const { return consistency_.nis(); }
+  /// The camera contradicts the odometry: for now the pose is the odometry's.
+  bool isDistrustful() const { return watchdog_.isDistrustful(newest().stamp_ns); }
   /// Of the last frame, by its image; moving where the odometry contradicts it.
   CameraMotion motion() const { return motion_; }
 
@@ -220,6 +225,8 @@ class ConstraintFilter {
   double attitudeDeviation_rad(const std::vector<MapSighting>& sightings) const;
   /// Coordinates of a pose that a fix may find wrong.
   int fixCoordinates() const { return config_.attitude_states ? 6 : 3; }
+  void watchForContradiction();
+  void forgetCamera();
   void watchForRest(const ImageFeatures& features);
   bool holdStill(std::size_t reference);
   void makeReference();
@@ -254,6 +261,9 @@ class ConstraintFilter {
   std::vector<UsedTrack> used_;
   int candidates_ = 0;
   FixConsistency consistency_;
+  bool fix_was_compared_ = false;  // at the newest frame
+  Watchdog watchdog_;
+  Eigen::Isometry3d trusted_T_map_odom_ = Eigen::Isometry3d::Identity();  // of the last calm frame
   std::uint32_t anchor_id_ = 0;                       // of the frame that new points belong to
   double point_distance_m_ = 0;                       // median of the last keyframe's points
   std::unordered_set<std::uint32_t> anchors_in_use_;  // frames of the window that points belong to

@@ -25,10 +25,12 @@ enum class SlamState {
   kResting,       ///< constraint filter: the image is still and holds the position
   kRotating,      ///< constraint filter: the camera turns on the spot, the image holds the position
   kRelocated,     ///< constraint filter: as kLocalised, by landmarks looked for nearly everywhere
+  kDistrusted,    ///< constraint filter: camera and odometry contradict each other, the pose is the
+                  ///< observer's (Watchdog)
 };
-constexpr std::array<const char*, 10> kSlamStateNames{
-    "building_map", "localised", "too_few_landmarks", "fix_rejected", "observer_only",
-    "not_finite",   "tracking",  "resting",           "rotating",     "relocated"};
+constexpr std::array<const char*, 11> kSlamStateNames{
+    "building_map", "localised", "too_few_landmarks", "fix_rejected", "observer_only", "not_finite",
+    "tracking",     "resting",   "rotating",          "relocated",    "distrusted"};
 
 /// One frame's answer.
 struct FrameResult {

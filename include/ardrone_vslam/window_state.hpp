@@ -72,6 +72,10 @@ class WindowState {
   void start(const ObserverState& observer);
   /// Adds a frame by the observer's increment since the newest one.
   void propagate(const ObserverState& observer);
+  /// Begins anew beside the anchors, with one frame where the observer and this transform put it:
+  /// what was learned of the observer's velocity and attitude is forgotten. What the frame moves by
+  /// counts as its deviation. There must be no other frame.
+  void returnTo(const Eigen::Isometry3d& T_map_odom);
   /// What update() would add to the coordinates of the information; nothing when it is not finite.
   std::optional<Eigen::VectorXd> preview(const Information& information) const;
   /// Corrects globals, anchors and frames. O(coordinates^2 x rank of the information).
@@ -107,6 +111,10 @@ class WindowState {
 
   double scaleError() const { return scale_error_; }
   double floor_map_m() const { return floor_map_m_; }
+  /// Of the observer, axes of base, over what is configured.
+  double biasDeviations() const;
+  /// Takes the observer's newest pose to the newest frame's.
+  Eigen::Isometry3d T_map_odom() const;
   /// Turns base as the camera's mounting has it into base.
   const Eigen::Matrix3d& R_mounting() const { return R_mounting_; }
   /// Of all coordinates.

@@ -114,6 +114,7 @@ TEST(ResultConversion, EveryOtherStateHasAReason) {
       {SlamState::kResting, Status::RESTING},
       {SlamState::kRotating, Status::ROTATING},
       {SlamState::kRelocated, Status::RELOCATED},
+      {SlamState::kDistrusted, Status::DISTRUSTED},
       {SlamState::kObserverOnly, Status::OBSERVER_ONLY},
       {SlamState::kNotFinite, Status::NOT_FINITE}};
   for (const auto& [state, constant] : states) {

@@ -205,6 +205,36 @@ TEST(WindowState, AnInflatedVelocityErrorGrowsAtOnceAndFadesLikeTheOther) {
   EXPECT_NEAR(state.covariance()(3, 3), variance, 1e-6) << "after fifty time constants";
 }
 
+TEST(WindowState, ReturnsToWhereTheObserverAloneWouldBe) {
+  WindowState state = circling(10);
+  while (state.frames().size() > 2) state.removeFrame(0);
+  state.makeAnchor(0);
+  // The bias is learned, and moves the frame.
+  Information information(coordinatesFrom(WindowState::kAttitude, WindowState::kScale));
+  information.matrix.diagonal().setConstant(1e5);
+  information.vector.setConstant(3e3);
+  ASSERT_TRUE(state.update(information));
+  ASSERT_GT(state.biasDeviations(), 0.5);
+  const Eigen::Vector3d before = state.frames().back().position_map;
+
+  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
+  T_map_odom.translation() = Eigen::Vector3d(0.5, 0, -0.2);
+  T_map_odom.linear() = rotationOf({0, 0, 0.1});
+  state.returnTo(T_map_odom);
+  EXPECT_TRUE(state.T_map_odom().isApprox(T_map_odom, 1e-12));
+  EXPECT_EQ(state.biasDeviations(), 0);
+  const Eigen::Vector3d odom(std::sin(0.9), 1 - std::cos(0.9), 0);
+  EXPECT_LT((state.frames().back().position_map - T_map_odom * odom).norm(), 1e-9);
+  const int at = state.frameCoordinate(0);
+  const double jump_m2 = (state.frames().back().position_map - before).squaredNorm();
+  EXPECT_GT((state.covariance().block<3, 3>(at, at).trace()), jump_m2);
+  expectHonest(state);
+
+  state.propagate(observerAt(10, {std::sin(1.0), 1 - std::cos(1.0), 0}, 1));
+  EXPECT_TRUE(state.T_map_odom().isApprox(T_map_odom, 1e-9));
+  expectHonest(state);
+}
+
 TEST(WindowState, NothingChangesWhenTheInformationIsNotFinite) {
   WindowState state = circling(4);
   const Eigen::MatrixXd P = state.covariance();
