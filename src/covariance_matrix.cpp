@@ -45,18 +45,4 @@ void CovarianceMatrix::copy(int from, int to, int count) {
   all().middleRows(to, count) = all().middleRows(from, count);
 }
 
-void CovarianceMatrix::mirrorLower() {
-  constexpr int kTile = 16;  // both tiles of a pair fit into the smallest cache
-  View P = all();
-  for (int column = 0; column < size_; column += kTile) {
-    const int width = std::min(kTile, size_ - column);
-    P.block(column, column, width, width).triangularView<Eigen::StrictlyUpper>() =
-        P.block(column, column, width, width).transpose();
-    for (int row = column + kTile; row < size_; row += kTile) {
-      const int height = std::min(kTile, size_ - row);
-      P.block(column, row, width, height) = P.block(row, column, height, width).transpose();
-    }
-  }
-}
-
 }  // namespace ardrone_vslam

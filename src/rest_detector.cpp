@@ -20,7 +20,8 @@ constexpr std::size_t kFewestTracks = 15;
 constexpr double kInlierDeviations = 3;  // of a corner's jump in the plane: 99 %
 constexpr double kInlierShare = 0.6;     // a third of the tracks may be wrong
 constexpr double kAttitudeDeviations = 3.5;
-constexpr double kShiftGate = 16;  // chi-square with three degrees of freedom: 99.9 %
+constexpr double kRounding_rad = 1e-6;  // of bearings in single precision
+constexpr double kShiftGate = 16;       // chi-square with three degrees of freedom: 99.9 %
 // Jumps of neighbouring corners are alike (compression, interpolation): more tracks than this say
 // no more.
 constexpr double kIndependentTracks = 20;
@@ -45,21 +46,36 @@ CameraMotion RestDetector::see(const ImageFeatures& features,
                                double attitude_deviation_rad) {
   is_reference_ = false;
   pairUp(features);
-  // The turn that the last image showed is a better guess while the camera rests, the observer's
-  // while it turns.
   const auto medianLeft = [this](const Eigen::Matrix3d& R) {
     std::vector<double> left_rad;
+    left_rad.reserve(pairs_.size());
     for (const Pair& pair : pairs_) left_rad.push_back((R * pair.now - pair.reference).norm());
     return left_rad.empty() ? 0 : median(left_rad);
   };
-  if (medianLeft(R_reference_now) < medianLeft(stillness_.R_reference_now))
+  const double left_rad = medianLeft(R_reference_now);
+  // Half of the tracks are further off than a turn that is the observer's within its deviation,
+  // and a corner's jump, could bring them: whatever turn they agree on, the camera moves.
+  const double farthest_rad =
+      kInlierDeviations * config_.rest_deviation_px / features.focal_length_px +
+      kAttitudeDeviations * attitude_deviation_rad;
+  const bool surely_moves =
+      still_s_ == 0 && pairs_.size() >= kFewestTracks && left_rad > farthest_rad + kRounding_rad;
+  // The turn that the last image showed is a better guess while the camera rests, the observer's
+  // while it turns.
+  if (!surely_moves && left_rad < medianLeft(stillness_.R_reference_now))
     stillness_.R_reference_now = R_reference_now;
   // Much of it is gone: what is there again has lost its tracks only.
   if (still_s_ > 0 && 2 * pairs_.size() < std::min(reference_.size(), features.size())) {
     findAgain(features, stillness_.R_reference_now);
     pairUp(features);
   }
-  stillness_ = compare(R_reference_now, attitude_deviation_rad, features.focal_length_px);
+  if (surely_moves) {
+    stillness_ = {};
+    stillness_.enough_tracks = true;
+    stillness_.common = static_cast<int>(pairs_.size());
+  } else {
+    stillness_ = compare(R_reference_now, attitude_deviation_rad, features.focal_length_px);
+  }
   if (!stillness_.is_still) {
     if (still_s_ > 0 && seconds(features.stamp_ns - seen_still_ns_) < kPatience_s)
       return CameraMotion::kUnknown;

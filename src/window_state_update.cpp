@@ -5,6 +5,7 @@
 #include "ardrone_vslam/rotation.hpp"
 #include "ardrone_vslam/window_state.hpp"
 #include "information_root.hpp"
+#include "tiled_product.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -32,7 +33,7 @@ std::optional<Eigen::VectorXd> WindowState::preview(const Information& informati
   const InformationRoot root(information, covariance().diagonal()(w));
   if (root.measured.size() == 0) return Eigen::VectorXd::Zero(information.vector.size());
   const Eigen::MatrixXd P_ww = covariance()(w, w);
-  const Eigen::MatrixXd P_B = P_ww * root.rows;
+  const Eigen::MatrixXd P_B = tiledProduct(P_ww, root.rows);
   Eigen::MatrixXd M = innovation(root, P_B);
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
   const Eigen::VectorXd error = P_B * inner.solve(root.measured);
@@ -47,7 +48,7 @@ bool WindowState::update(const Information& information) {
   const InformationRoot root(information, P.diagonal()(w));
   if (root.measured.size() == 0) return true;
   const Eigen::MatrixXd P_w = P(Eigen::all, w);
-  Eigen::MatrixXd G = P_w * root.rows;
+  Eigen::MatrixXd G = tiledProduct(P_w, root.rows);
   Eigen::MatrixXd M = innovation(root, G(w, Eigen::all));
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
   if (inner.info() != Eigen::Success) return false;
@@ -60,10 +61,11 @@ bool WindowState::update(const Information& information) {
   const Stretch T = stretchBy(error);
   const Stretch P_s = P.middleCols<4>(kBias) - G * G.middleRows<4>(kBias).transpose();
   const Stretch V = P_s - 0.5 * T * P_s.middleRows<4>(kBias);
-  auto lower = P.selfadjointView<Eigen::Lower>();
-  lower.rankUpdate(G, -1);
-  for (int k = 0; k < 4; ++k) lower.rankUpdate(T.col(k), V.col(k), -1);
-  covariance_.mirrorLower();
+  Eigen::MatrixXd left(G.rows(), G.cols() + 8);
+  Eigen::MatrixXd right(G.rows(), G.cols() + 8);
+  left << G, T, V;
+  right << G, V, T;
+  subtractSymmetricProduct(left, right, P);
   inject(error);
   return true;
 }

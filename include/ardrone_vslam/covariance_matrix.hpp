@@ -24,8 +24,6 @@ class CovarianceMatrix {
   void remove(int first, int count);
   /// Makes the coordinates from `to` the same variables as those from `from`. O(size * count).
   void copy(int from, int to, int count);
-  /// Writes the lower triangle's values into the upper one. O(size^2).
-  void mirrorLower();
 
  private:
   Eigen::MatrixXd storage_;

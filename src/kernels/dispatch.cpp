@@ -22,6 +22,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_distances = hammingDistancesAvx2;
     kernels.hamming_window = hammingWindowAvx2;
     kernels.project = projectAvx2;
+    kernels.product_tile = productTileAvx2;
   }
   if (set == InstructionSet::kAvx512) {
     kernels.freak_bits = freakBitsAvx512;
@@ -29,6 +30,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_mutual = hammingMutualAvx512;
     kernels.hamming_distances = hammingDistancesAvx512;
     kernels.project = projectAvx512;
+    kernels.product_tile = productTileAvx512;
     kernels.hamming_window = hammingWindowAvx512;
   }
 #endif

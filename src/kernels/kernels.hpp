@@ -7,6 +7,7 @@
 #include "kernels/hamming_distances.hpp"
 #include "kernels/hamming_kernels.hpp"
 #include "kernels/hamming_window.hpp"
+#include "kernels/product_kernels.hpp"
 #include "kernels/project_kernels.hpp"
 
 namespace ardrone_vslam::kernels {
@@ -29,6 +30,7 @@ struct Kernels {
   decltype(&hammingMutualScalar) hamming_mutual = hammingMutualScalar;
   decltype(&hammingWindowScalar) hamming_window = hammingWindowScalar;
   decltype(&projectScalar) project = projectScalar;
+  decltype(&productTileScalar) product_tile = productTileScalar;
 };
 
 /// The fastest form of each kernel that needs no more than `set`, which must be supported here.
