@@ -138,9 +138,9 @@ void Slam::State::setVariance() {
   if (constraint) setDrifts();
 }
 
-void Slam::State::localise() {
+std::optional<PositionFix> Slam::State::locate(const std::vector<Association>& matches) {
   sightings.clear();
-  for (const Association& match : landmark_matches.matches) {
+  for (const Association& match : matches) {
     const Landmark& landmark = landmark_map.all()[static_cast<std::size_t>(match.target)];
     sightings.push_back({landmark.position_map,
                          view.ray(static_cast<std::size_t>(match.feature)).direction_map,
@@ -148,14 +148,20 @@ void Slam::State::localise() {
   }
   auto fix =
       filter.locate(sightings, view.origin_map(), mapper.angleDeviation_rad(view.focalLength_px()));
-  if (!fix) {
-    result.state = landmark_map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTooFewLandmarks;
-    return;
-  }
+  if (!fix) return std::nullopt;
   fix->position_map -= offset_map;  // of the base
   if (config.planar) fix->position_map.z() = filter.position_map().z();
   result.camera_position_map = fix->position_map;
   result.camera_deviation_m = std::sqrt(fix->covariance.trace() / 3);
+  return fix;
+}
+
+void Slam::State::localise() {
+  const auto fix = locate(landmark_matches.matches);
+  if (!fix) {
+    result.state = landmark_map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTooFewLandmarks;
+    return;
+  }
   result.state = filter.fuse(*fix) ? SlamState::kLocalised : SlamState::kFixRejected;
 }
 

@@ -96,6 +96,7 @@ void Slam::State::judgeMatches() {
     blind_clock.pass(static_cast<double>(now_ns - *last_stamp_ns) * 1e-9);
   last_stamp_ns = now_ns;
   blind_clock.link(anchors);
+  locate(trusted_matches);
 }
 
 int Slam::State::dropFailing() {

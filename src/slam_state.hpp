@@ -55,6 +55,8 @@ struct Slam::State {
   /// Pose of base by the filter in use.
   Eigen::Isometry3d poseAt(const ObserverState& observer) const;
   Matrix6d covariance() const;
+  /// Base by the landmarks alone, without prediction.
+  std::optional<PositionFix> locate(const std::vector<Association>& matches);
   void localise();
   void refineAndMap();
   void report(const ObserverState& observer);

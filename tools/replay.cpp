@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <iostream>
 
+#include "config_path.hpp"
 #include "earlier_run.hpp"
+#include "kitti_folder.hpp"
 #include "parameter_table.hpp"
 #include "profile_option.hpp"
 #include "progress_line.hpp"
@@ -61,7 +63,10 @@ void addOptions(CLI::App& app, Options& o) {
          "folder for trajectories, frames.csv, landmarks.csv, summary.json; with --seeds in "
          "seed_N/ each. What an earlier run left there is removed, other files are kept")
       ->required();
-  app.add_option("--config", o.config, "yaml with sections tracker and mapper (config/*.yaml)");
+  app.add_option(
+      "--config", o.config,
+      "yaml with sections tracker and mapper (config/*.yaml); default: none, for a KITTI folder "
+      "kitti.yaml");
   app.add_option("--set", o.overrides, "key=value over the configuration; may be repeated")
       ->allow_extra_args(false)
       ->take_all();
@@ -141,7 +146,13 @@ void makeFolder(const std::string& folder) {
 }
 
 /// What is wrong with the file is a fault of the input, what --set adds to it wrong usage.
-PipelineConfig configOf(const Options& o) {
+PipelineConfig configOf(const Options& given) {
+  Options o = given;
+  if (o.config.empty() && isKittiFolder(o.input)) {
+    o.config = findConfigFile("kitti.yaml");
+    std::fprintf(stderr, "replay: a KITTI folder, so with %s (--config names another)\n",
+                 o.config.c_str());
+  }
   std::vector<std::string> overrides = o.overrides;
   if (!o.estimator.empty()) overrides.push_back("mapper/estimator=" + o.estimator);
   const PipelineConfig config = loadConfig(o.config, {});

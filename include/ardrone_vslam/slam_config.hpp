@@ -23,7 +23,7 @@ struct EnumNames<Estimator> {
 
 /// Everything of the mapper / localiser.
 struct SlamConfig {
-  Estimator estimator = Estimator::kThesis;
+  Estimator estimator = Estimator::kConstraint;
   bool planar = false;
   ObserverBufferConfig observer;
   HeightInputConfig height_input;

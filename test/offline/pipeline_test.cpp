@@ -25,8 +25,9 @@ struct Outcome {
 };
 
 Outcome runOn(Sequence& sequence, const std::string& profile_name, std::uint64_t seed,
-              int threads = 1, const std::vector<std::string>& overrides = {}) {
-  const PipelineConfig config = loadConfig("", overrides);
+              int threads = 1, const std::vector<std::string>& overrides = {},
+              const std::string& config_file = "") {
+  const PipelineConfig config = loadConfig(config_file, overrides);
   const ObserverProfile profile =
       loadObserverProfile(profile_name, ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");
   const ObserverRun observer = simulateObserver(sequence.truth(), profile, seed);
@@ -91,7 +92,8 @@ TEST(RealPipeline, KittiWithTheTruthAsObserver) {
   const std::string folder = realData("kitti_03");
   if (folder.empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
   const auto sequence = select(openFolder(folder), FrameSelection::parse("0:150", false));
-  const Outcome outcome = runOn(*sequence, "truth", 0);
+  const Outcome outcome =
+      runOn(*sequence, "truth", 0, 1, {}, ARDRONE_VSLAM_SOURCE_DIR "/config/kitti.yaml");
   // The thesis on KITTI 00: mean 0.158 m, largest 26 m, typically 6 landmark matches a frame.
   EXPECT_LE(outcome.summary["fused_error_mean_m"].get<double>(), 0.158);
   EXPECT_LE(outcome.summary["fused_error_max_m"].get<double>(), 1.0);

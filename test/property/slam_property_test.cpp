@@ -35,7 +35,7 @@ std::vector<ObserverState> moved(std::vector<ObserverState> states,
 class SlamProperty : public ::testing::TestWithParam<MeanKind> {
  protected:
   SlamConfig config() const {
-    SlamConfig config;
+    SlamConfig config = test::thesisConfig();
     config.thesis_filter.mean = GetParam();
     return config;
   }

@@ -120,9 +120,15 @@ inline std::vector<ImageFeatures> film(PointWorld& world, const Flight& flight) 
   return frames;
 }
 
+inline SlamConfig thesisConfig() {
+  SlamConfig config;
+  config.estimator = Estimator::kThesis;
+  return config;
+}
+
 /// Frames and observer states of equal stamps through Slam.
 inline FlightRun run(const std::vector<ImageFeatures>& frames,
-                     const std::vector<ObserverState>& observer, const SlamConfig& config = {}) {
+                     const std::vector<ObserverState>& observer, const SlamConfig& config) {
   Slam slam(config, forwardMounting());
   FlightRun run;
   for (std::size_t i = 0; i < frames.size(); ++i)
@@ -133,7 +139,7 @@ inline FlightRun run(const std::vector<ImageFeatures>& frames,
 
 /// The same, with errors.
 inline FlightRun fly(PointWorld& world, const Flight& flight,
-                     const std::vector<ObserverState>& observer, const SlamConfig& config = {}) {
+                     const std::vector<ObserverState>& observer, const SlamConfig& config) {
   FlightRun flown = run(film(world, flight), observer, config);
   flown.fused =
       errorOf(flight, [&](std::size_t i) { return flown.results[i].T_map_base.translation(); });

@@ -35,7 +35,7 @@ class SlamStates : public ::testing::Test {
 };
 
 TEST_F(SlamStates, BuildingThenLocalisedThenTooFew) {
-  Slam slam({}, test::forwardMounting());
+  Slam slam(test::thesisConfig(), test::forwardMounting());
   EXPECT_EQ(slam.process(look(0), observer_[0]).state, SlamState::kBuildingMap);
   EXPECT_EQ(slam.landmarks().size(), 0U);
   for (std::size_t i = 1; i < 40; ++i) slam.process(look(i), observer_[i]);
@@ -58,7 +58,7 @@ TEST_F(SlamStates, BuildingThenLocalisedThenTooFew) {
 }
 
 TEST_F(SlamStates, OneLandmarkMissingIsTooFew) {
-  SlamConfig config;
+  SlamConfig config = test::thesisConfig();
   config.thesis_filter.min_landmarks = 1000;
   Slam slam(config, test::forwardMounting());
   FrameResult last;
@@ -68,7 +68,7 @@ TEST_F(SlamStates, OneLandmarkMissingIsTooFew) {
 }
 
 TEST_F(SlamStates, FixRejected) {
-  SlamConfig config;
+  SlamConfig config = test::thesisConfig();
   config.thesis_filter.gate_deviations = 0.5;
   config.thesis_filter.fix_angle_floor_deg = 0;
   config.thesis_filter.common_drift = false;
@@ -85,7 +85,7 @@ TEST_F(SlamStates, FixRejected) {
 TEST_F(SlamStates, NotFiniteIsNamedAndLeavesTheMapAlone) {
   const double kLargest = std::numeric_limits<double>::max();
   for (const double bad : {std::nan(""), kLargest, -kLargest}) {
-    Slam slam({}, test::forwardMounting());
+    Slam slam(test::thesisConfig(), test::forwardMounting());
     for (std::size_t i = 0; i < 40; ++i) {
       EXPECT_TRUE(isFinite(slam.process(look(i), observer_[i])));
     }
@@ -150,7 +150,7 @@ TEST_F(SlamStates, EachHasAnExplanationExceptTheGoodOne) {
 }
 
 TEST_F(SlamStates, NothingButDarkImages) {
-  Slam slam({}, test::forwardMounting());
+  Slam slam(test::thesisConfig(), test::forwardMounting());
   for (std::size_t i = 0; i < 100; ++i) {
     const FrameResult& result = slam.process(dark(i), observer_[i]);
     ASSERT_EQ(result.state, SlamState::kBuildingMap);
@@ -161,7 +161,7 @@ TEST_F(SlamStates, NothingButDarkImages) {
 }
 
 TEST_F(SlamStates, DarkImagesDoNotWearTheMapDown) {
-  Slam slam({}, test::forwardMounting());
+  Slam slam(test::thesisConfig(), test::forwardMounting());
   for (std::size_t i = 0; i < 60; ++i) slam.process(look(i), observer_[i]);
   const std::size_t landmarks = slam.landmarks().size();
   int removed = 0;
@@ -175,7 +175,7 @@ TEST_F(SlamStates, DarkImagesDoNotWearTheMapDown) {
 }
 
 TEST_F(SlamStates, HoveringMakesNoLandmarks) {
-  Slam slam({}, test::forwardMounting());
+  Slam slam(test::thesisConfig(), test::forwardMounting());
   FrameResult last;
   for (std::size_t i = 0; i < 100; ++i) {
     ImageFeatures features =
@@ -190,7 +190,7 @@ TEST_F(SlamStates, HoveringMakesNoLandmarks) {
 }
 
 TEST_F(SlamStates, CapsHold) {
-  SlamConfig config;
+  SlamConfig config = test::thesisConfig();
   config.feature_map.max_map_features = 50;
   config.landmark_map.max_landmarks = 60;
   Slam slam(config, test::forwardMounting());
@@ -208,7 +208,7 @@ TEST_F(SlamStates, MountingOfTheCameraIsTakenIntoAccount) {
   T_base_cam.translation() << 0.3, 0.1, -0.05;
   T_base_cam.linear() =
       Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()).toRotationMatrix() * T_base_cam.linear();
-  Slam slam({}, T_base_cam);
+  Slam slam(test::thesisConfig(), T_base_cam);
   double largest_m = 0;
   int matches = 0;
   for (std::size_t i = 0; i < flight_.size(); ++i) {

@@ -34,7 +34,7 @@ PointWorld corridor(std::uint64_t seed, double wrong_share = 0) {
 }
 
 SlamConfig withMean(MeanKind mean) {
-  SlamConfig config;
+  SlamConfig config = test::thesisConfig();
   config.thesis_filter.mean = mean;
   return config;
 }
@@ -109,7 +109,8 @@ TEST(SlamWorld, FirstPassesDoNoHarm) {
   const Flight flight = test::straightFlight(300, 10, 1);
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     PointWorld world = corridor(seed);
-    const FlightRun run = test::fly(world, flight, test::observe(flight, {}, seed));
+    const FlightRun run =
+        test::fly(world, flight, test::observe(flight, {}, seed), test::thesisConfig());
     EXPECT_LT(run.fused.rmse_m, 1.1 * run.observer.rmse_m) << "seed " << seed;
   }
 }
@@ -122,7 +123,8 @@ TEST(SlamWorld, WrongFeaturesOnAFirstPassDoLittleHarm) {
     std::vector<double> ratios;
     for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
       PointWorld world = corridor(seed, wrong_share);
-      const FlightRun run = test::fly(world, flight, test::observe(flight, {}, seed));
+      const FlightRun run =
+          test::fly(world, flight, test::observe(flight, {}, seed), test::thesisConfig());
       ratios.push_back(run.fused.rmse_m / run.observer.rmse_m);
       EXPECT_LT(ratios.back(), 1.3) << "seed " << seed << ", wrong " << wrong_share;
     }
@@ -133,7 +135,8 @@ TEST(SlamWorld, WrongFeaturesOnAFirstPassDoLittleHarm) {
 TEST(SlamWorld, LandmarksStandWhereThePointsAre) {
   const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
   PointWorld world = room(1);
-  const FlightRun run = test::fly(world, flight, test::observeExactly(flight));
+  const FlightRun run =
+      test::fly(world, flight, test::observeExactly(flight), test::thesisConfig());
   const auto errors = landmarkErrors_m(world, run, false);
   ASSERT_GT(errors.size(), 800U) << "most of the 1200 points";
   EXPECT_LT(run.landmarks.size(), 1300U) << "hardly any point twice";
@@ -148,7 +151,7 @@ TEST(SlamWorld, FirstImageMapEqualsOdometry) {
   const Eigen::Isometry3d T_odom_map =
       Eigen::Translation3d(5, 6, 7) * Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ());
   for (ObserverState& state : observer) state.T_odom_base = T_odom_map * state.T_odom_base;
-  Slam slam({}, test::forwardMounting());
+  Slam slam(test::thesisConfig(), test::forwardMounting());
   EXPECT_TRUE(slam.T_map_odom().matrix().isIdentity(0));
   const FrameResult first = slam.process(test::film(world, flight)[0], observer[0]);
   EXPECT_EQ(first.T_map_base.matrix(), observer[0].T_odom_base.matrix());
@@ -162,7 +165,7 @@ TEST(SlamWorld, MapToOdomTakesTheOdometryToThePose) {
   PointWorld world = room(2);
   const auto frames = test::film(world, flight);
   const auto observer = test::observe(flight, {}, 2);
-  Slam slam({}, test::forwardMounting());
+  Slam slam(test::thesisConfig(), test::forwardMounting());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const FrameResult& r = slam.process(frames[i], observer[i]);
     const Eigen::Isometry3d expected = slam.T_map_odom() * r.T_odom_base;
@@ -190,7 +193,7 @@ TEST(SlamWorld, ObserverEstimatorPassesTheOdometryOn) {
 // Thesis 7.2: 161 frames at 3 Hz, 5 / 45 / 80 landmark matches in the 1st, 2nd and 3rd lap.
 TEST(SlamWorld, PlanarModeAtThreeHertzFindsMoreLandmarksLapByLap) {
   constexpr int kFrames = 60;
-  SlamConfig config;
+  SlamConfig config = test::thesisConfig();
   config.planar = true;
   ViewFaults faults;
   faults.lost_share = 0.5;  // corners of a coarse threshold come and go
@@ -215,7 +218,7 @@ TEST(SlamWorld, PlanarModeAtThreeHertzFindsMoreLandmarksLapByLap) {
 }
 
 TEST(SlamWorld, PlanarModeWithTrueOdometry) {
-  SlamConfig config;
+  SlamConfig config = test::thesisConfig();
   config.planar = true;
   const Flight flight = test::lapsFlight(60, 3, 3);
   PointWorld world = room(1);
@@ -232,7 +235,7 @@ TEST(SlamWorld, PlanarModeDoesNotMindUnknownTilt) {
   const Flight flight = test::lapsFlight(60, 2, 3);
   Flight tilted = flight;
   for (test::FlightPose& pose : tilted) pose.T_map_base = pose.T_map_base * tilt;
-  SlamConfig config;
+  SlamConfig config = test::thesisConfig();
   config.planar = true;
   PointWorld world = room(4);
   const FlightRun run = test::run(test::film(world, tilted), test::observeExactly(flight), config);

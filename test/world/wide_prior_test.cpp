@@ -32,7 +32,7 @@ class WidePrior : public ::testing::Test {
 
   const FrameResult& atJump(const test::FlightRun& run) const { return run.results[kJump]; }
 
-  SlamConfig config_;
+  SlamConfig config_ = test::thesisConfig();
   std::vector<ImageFeatures> frames_;
   std::vector<ObserverState> observer_;
   std::vector<ObserverState> calm_observer_;  // the same without the jump
