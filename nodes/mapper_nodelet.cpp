@@ -207,15 +207,12 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   const FrameResult& result = slam_->process(features_, observer, stage_clock_.hook());
   totals_.heights_tilted = heights_->tilted();
   if (result.height == HeightOutcome::kRejected) ++totals_.heights_rejected;
+  noteStep(result.odometry_step_m);
   has_answer_ = true;
   if (result.state == SlamState::kNotFinite) return refuseResult(result, *frame.features);
   answered_ns_ = result.stamp_ns;
   ++totals_.images;
-  if (result.state == SlamState::kBuildingMap) {
-    standstill_.see(features_, frame.observer.T_odom_base * T_base_cam_);
-  } else {
-    standstill_.reset();
-  }
+  standstill_.see(features_, frame.observer.T_odom_base * T_base_cam_);
   outputs_->publishFrame(result, slam_->T_map_odom(), frames_, frame.observer);
   publishStatus(result, *frame.features);
 }

@@ -38,6 +38,7 @@ class MapperNodelet : public nodelet::Nodelet {
   void noteCovariance(const ObserverState& state);
   /// Says once that the odometry is too fast to be in metres.
   void noteSpeed(const ObserverState& state);
+  void noteStep(double step_m);
   void takeFrameNames(const nav_msgs::Odometry& odometry);
   /// Works on every image whose odometry has come.
   void processReady();

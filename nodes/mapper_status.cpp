@@ -29,6 +29,13 @@ void MapperNodelet::noteSpeed(const ObserverState& state) {
       explainSpeed("the odometry on " + odometry_sub_.getTopic(), speed_.absurd_m_s()));
 }
 
+void MapperNodelet::noteStep(double step_m) {
+  if (step_m == 0) return;
+  ++totals_.odometry_steps;
+  const std::string sentence = explainStep("the odometry on " + odometry_sub_.getTopic(), step_m);
+  if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
+}
+
 void MapperNodelet::publishStatus(const FrameResult& result, const Features& features) {
   Status status;
   toStatus(result, frames_.map, status);
@@ -94,6 +101,7 @@ void MapperNodelet::fillTotals(Status& status) const {
   status.ranges_refused = totals_.ranges_refused;
   status.heights_tilted = totals_.heights_tilted;
   status.heights_rejected = totals_.heights_rejected;
+  status.odometry_steps = totals_.odometry_steps;
   status.results_not_finite = totals_.results_not_finite;
   status.restarts = totals_.restarts;
 }
@@ -129,6 +137,7 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
   wrapper.add("images answered", totals_.images);
   wrapper.add("images without odometry", totals_.dropped_no_odometry);
   wrapper.add("odometry messages refused", totals_.odometry_refused);
+  wrapper.add("odometry steps", totals_.odometry_steps);
   if (!covariance_fault_.empty()) wrapper.add("odometry covariance", covariance_fault_);
   if (speed_.absurd_m_s() > 0) {
     wrapper.add("odometry speed",

@@ -69,7 +69,7 @@ void StandstillWatch::begin(std::int64_t stamp_ns, const Eigen::Matrix3d& R_odom
 
 std::string explainStandstill(const std::string& odometry_topic) {
   return "the odometry on " + odometry_topic +
-         " never moves although the images do, so no landmark can be made: check what publishes "
+         " does not move although the images do, so the pose cannot be right: check what publishes "
          "it (`rostopic echo " +
          odometry_topic + "/pose/pose`), or remap `odometry` to another topic";
 }

@@ -87,9 +87,10 @@ void ConstraintFilter::start(const ObserverState& observer) {
   height_m_ = observer.height_m;
 }
 
-void ConstraintFilter::predict(const ObserverState& observer) {
+void ConstraintFilter::predict(const ObserverState& observer,
+                               const std::optional<OdometryStep>& step) {
   const bool is_kept = newest_is_keyframe_ || newest().id == reference_id_;
-  state_.propagate(observer);
+  state_.propagate(observer, step);
   if (!is_kept) state_.removeFrame(state_.frames().size() - 2);
   newest_is_keyframe_ = false;
   watchForContradiction();

@@ -112,8 +112,11 @@ Matrix6d Slam::State::covariance() const {
 }
 
 void Slam::State::predict(const ImageFeatures& features, const ObserverState& observer) {
+  const auto step = step_watch.see(observer);
+  if (step) result.odometry_step_m = step->step_odom_m.norm();
   if (constraint) {
-    started ? constraint->predict(observer) : constraint->start(observer);
+    passGap(observer.stamp_ns);
+    started ? constraint->predict(observer, step) : constraint->start(observer);
   } else if (started) {
     filter.predict(observer);
   } else {

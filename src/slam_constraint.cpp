@@ -39,6 +39,17 @@ void Slam::State::setDrifts() {
   view.setDrifts(std::move(drifts));
 }
 
+// A frame's search is widened by the blind time before the last frame, so that odometry that is as
+// good as it claims has narrow windows; but a gap is blind from its beginning.
+void Slam::State::passGap(std::int64_t stamp_ns) {
+  constexpr double kGap_s = 0.5;  // slower cameras are searched as after a gap
+  unclocked_s = last_stamp_ns ? static_cast<double>(stamp_ns - *last_stamp_ns) * 1e-9 : 0;
+  last_stamp_ns = stamp_ns;
+  if (unclocked_s < kGap_s) return;
+  blind_clock.pass(unclocked_s);
+  unclocked_s = 0;
+}
+
 void Slam::State::fixByLandmarks() {
   if (constraint->isDistrustful()) {
     landmark_matches = {};
@@ -91,10 +102,7 @@ void Slam::State::judgeMatches() {
   }
   const bool is_blind =
       static_cast<int>(trusted_matches.size()) < config.constraint_filter.min_fix_landmarks;
-  const std::int64_t now_ns = view.features().stamp_ns;
-  if (is_blind && last_stamp_ns)
-    blind_clock.pass(static_cast<double>(now_ns - *last_stamp_ns) * 1e-9);
-  last_stamp_ns = now_ns;
+  if (is_blind) blind_clock.pass(unclocked_s);
   blind_clock.link(anchors);
   locate(trusted_matches);
 }

@@ -10,6 +10,7 @@
 #include "ardrone_vslam/constraint_filter.hpp"
 #include "ardrone_vslam/frame_view.hpp"
 #include "ardrone_vslam/mapper.hpp"
+#include "ardrone_vslam/odometry_step.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/thesis_filter.hpp"
 #include "blind_clock.hpp"
@@ -45,6 +46,8 @@ struct Slam::State {
   std::vector<Association> trusted_matches;   // constraint filter: of landmark_matches
   BlindClock blind_clock;                     // constraint filter
   std::optional<std::int64_t> last_stamp_ns;  // constraint filter
+  double unclocked_s = 0;                     // since then, and not yet on blind_clock
+  OdometryStepWatch step_watch;
   std::vector<Sighting> sightings;
   std::vector<bool> used;  // the frame's features that need not be stored
   FrameResult result;
@@ -62,6 +65,7 @@ struct Slam::State {
   void report(const ObserverState& observer);
 
   // The same two steps by the constraint filter (slam_constraint.cpp).
+  void passGap(std::int64_t stamp_ns);
   void fixByLandmarks();
   void useTracks(const ImageFeatures& features);
   void judgeMatches();

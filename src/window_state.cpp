@@ -102,12 +102,14 @@ double WindowState::biasDeviations() const {
   return config_.velocity_bias_m_s > 0 ? velocity_bias_m_s_.norm() / config_.velocity_bias_m_s : 0;
 }
 
-void WindowState::propagate(const ObserverState& observer) {
+void WindowState::propagate(const ObserverState& observer,
+                            const std::optional<OdometryStep>& step_in_it) {
   const WindowPose last = frames_.back();
   const double dt_s =
       std::max(static_cast<double>(observer.stamp_ns - observer_.stamp_ns) * 1e-9, 0.0);
   const Eigen::Vector3d step_odom =
-      observer.T_odom_base.translation() - observer_.T_odom_base.translation();
+      step_in_it ? step_in_it->motion_odom_m
+                 : observer.T_odom_base.translation() - observer_.T_odom_base.translation();
   const double way_m = step_odom.norm();
   const Eigen::Vector3d velocity_base_m_s = recentVelocity_base_m_s();
 
@@ -144,6 +146,12 @@ void WindowState::propagate(const ObserverState& observer) {
       then && now && *now > *then
           ? *now - *then
           : squared(config_.walk_m_per_sqrt_m) * way_m + squared(config_.walk_m_per_sqrt_s) * dt_s;
+  if (step_in_it) {
+    // Nothing but where the drone is now is in doubt: odometry that had stood still may catch up.
+    const Eigen::Vector3d jump_map = R_map_odom_ * step_in_it->step_odom_m;
+    P.block<3, 3>(to, to) += jump_map * jump_map.transpose();
+    P.diagonal().segment<3>(to).array() += squared(step_in_it->motion_deviation_m);
+  }
 
   propagateGlobals(observer, dt_s, way_m);
   const Eigen::Matrix3d R_map_base = R_map_odom_ * observer.T_odom_base.linear();

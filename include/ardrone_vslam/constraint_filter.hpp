@@ -175,7 +175,8 @@ class ConstraintFilter {
   ConstraintFilter(const ConstraintFilterConfig& config, const Eigen::Isometry3d& T_base_cam);
 
   void start(const ObserverState& observer);
-  void predict(const ObserverState& observer);
+  void predict(const ObserverState& observer,
+               const std::optional<OdometryStep>& step = std::nullopt);
   FixOutcome fix(const std::vector<LandmarkSighting>& sightings, double focal_length_px);
   /// Of the sightings given to the last fix().
   const std::vector<SightingVerdict>& verdicts() const { return verdicts_; }

@@ -49,6 +49,9 @@ struct FrameResult {
   double scale_error = 0;
   double scale_deviation = 0;
   HeightOutcome height = HeightOutcome::kNone;  ///< constraint filter
+  /// By so much the observer's position jumped since the last frame; 0: it moved. The constraint
+  /// filter does not take it for a way.
+  double odometry_step_m = 0;
   /// Base position by the landmarks alone, before the fusion (6.4); nothing when there were too
   /// few.
   std::optional<Eigen::Vector3d> camera_position_map;

@@ -10,6 +10,7 @@
 #include "ardrone_vslam/covariance_matrix.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
 #include "ardrone_vslam/observer_noise.hpp"
+#include "ardrone_vslam/odometry_step.hpp"
 
 namespace ardrone_vslam {
 
@@ -71,7 +72,9 @@ class WindowState {
   /// Map equals odom; the first frame is the window's only one.
   void start(const ObserverState& observer);
   /// Adds a frame by the observer's increment since the newest one.
-  void propagate(const ObserverState& observer);
+  /// @param step  of that increment: counts as the newest position's uncertainty, not as a way
+  void propagate(const ObserverState& observer,
+                 const std::optional<OdometryStep>& step = std::nullopt);
   /// Begins anew beside the anchors, with one frame where the observer and this transform put it:
   /// what was learned of the observer's velocity and attitude is forgotten. What the frame moves by
   /// counts as its deviation. There must be no other frame.

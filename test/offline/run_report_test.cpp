@@ -262,6 +262,22 @@ TEST(RunReport, OdometryThatIsTooFastForMetresIsAWarning) {
     EXPECT_NE(verdict.warnings[0].find(part), std::string::npos) << part;
 }
 
+TEST(RunReport, OdometryThatStepsOrFreezesIsCountedAndAWarning) {
+  RunResult run = someRun();
+  run.frames[1].result.odometry_step_m = 0.7;
+  run.frames[2].result.odometry_step_m = 2.5;
+  run.odometry_froze = true;
+  const RunEvaluation evaluation = evaluate(run, straightTruth());
+  const Json summary = summaryOf(run, evaluation, {"s", "drone", 1, "constraint"});
+  EXPECT_EQ(summary["odometry_steps"], 2);
+  EXPECT_EQ(summary["odometry_froze"], true);
+  const RunVerdict verdict = judgeRun("flight", run, evaluation, false);
+  EXPECT_TRUE(verdict.faults.empty());
+  ASSERT_EQ(verdict.warnings.size(), 2U);
+  EXPECT_NE(verdict.warnings[0].find("stood still"), std::string::npos);
+  EXPECT_NE(verdict.warnings[1].find("2.5 m"), std::string::npos);
+}
+
 TEST(RunReport, ARunWithoutLandmarksSaysWhyThatMayBe) {
   RunResult run = someRun();
   run.landmarks.clear();

@@ -119,6 +119,8 @@ void BackEnd::process(const TrackedFrame& frame) {
     return;
   }
   watch_.see(frame.features, Eigen::Isometry3d((state.T_odom_base * T_base_cam_).linear()));
+  standstill_.see(frame.features, state.T_odom_base * T_base_cam_);
+  run_.odometry_froze = run_.odometry_froze || standstill_.isStuck();
   state.height_m = heightAt(state);
   RunFrame run_frame;
   run_frame.times_ms = frame.times_ms;

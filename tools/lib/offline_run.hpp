@@ -45,6 +45,7 @@ struct RunResult {
   std::uint64_t heights_tilted = 0;  ///< images without a height as base was tilted
   /// The tracks moved for seconds on end by more than the observer's turning explains.
   bool images_travel = false;
+  bool odometry_froze = false;  ///< for a while, although the images travelled
   double absurd_speed_m_s = 0;  ///< of the observer, when it is too fast to be in metres
   double scale_error = 0;       ///< the one drawn for the observer
 };
@@ -75,7 +76,8 @@ class BackEnd {
 
   Slam slam_;
   Eigen::Isometry3d T_base_cam_;
-  StandstillWatch watch_;  ///< sees an observer that only turns: what moves then is the images
+  StandstillWatch watch_;       ///< sees an observer that only turns: what moves then is the images
+  StandstillWatch standstill_;  ///< the same with its positions
   SpeedWatch speed_;
   ObserverBuffer buffer_;
   const std::vector<ObserverState>& observer_;

@@ -245,6 +245,10 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["frames"] = run.frames.size();
   summary["frames_without_observer"] = run.frames_without_observer;
   summary["observer_states_refused"] = run.observer_states_refused;
+  summary["odometry_steps"] =
+      std::count_if(run.frames.begin(), run.frames.end(),
+                    [](const RunFrame& f) { return f.result.odometry_step_m > 0; });
+  summary["odometry_froze"] = run.odometry_froze;
   summary["profile"] = label.profile;
   summary["seed"] = label.seed ? Json(*label.seed) : Json(nullptr);
   summary["estimator"] = label.estimator;

@@ -98,6 +98,17 @@ RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEval
   if (run.absurd_speed_m_s > 0) {
     verdict.warnings.push_back(name + ": " + explainSpeed("the odometry", run.absurd_speed_m_s));
   }
+  if (run.odometry_froze && verdict.faults.empty()) {
+    verdict.warnings.push_back(
+        name +
+        ": the odometry stood still for seconds while the images moved on; check what "
+        "publishes it");
+  }
+  double largest_step_m = 0;
+  for (const RunFrame& frame : run.frames)
+    largest_step_m = std::max(largest_step_m, frame.result.odometry_step_m);
+  if (largest_step_m > 0)
+    verdict.warnings.push_back(name + ": " + explainStep("the odometry", largest_step_m));
   if (run.landmarks.empty()) {
     verdict.warnings.push_back(
         "no landmark came out, so the poses are the odometry's: images too dark, blurred or plain, "
