@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// make_world: renders a flight through a synthetic room, as a bag or as a TUM-like folder.
+// make_world: renders a flight through a synthetic world, as a bag or as a TUM-like folder.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <vector>
 
 #ifdef ARDRONE_VSLAM_WITH_ROS
@@ -31,22 +33,85 @@ struct Options {
   std::string start;  // "X,Y,YAW" [m, m, rad]; empty: the flight's own
   std::string images = "raw";
   std::string compression = "none";
+  std::string camera = "front";
+  std::string gain = "1";
+  double shutter_ms = 0;
+  double readout_ms = 0;
   const CLI::Option* seconds = nullptr;
+  const CLI::Option* shutter = nullptr;
+  const CLI::Option* readout = nullptr;
   std::vector<const CLI::Option*> bag_only;
 };
+
+std::string flightList() {
+  std::ostringstream list;
+  for (const auto& flight : flights()) {
+    list << std::left << std::setw(16) << flight.name << flight.summary << " (" << flight.duration_s
+         << " s; " << flight.world << ")\n";
+  }
+  return list.str();
+}
+
+std::vector<std::string> flightNames() {
+  std::vector<std::string> names;
+  for (const auto& flight : flights()) names.push_back(flight.name);
+  return names;
+}
+
+std::vector<std::string> cameraNames() {
+  std::vector<std::string> names;
+  for (const auto& camera : cameras()) names.push_back(camera.name);
+  return names;
+}
+
+/// What there is to see, and how the camera sees it.
+void addCameraOptions(CLI::App& app, Options& o) {
+  const auto oneOf = [](const std::vector<std::string>& names) { return CLI::IsMember(names); };
+  app.add_option("--world", o.world.world, "where; default: the flight's own (--list)")
+      ->check(oneOf(worldNames()));
+  app.add_option("--light", o.world.light,
+                 "steady; moving: a lamp wanders about; fading: dark from 20 to 32 s, then dim; "
+                 "default: the flight's own")
+      ->check(oneOf(lightNames()));
+  app.add_option("--camera", o.camera,
+                 "front: 640x360 as its driver's calibration has it, 80 degrees across; "
+                 "front_wide: the data sheet's 92 degrees; bottom: 320x240, 64 degrees")
+      ->capture_default_str()
+      ->check(oneOf(cameraNames()));
+  o.shutter = app.add_option("--shutter", o.shutter_ms,
+                             "how long a row is exposed [ms]: motion blur; default: 0, of "
+                             "fast_blur 16")
+                  ->check(CLI::Range(0.0, 1000.0));
+  o.readout = app.add_option("--readout", o.readout_ms,
+                             "how much later the last row is exposed than the first [ms]: rolling "
+                             "shutter; default: 0, of fast_blur 25")
+                  ->check(CLI::Range(0.0, 1000.0));
+  app.add_option("--gain", o.gain, "of light and noise, or auto: to a mean grey of 110")
+      ->capture_default_str();
+  app.add_option("--image-noise", o.world.effects.noise_grey,
+                 "deviation of the images' white noise at gain 1 [grey]")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 100.0));
+  app.add_option("--artefacts", o.world.effects.quantiser,
+                 "blocks of 4x4 pixels as H.264 leaves them at this QP, 1 to 51; 0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0, kLargestQuantiser));
+}
 
 void addOptions(CLI::App& app, Options& o) {
   app.set_version_flag("--version",
                        std::string("make_world (ardrone_vslam) " ARDRONE_VSLAM_VERSION));
+  app.add_flag_callback(
+      "--list", [] { throw CLI::CallForVersion(flightList(), 0); },
+      "the flights, with a line about each");
   app.add_option("flight", o.world.flight, "which flight")
       ->required()
       ->check(CLI::IsMember(flightNames()));
   app.add_option("--out", o.out, "FILE.bag, or else a folder to make")->required();
   app.add_flag("--force", o.force, "replace what is there");
-  o.seconds =
-      app.add_option("--seconds", o.world.duration_s,
-                     "of flight; default: 60, of laps_then_hover 60 s of hovering after the lap")
-          ->check(CLI::Range(0.001, 1e6));
+  o.seconds = app.add_option("--seconds", o.world.duration_s,
+                             "of flight; default: the whole of it (--list)")
+                  ->check(CLI::Range(0.001, 1e6));
   app.add_option("--rate", o.world.rate_hz, "images a second")
       ->capture_default_str()
       ->check(CLI::Range(0.001, 1e3));
@@ -56,14 +121,15 @@ void addOptions(CLI::App& app, Options& o) {
                  "folder. A,B@S: A, from second S on B; laps_then_hover hovers with `hover` unless "
                  "this says otherwise");
   app.add_option("--range-noise", o.world.range_noise_m,
-                 "also write a range sensor's height above the floor, with this deviation [m]: "
-                 "/range in a bag, range.txt in a folder")
+                 "also write a range sensor's height above what is below, with this deviation "
+                 "[m]: /range in a bag, range.txt in a folder")
       ->check(CLI::Range(0.0, 10.0));
   addSeed(app, "--seed", o.world.seed, "of the noise in odometry, ranges and images");
-  addSeed(app, "--world-seed", o.world.world_seed, "of the room");
+  addSeed(app, "--world-seed", o.world.world_seed, "of the world");
   app.add_option("--start", o.start,
                  "X,Y,YAW, where the flight begins [m, m, rad] in the room of 8 x 6 m whose middle "
                  "is 0,0; default: on the flight's path");
+  addCameraOptions(app, o);
   auto* images = app.add_option("--compressed", o.images, "images in a bag");
   images->capture_default_str()->check(CLI::IsMember({"raw", "png", "jpeg"}));
   auto* compression = app.add_option("--compression", o.compression, "of the bag's chunks");
@@ -145,16 +211,46 @@ void refuseBagOptions(const Options& o) {
 
 /// A drone that hovers has no help from its motion: its odometry drifts as `hover` does.
 void fitToHover(double begin_s, Options& o) {
-  if (o.seconds->count() == 0) o.world.duration_s += begin_s;
   if (o.observer_profile.empty() || o.observer_profile.find(',') != std::string::npos) return;
   std::array<char, 40> later{};
   std::snprintf(later.data(), later.size(), ",hover@%g", begin_s);
   o.observer_profile += later.data();
 }
 
+std::optional<double> parseGain(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  double gain = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf%c", &gain, &rest) != 1 || !(gain > 0) || !(gain <= 100)) {
+    throw UsageError("--gain: '" + text + "' must be a number above 0 and up to 100, or auto");
+  }
+  return gain;
+}
+
+/// What the flight and the camera decide where nothing else was asked for.
+void fitToFlight(bool bag, Options& o) {
+  const FlightInfo& flight = flightInfo(o.world.flight);
+  if (o.seconds->count() == 0) o.world.duration_s = flight.duration_s;
+  CameraEffects& effects = o.world.effects;
+  effects.shutter_s = o.shutter->count() == 0 ? flight.shutter_s : o.shutter_ms / 1000;
+  effects.readout_s = o.readout->count() == 0 ? flight.readout_s : o.readout_ms / 1000;
+  effects.gain = parseGain(o.gain);
+  const CameraChoice& camera = cameraNamed(o.camera);
+  o.world.camera = camera.intrinsics;
+  o.world.T_body_cam = camera.T_body_cam;
+  // Base of a folder is by its definition where the camera is and looks along it.
+  o.world.T_base_cam = bag ? camera.T_body_cam : forwardCamera();
+  if (!bag && o.camera == "bottom" && o.world.range_noise_m) {
+    throw UsageError(
+        "--range-noise: the base of a folder looks along its camera, so the bottom "
+        "camera's has no heights; write a bag");
+  }
+}
+
 int run(Options& o) {
   const bool bag = isBag(o.out);
   if (!bag) refuseBagOptions(o);
+  fitToFlight(bag, o);
   if (!o.force && std::filesystem::exists(o.out)) {
     throw std::runtime_error(o.out + ": is there already; choose another name or give --force");
   }
@@ -162,8 +258,6 @@ int run(Options& o) {
   if (const auto begin_s = hoverBegin_s(o.world.flight)) fitToHover(*begin_s, o);
   if (!o.observer_profile.empty()) o.world.observer = profileOfOption(o.observer_profile);
   if (!o.start.empty()) o.world.start = parseStart(o.start);
-  // Base of a folder is by its definition where the camera is.
-  if (!bag) o.world.T_base_cam = forwardCamera();
   auto world_pointer = asUsage([&o] { return std::make_unique<WorldSequence>(o.world); });
   WorldSequence& world = *world_pointer;
   {
@@ -183,7 +277,7 @@ int run(Options& o) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Renders a flight of an AR.Drone through a synthetic room: images, exact truth, odometry.",
+      "Renders a flight of an AR.Drone through a synthetic world: images, exact truth, odometry.",
       "make_world"};
   Options options;
   addOptions(app, options);
