@@ -63,8 +63,7 @@ const CameraChoice& cameraNamed(const std::string& name) {
 WorldCamera::WorldCamera(const CameraIntrinsics& camera, const CameraEffects& effects)
     : effects_(effects), renderer_(camera, effects.noise_grey) {}
 
-cv::Mat WorldCamera::shoot(const Scene& scene, const CameraMotion& motion,
-                           std::uint64_t seed) const {
+cv::Mat WorldCamera::shoot(const Scene& scene, const CameraPath& motion, std::uint64_t seed) const {
   const double gain = effects_.gain ? *effects_.gain : gainFor(scene, motion(0));
   cv::Mat image =
       renderer_.render(scene, {motion, effects_.readout_s, effects_.shutter_s, gain}, seed);

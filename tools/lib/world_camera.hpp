@@ -50,7 +50,7 @@ class WorldCamera {
 
   /// The picture with this stamp, 8-bit grey. @param motion  the camera about that time, over half
   /// of shutter and readout before and after; @param seed  of the noise
-  cv::Mat shoot(const Scene& scene, const CameraMotion& motion, std::uint64_t seed) const;
+  cv::Mat shoot(const Scene& scene, const CameraPath& motion, std::uint64_t seed) const;
 
  private:
   double gainFor(const Scene& scene, const Eigen::Isometry3d& T_world_cam) const;

@@ -16,12 +16,12 @@
 namespace ardrone_vslam {
 
 /// T_world_cam at a time after the image's stamp [s].
-using CameraMotion = std::function<Eigen::Isometry3d(double since_stamp_s)>;
+using CameraPath = std::function<Eigen::Isometry3d(double since_stamp_s)>;
 
 /// How an image comes about while the camera moves. The stamp is the middle of the exposure of the
 /// middle row.
 struct Exposure {
-  CameraMotion motion;
+  CameraPath motion;
   double readout_s = 0;  ///< how much later the last row is exposed than the first; 0: all at once
   double shutter_s = 0;  ///< how long each row is exposed; 0: no motion blur
   double gain = 1;       ///< of light and noise alike
