@@ -6,10 +6,8 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
 #include <memory>
-#include <sstream>
 #include <vector>
 
 #ifdef ARDRONE_VSLAM_WITH_ROS
@@ -19,6 +17,7 @@
 #include "progress_line.hpp"
 #include "tool_main.hpp"
 #include "tum_folder_writer.hpp"
+#include "world_arguments.hpp"
 #include "world_sequence.hpp"
 
 namespace {
@@ -33,70 +32,10 @@ struct Options {
   std::string start;  // "X,Y,YAW" [m, m, rad]; empty: the flight's own
   std::string images = "raw";
   std::string compression = "none";
-  std::string camera = "front";
-  std::string gain = "1";
-  double shutter_ms = 0;
-  double readout_ms = 0;
+  CameraArguments camera;
   const CLI::Option* seconds = nullptr;
-  const CLI::Option* shutter = nullptr;
-  const CLI::Option* readout = nullptr;
   std::vector<const CLI::Option*> bag_only;
 };
-
-std::string flightList() {
-  std::ostringstream list;
-  for (const auto& flight : flights()) {
-    list << std::left << std::setw(16) << flight.name << flight.summary << " (" << flight.duration_s
-         << " s; " << flight.world << ")\n";
-  }
-  return list.str();
-}
-
-std::vector<std::string> flightNames() {
-  std::vector<std::string> names;
-  for (const auto& flight : flights()) names.push_back(flight.name);
-  return names;
-}
-
-std::vector<std::string> cameraNames() {
-  std::vector<std::string> names;
-  for (const auto& camera : cameras()) names.push_back(camera.name);
-  return names;
-}
-
-/// What there is to see, and how the camera sees it.
-void addCameraOptions(CLI::App& app, Options& o) {
-  const auto oneOf = [](const std::vector<std::string>& names) { return CLI::IsMember(names); };
-  app.add_option("--world", o.world.world, "where; default: the flight's own (--list)")
-      ->check(oneOf(worldNames()));
-  app.add_option("--light", o.world.light,
-                 "steady; moving: a lamp wanders about; fading: dark from 20 to 32 s, then dim; "
-                 "default: the flight's own")
-      ->check(oneOf(lightNames()));
-  app.add_option("--camera", o.camera,
-                 "front: 640x360 as its driver's calibration has it, 80 degrees across; "
-                 "front_wide: the data sheet's 92 degrees; bottom: 320x240, 64 degrees")
-      ->capture_default_str()
-      ->check(oneOf(cameraNames()));
-  o.shutter = app.add_option("--shutter", o.shutter_ms,
-                             "how long a row is exposed [ms]: motion blur; default: 0, of "
-                             "fast_blur 16")
-                  ->check(CLI::Range(0.0, 1000.0));
-  o.readout = app.add_option("--readout", o.readout_ms,
-                             "how much later the last row is exposed than the first [ms]: rolling "
-                             "shutter; default: 0, of fast_blur 25")
-                  ->check(CLI::Range(0.0, 1000.0));
-  app.add_option("--gain", o.gain, "of light and noise, or auto: to a mean grey of 110")
-      ->capture_default_str();
-  app.add_option("--image-noise", o.world.effects.noise_grey,
-                 "deviation of the images' white noise at gain 1 [grey]")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 100.0));
-  app.add_option("--artefacts", o.world.effects.quantiser,
-                 "blocks of 4x4 pixels as H.264 leaves them at this QP, 1 to 51; 0: none")
-      ->capture_default_str()
-      ->check(CLI::Range(0, kLargestQuantiser));
-}
 
 void addOptions(CLI::App& app, Options& o) {
   app.set_version_flag("--version",
@@ -129,7 +68,7 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--start", o.start,
                  "X,Y,YAW, where the flight begins [m, m, rad] in the room of 8 x 6 m whose middle "
                  "is 0,0; default: on the flight's path");
-  addCameraOptions(app, o);
+  addCameraOptions(app, o.world, o.camera);
   auto* images = app.add_option("--compressed", o.images, "images in a bag");
   images->capture_default_str()->check(CLI::IsMember({"raw", "png", "jpeg"}));
   auto* compression = app.add_option("--compression", o.compression, "of the bag's chunks");
@@ -217,40 +156,18 @@ void fitToHover(double begin_s, Options& o) {
   o.observer_profile += later.data();
 }
 
-std::optional<double> parseGain(const std::string& text) {
-  if (text == "auto") return std::nullopt;
-  double gain = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf%c", &gain, &rest) != 1 || !(gain > 0) || !(gain <= 100)) {
-    throw UsageError("--gain: '" + text + "' must be a number above 0 and up to 100, or auto");
-  }
-  return gain;
-}
-
-/// What the flight and the camera decide where nothing else was asked for.
-void fitToFlight(bool bag, Options& o) {
-  const FlightInfo& flight = flightInfo(o.world.flight);
-  if (o.seconds->count() == 0) o.world.duration_s = flight.duration_s;
-  CameraEffects& effects = o.world.effects;
-  effects.shutter_s = o.shutter->count() == 0 ? flight.shutter_s : o.shutter_ms / 1000;
-  effects.readout_s = o.readout->count() == 0 ? flight.readout_s : o.readout_ms / 1000;
-  effects.gain = parseGain(o.gain);
-  const CameraChoice& camera = cameraNamed(o.camera);
-  o.world.camera = camera.intrinsics;
-  o.world.T_body_cam = camera.T_body_cam;
+int run(Options& o) {
+  const bool bag = isBag(o.out);
+  if (!bag) refuseBagOptions(o);
+  if (o.seconds->count() == 0) o.world.duration_s = flightInfo(o.world.flight).duration_s;
+  setCamera(o.camera, o.world);
   // Base of a folder is by its definition where the camera is and looks along it.
-  o.world.T_base_cam = bag ? camera.T_body_cam : forwardCamera();
-  if (!bag && o.camera == "bottom" && o.world.range_noise_m) {
+  if (!bag) o.world.T_base_cam = forwardCamera();
+  if (!bag && o.camera.camera == "bottom" && o.world.range_noise_m) {
     throw UsageError(
         "--range-noise: the base of a folder looks along its camera, so the bottom "
         "camera's has no heights; write a bag");
   }
-}
-
-int run(Options& o) {
-  const bool bag = isBag(o.out);
-  if (!bag) refuseBagOptions(o);
-  fitToFlight(bag, o);
   if (!o.force && std::filesystem::exists(o.out)) {
     throw std::runtime_error(o.out + ": is there already; choose another name or give --force");
   }

@@ -13,7 +13,6 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kDrag_per_s = 0.3;
 const Eigen::Vector3d kGravity_world(0, 0, -kGravity_m_s2);
 
 class EachFlight : public testing::TestWithParam<std::string> {

@@ -13,7 +13,6 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kDrag_per_s = 0.3;  // deceleration per speed
 constexpr double kWallMargin_m = 0.5;
 
 Eigen::Vector3d turnFrom(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
@@ -34,6 +33,15 @@ void checkStart(const FlightStart& start) {
 
 }  // namespace
 
+Eigen::Matrix3d attitudeOf(const Eigen::Vector3d& thrust_world, double yaw_rad) {
+  const Eigen::Vector3d forward(std::cos(yaw_rad), std::sin(yaw_rad), 0);
+  const Eigen::Vector3d z = thrust_world.normalized();
+  const Eigen::Vector3d y = z.cross(forward).normalized();
+  Eigen::Matrix3d R_world_body;
+  R_world_body << y.cross(z), y, z;
+  return R_world_body;
+}
+
 Eigen::Isometry3d Flight::pose(double t_s) const {
   constexpr double h = 0.01;  // s; the error of the acceleration is about 1e-5 m/s^2
   const Eigen::Vector3d before = position(t_s - h), now = position(t_s), after = position(t_s + h);
@@ -41,12 +49,8 @@ Eigen::Isometry3d Flight::pose(double t_s) const {
   const Eigen::Vector3d acceleration = (after - 2 * now + before) / (h * h);
   const Eigen::Vector3d thrust =
       acceleration + kDrag_per_s * velocity + kGravity_m_s2 * Eigen::Vector3d::UnitZ();
-  const double heading = yaw(t_s);
-  const Eigen::Vector3d forward(std::cos(heading), std::sin(heading), 0);
-  const Eigen::Vector3d z = thrust.normalized();
-  const Eigen::Vector3d y = z.cross(forward).normalized();
   Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
-  T_world_body.linear() << y.cross(z), y, z;
+  T_world_body.linear() = attitudeOf(thrust, yaw(t_s));
   T_world_body.translation() = now;
   return T_world_body;
 }

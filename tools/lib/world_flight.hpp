@@ -17,6 +17,10 @@ struct FlightStart {
 };
 
 constexpr double kGravity_m_s2 = 9.81;
+constexpr double kDrag_per_s = 0.3;  ///< deceleration per speed, by the air
+
+/// R_world_body of a drone whose rotors push along this thrust and whose nose points to the yaw.
+Eigen::Matrix3d attitudeOf(const Eigen::Vector3d& thrust_world, double yaw_rad);
 
 /// What a drone does at one moment; body is its middle, x forward, y left, z up.
 struct FlightState {

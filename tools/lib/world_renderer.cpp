@@ -7,12 +7,12 @@
 #include <stdexcept>
 
 #include "random_source.hpp"
+#include "world_view.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr std::size_t kNoiseSupply = 1 << 14;
-constexpr float kEdgeTolerance_m = 1e-4F;  // rays along an edge must meet one of its two sides
 
 /// How far the second pose is from the first.
 PoseSlack slackBetween(const Eigen::Isometry3d& T_world_a, const Eigen::Isometry3d& T_world_b) {
@@ -22,89 +22,6 @@ PoseSlack slackBetween(const Eigen::Isometry3d& T_world_a, const Eigen::Isometry
 }
 
 }  // namespace
-
-/// A surface as the camera sees it at one moment: floats relative to the camera's position.
-struct WorldRenderer::Plane {
-  Plane(const Surface& surface, const Eigen::Vector3d& camera_position)
-      : right(surface.right.cast<float>()),
-        down(surface.down.cast<float>()),
-        width_m(static_cast<float>(surface.width_m)),
-        height_m(static_cast<float>(surface.height_m)),
-        texels_per_m(static_cast<float>(surface.texels_per_m)),
-        texture(surface.texture.get()),
-        grain(surface.grain.get()) {
-    const Eigen::Vector3d to_corner = surface.corner - camera_position;
-    const Eigen::Vector3d away = surface.right.cross(surface.down);
-    const double distance_m = away.dot(to_corner);
-    constexpr double kOnSurface_m = 1e-6;
-    if (distance_m > kOnSurface_m) over_distance = (away / distance_m).cast<float>();
-    offset_right_m = static_cast<float>(-surface.right.dot(to_corner));
-    offset_down_m = static_cast<float>(-surface.down.dot(to_corner));
-  }
-
-  // With a ray: the reciprocal of the ray's length to the plane; 0 for one seen from behind.
-  Eigen::Vector3f over_distance = Eigen::Vector3f::Zero();
-  Eigen::Vector3f right;
-  Eigen::Vector3f down;
-  float offset_right_m = 0;  // of the camera's foot from the corner
-  float offset_down_m = 0;
-  float width_m;
-  float height_m;
-  float texels_per_m;
-  const MipTexture* texture;
-  const Grain* grain;
-
-  /// Position on the surface of the ray's hit at this length.
-  Eigen::Vector2f hit(const Eigen::Vector3f& ray, float length) const {
-    return {offset_right_m + length * right.dot(ray), offset_down_m + length * down.dot(ray)};
-  }
-  bool contains(const Eigen::Vector2f& at) const {
-    return at.x() >= -kEdgeTolerance_m && at.x() <= width_m + kEdgeTolerance_m &&
-           at.y() >= -kEdgeTolerance_m && at.y() <= height_m + kEdgeTolerance_m;
-  }
-  /// How far the hit moves when the ray changes by `change`.
-  Eigen::Vector2f step(const Eigen::Vector3f& ray, const Eigen::Vector3f& change,
-                       float length) const {
-    // d(length) = -length^2 d(1 / length)
-    const Eigen::Vector3f move = length * (change - ray * (length * over_distance.dot(change)));
-    return {right.dot(move), down.dot(move)};
-  }
-  /// Painted grey there, for a pixel whose neighbours see these steps further.
-  float grey(const Eigen::Vector2f& at, const Eigen::Vector2f& step_x,
-             const Eigen::Vector2f& step_y) const {
-    float grey = texture->sample(at * texels_per_m, step_x * texels_per_m, step_y * texels_per_m);
-    if (grain != nullptr) grey += grain->sample(at, step_x, step_y);
-    return grey;
-  }
-};
-
-/// A scene as the camera sees it at one moment.
-struct WorldRenderer::View {
-  View(const std::vector<const Surface*>& surfaces, const Lighting& lighting,
-       const Eigen::Isometry3d& T_world_cam)
-      : R_world_cam(T_world_cam.linear().cast<float>()),
-        even(static_cast<float>(lighting.even)),
-        lamp(static_cast<float>(lighting.lamp)),
-        over_reach2(static_cast<float>(1 / (lighting.lamp_reach_m * lighting.lamp_reach_m))),
-        to_lamp((lighting.lamp_m - T_world_cam.translation()).cast<float>()) {
-    planes.reserve(surfaces.size());
-    for (const Surface* surface : surfaces)
-      planes.emplace_back(*surface, T_world_cam.translation());
-  }
-
-  /// Share of its grey that a place at `from_cam` shows.
-  float light(const Eigen::Vector3f& from_cam) const {
-    if (lamp == 0) return even;
-    return even + lamp / (1 + (from_cam - to_lamp).squaredNorm() * over_reach2);
-  }
-
-  Eigen::Matrix3f R_world_cam;
-  float even;
-  float lamp;
-  float over_reach2;
-  Eigen::Vector3f to_lamp;
-  std::vector<Plane> planes;
-};
 
 WorldRenderer::WorldRenderer(const CameraIntrinsics& camera, double noise_grey) : camera_(camera) {
   for (int row = 0; row <= camera.height_px; ++row) {
@@ -154,7 +71,7 @@ double WorldRenderer::meanGrey(const Scene& scene, const Eigen::Isometry3d& T_wo
   for (int row = kStep_px / 2; row < camera_.height_px; row += kStep_px, ++rows) {
     const BandSurfaces seen =
         tiles_->seenIn(row / TilePyramids::kTile_px, scene, T_world_cam, PoseSlack{});
-    addRow(row, kStep_px, View(seen.surfaces, scene.lighting, T_world_cam), seen, sums.data());
+    addRow(row, kStep_px, SceneView(seen.surfaces, scene.lighting, T_world_cam), seen, sums.data());
   }
   return std::accumulate(sums.begin(), sums.end(), 0.0) / (width * rows);
 }
@@ -190,7 +107,7 @@ void WorldRenderer::renderBand(int band, const Scene& scene, const Exposure& exp
     slack.shift_m = std::max(slack.shift_m, moved.shift_m);
   }
   const BandSurfaces seen = tiles_->seenIn(band, scene, middle, slack);
-  std::vector<View> views;
+  std::vector<SceneView> views;
   const float gain = static_cast<float>(exposure.gain) / static_cast<float>(samples);
   std::vector<float> sums(static_cast<std::size_t>(camera_.width_px));
   for (int row = first; row < end; ++row) {
@@ -202,37 +119,39 @@ void WorldRenderer::renderBand(int band, const Scene& scene, const Exposure& exp
       }
     }
     std::fill(sums.begin(), sums.end(), 0.0F);
-    for (const View& view : views) addRow(row, 1, view, seen, sums.data());
+    for (const SceneView& view : views) addRow(row, 1, view, seen, sums.data());
     for (float& sum : sums) sum *= gain;
     develop(row, static_cast<float>(exposure.gain), noise_seed, sums.data(),
             image.ptr<std::uint8_t>(row));
   }
 }
 
-void WorldRenderer::addRow(int row, int step, const View& view, const BandSurfaces& seen,
+void WorldRenderer::addRow(int row, int step, const SceneView& view, const BandSurfaces& seen,
                            float* sums) const {
   const int width = camera_.width_px;
   const Eigen::Vector2f* rays = rays_.data() + static_cast<std::ptrdiff_t>(row) * (width + 1);
   const Eigen::Vector2f* rays_below = rays + width + 1;
+  Eigen::Vector3f next = view.R_world_cam * rays[0].homogeneous();
   for (int column = 0; column < width; column += step) {
-    const Eigen::Vector3f ray = view.R_world_cam * rays[column].homogeneous();
-    const Plane* nearest = nullptr;
+    const Eigen::Vector3f ray =
+        step == 1 ? next : Eigen::Vector3f(view.R_world_cam * rays[column].homogeneous());
+    next = view.R_world_cam * rays[column + 1].homogeneous();
+    const SurfaceView* nearest = nullptr;
     float nearest_over_length = 0;
     Eigen::Vector2f at;
     for (const auto index :
          seen.of_tile[static_cast<std::size_t>(column / TilePyramids::kTile_px)]) {
-      const Plane& plane = view.planes[index];
-      const float over_length = plane.over_distance.dot(ray);
+      const SurfaceView& surface = view.surfaces[index];
+      const float over_length = surface.over_distance.dot(ray);
       if (over_length <= nearest_over_length) continue;
-      const Eigen::Vector2f hit = plane.hit(ray, 1 / over_length);
-      if (!plane.contains(hit)) continue;
-      nearest = &plane;
+      const Eigen::Vector2f hit = surface.hit(ray, 1 / over_length);
+      if (!surface.contains(hit)) continue;
+      nearest = &surface;
       nearest_over_length = over_length;
       at = hit;
     }
     if (nearest == nullptr) continue;
     const float length = 1 / nearest_over_length;
-    const Eigen::Vector3f next = view.R_world_cam * rays[column + 1].homogeneous();
     const Eigen::Vector3f below = view.R_world_cam * rays_below[column].homogeneous();
     sums[column] +=
         view.light(ray * length) * nearest->grey(at, nearest->step(ray, next - ray, length),

@@ -15,6 +15,8 @@
 
 namespace ardrone_vslam {
 
+struct SceneView;
+
 /// T_world_cam at a time after the image's stamp [s].
 using CameraPath = std::function<Eigen::Isometry3d(double since_stamp_s)>;
 
@@ -47,14 +49,12 @@ class WorldRenderer {
   double meanGrey(const Scene& scene, const Eigen::Isometry3d& T_world_cam) const;
 
  private:
-  struct Plane;
-  struct View;
-
   int blurSamples(const Exposure& exposure) const;
   void renderBand(int band, const Scene& scene, const Exposure& exposure, int samples,
                   std::uint64_t noise_seed, cv::Mat& image) const;
   /// Adds what the pixels `step` apart see to `sums`.
-  void addRow(int row, int step, const View& view, const BandSurfaces& seen, float* sums) const;
+  void addRow(int row, int step, const SceneView& view, const BandSurfaces& seen,
+              float* sums) const;
   void develop(int row, float gain, std::uint64_t noise_seed, const float* sums,
                std::uint8_t* pixels) const;
 
