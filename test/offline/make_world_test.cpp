@@ -213,9 +213,12 @@ TEST_F(MakeWorld, ExitCodesTellUsageFromFaults) {
 TEST_F(MakeWorld, ListsItsFlights) {
   ASSERT_EQ(run("--list"), 0);
   const std::string list = text("output");
+  std::ifstream file(ARDRONE_VSLAM_SOURCE_DIR "/docs/make_world.md");
+  const std::string docs{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   for (const auto& flight : flights()) {
     EXPECT_NE(list.find(flight.name + " "), std::string::npos) << flight.name;
     EXPECT_NE(list.find(flight.summary), std::string::npos) << flight.name;
+    EXPECT_NE(docs.find("| `" + flight.name + "` |"), std::string::npos) << flight.name;
   }
 }
 

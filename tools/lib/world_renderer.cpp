@@ -77,7 +77,7 @@ double WorldRenderer::meanGrey(const Scene& scene, const Eigen::Isometry3d& T_wo
 }
 
 int WorldRenderer::blurSamples(const Exposure& exposure) const {
-  constexpr double kNear_m = 1, kApart_px = 1.5;
+  constexpr double kNear_m = 2, kApart_px = 2;
   constexpr int kMost = 24;
   if (exposure.shutter_s <= 0) return 1;
   const PoseSlack moved = slackBetween(exposure.motion(-exposure.shutter_s / 2),

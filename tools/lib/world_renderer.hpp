@@ -31,8 +31,8 @@ struct Exposure {
 
 /// Casts one exact ray per pixel; pixel (column, row) has its middle at these whole numbers. Where
 /// the camera moves while the shutter is open, several, at equal times, so that no two see the
-/// image more than about 1.5 pixels apart. Bands of rows are shared out among OpenCV's threads,
-/// whose number does not change the result.
+/// image more than about 2 pixels apart. 640x360 without blur takes 15-25 ms on one core. Bands of
+/// rows are shared out among OpenCV's threads, whose number does not change the result.
 class WorldRenderer {
  public:
   /// @param noise_grey  deviation of the sensor's white noise
