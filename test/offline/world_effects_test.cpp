@@ -65,8 +65,8 @@ TEST(World, AMovingLampBrightensWhatIsNearIt) {
   for (const double t_s : {1.0, 9.0}) {
     const Lighting light = moving.at(t_s).lighting;
     const cv::Mat lit = shoot(moving.at(t_s), noiseless());
-    const Eigen::Vector3d T_world_pixel(4, 0, 1.2);  // the wall before the camera's middle
-    const double distance_m = (T_world_pixel - light.lamp_m).norm();
+    const Eigen::Vector3d on_wall(4, 0, 1.2);  // the wall before the camera's middle
+    const double distance_m = (on_wall - light.lamp_m).norm();
     const double share =
         light.even + light.lamp / (1 + std::pow(distance_m / light.lamp_reach_m, 2));
     const cv::Rect middle(316, 176, 9, 9);
@@ -128,6 +128,20 @@ TEST(WorldCamera, CamerasHaveTheirFieldsOfView) {
   for (const char* name : {"front_wide", "bottom"}) {
     const CameraModel model(cameraNamed(name).intrinsics);
     EXPECT_GT(model.foldRadius(), 1.03) << name;
+  }
+}
+
+TEST(WorldCamera, ADronesPathGoesOnAsItsStateDoes) {
+  const auto flight = makeFlight("fast_blur", std::nullopt);
+  const Eigen::Isometry3d T_body_cam = arDroneFrontMount();
+  for (double t_s = 22; t_s < 50; t_s += 0.7) {
+    const CameraPath path = pathThrough(flight->state(t_s), T_body_cam);
+    for (const double offset_s : {-0.02, 0.0, 0.02}) {
+      const Eigen::Isometry3d truth = flight->pose(t_s + offset_s) * T_body_cam;
+      EXPECT_LT((path(offset_s).translation() - truth.translation()).norm(), 1e-3);
+      const Eigen::Matrix3d off = path(offset_s).linear().transpose() * truth.linear();
+      EXPECT_LT(Eigen::AngleAxisd(off).angle(), 2e-3) << "of 0.05 rad on the way";
+    }
   }
 }
 

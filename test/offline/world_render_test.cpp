@@ -63,17 +63,21 @@ TEST(WorldRenderer, MarksLieRightForTheDronesOtherCameras) {
 }
 
 TEST(WorldRenderer, RaysInvertTheLensExactlyAndAgreeWithTheCameraModel) {
-  const CameraIntrinsics camera = arDroneFrontCamera();
-  const CameraModel model(camera);
-  for (int row = 0; row < camera.height_px; row += 7) {
-    for (int column = 0; column < camera.width_px; column += 7) {
-      const Eigen::Vector2d pixel(column, row);
-      Eigen::Vector3d ray;
-      ASSERT_TRUE(exactDirection(camera, pixel, ray));
-      EXPECT_LT((project(camera, ray) - pixel).norm(), 1e-8);
-      const auto bearing = model.bearing(pixel);
-      ASSERT_TRUE(bearing.has_value());
-      EXPECT_LT((ray.normalized() - *bearing).norm(), 1e-8);
+  for (const CameraChoice& choice : cameras()) {
+    const CameraIntrinsics& camera = choice.intrinsics;
+    const CameraModel model(camera);
+    for (int row = 0; row < camera.height_px; row += 7) {
+      for (int column = 0; column < camera.width_px; column += 7) {
+        const Eigen::Vector2d pixel(column, row);
+        Eigen::Vector3d ray;
+        ASSERT_TRUE(exactDirection(camera, pixel, ray)) << choice.name;
+        EXPECT_LT((project(camera, ray) - pixel).norm(), 1e-8);
+        const auto bearing = model.bearing(pixel);
+        const auto projected = model.project(ray);
+        ASSERT_TRUE(bearing.has_value() && projected.has_value()) << choice.name;
+        EXPECT_LT((ray.normalized() - *bearing).norm(), 1e-8);
+        EXPECT_LT((*projected - pixel).norm(), 1e-8);
+      }
     }
   }
 }

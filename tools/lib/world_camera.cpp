@@ -60,6 +60,21 @@ const CameraChoice& cameraNamed(const std::string& name) {
   throw std::invalid_argument("there is no camera '" + name + "'; known are " + known);
 }
 
+CameraPath pathThrough(const FlightState& state, const Eigen::Isometry3d& T_body_cam) {
+  return [state, T_body_cam](double since_stamp_s) {
+    const double rate_rad_s = state.turn_rate_body_rad_s.norm();
+    const Eigen::Vector3d axis = rate_rad_s > 0
+                                     ? Eigen::Vector3d(state.turn_rate_body_rad_s / rate_rad_s)
+                                     : Eigen::Vector3d::UnitX();
+    Eigen::Isometry3d T_world_cam =
+        state.T_world_body * Eigen::AngleAxisd(rate_rad_s * since_stamp_s, axis) * T_body_cam;
+    T_world_cam.translation() +=
+        since_stamp_s *
+        (state.velocity_world_m_s + 0.5 * since_stamp_s * state.acceleration_world_m_s2);
+    return T_world_cam;
+  };
+}
+
 WorldCamera::WorldCamera(const CameraIntrinsics& camera, const CameraEffects& effects)
     : effects_(effects), renderer_(camera, effects.noise_grey) {}
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ardrone_vslam/camera_model.hpp"
-#include "world.hpp"
+#include "world_flight.hpp"
 #include "world_renderer.hpp"
 
 namespace ardrone_vslam {
@@ -30,6 +30,9 @@ struct CameraChoice {
 const std::vector<CameraChoice>& cameras();
 /// @throws std::invalid_argument for an unknown name, listing the known ones
 const CameraChoice& cameraNamed(const std::string& name);
+
+/// The camera of a drone that goes on as it does in this state, for the milliseconds of an image.
+CameraPath pathThrough(const FlightState& state, const Eigen::Isometry3d& T_body_cam);
 
 /// What lies between the light and the image.
 struct CameraEffects {
