@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// make_world: renders a flight through a synthetic room, as a bag or as a TUM-like folder.
+// make_world: renders a flight through a synthetic world, as a bag or as a TUM-like folder.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include "progress_line.hpp"
 #include "tool_main.hpp"
 #include "tum_folder_writer.hpp"
+#include "world_arguments.hpp"
 #include "world_sequence.hpp"
 
 namespace {
@@ -31,6 +32,7 @@ struct Options {
   std::string start;  // "X,Y,YAW" [m, m, rad]; empty: the flight's own
   std::string images = "raw";
   std::string compression = "none";
+  CameraArguments camera;
   const CLI::Option* seconds = nullptr;
   std::vector<const CLI::Option*> bag_only;
 };
@@ -38,15 +40,17 @@ struct Options {
 void addOptions(CLI::App& app, Options& o) {
   app.set_version_flag("--version",
                        std::string("make_world (ardrone_vslam) " ARDRONE_VSLAM_VERSION));
+  app.add_flag_callback(
+      "--list", [] { throw CLI::CallForVersion(flightList(), 0); },
+      "the flights, with a line about each");
   app.add_option("flight", o.world.flight, "which flight")
       ->required()
       ->check(CLI::IsMember(flightNames()));
   app.add_option("--out", o.out, "FILE.bag, or else a folder to make")->required();
   app.add_flag("--force", o.force, "replace what is there");
-  o.seconds =
-      app.add_option("--seconds", o.world.duration_s,
-                     "of flight; default: 60, of laps_then_hover 60 s of hovering after the lap")
-          ->check(CLI::Range(0.001, 1e6));
+  o.seconds = app.add_option("--seconds", o.world.duration_s,
+                             "of flight; default: the whole of it (--list)")
+                  ->check(CLI::Range(0.001, 1e6));
   app.add_option("--rate", o.world.rate_hz, "images a second")
       ->capture_default_str()
       ->check(CLI::Range(0.001, 1e3));
@@ -56,14 +60,15 @@ void addOptions(CLI::App& app, Options& o) {
                  "folder. A,B@S: A, from second S on B; laps_then_hover hovers with `hover` unless "
                  "this says otherwise");
   app.add_option("--range-noise", o.world.range_noise_m,
-                 "also write a range sensor's height above the floor, with this deviation [m]: "
-                 "/range in a bag, range.txt in a folder")
+                 "also write a range sensor's height above what is below, with this deviation "
+                 "[m]: /range in a bag, range.txt in a folder")
       ->check(CLI::Range(0.0, 10.0));
   addSeed(app, "--seed", o.world.seed, "of the noise in odometry, ranges and images");
-  addSeed(app, "--world-seed", o.world.world_seed, "of the room");
+  addSeed(app, "--world-seed", o.world.world_seed, "of the world");
   app.add_option("--start", o.start,
                  "X,Y,YAW, where the flight begins [m, m, rad] in the room of 8 x 6 m whose middle "
                  "is 0,0; default: on the flight's path");
+  addCameraOptions(app, o.world, o.camera);
   auto* images = app.add_option("--compressed", o.images, "images in a bag");
   images->capture_default_str()->check(CLI::IsMember({"raw", "png", "jpeg"}));
   auto* compression = app.add_option("--compression", o.compression, "of the bag's chunks");
@@ -145,7 +150,6 @@ void refuseBagOptions(const Options& o) {
 
 /// A drone that hovers has no help from its motion: its odometry drifts as `hover` does.
 void fitToHover(double begin_s, Options& o) {
-  if (o.seconds->count() == 0) o.world.duration_s += begin_s;
   if (o.observer_profile.empty() || o.observer_profile.find(',') != std::string::npos) return;
   std::array<char, 40> later{};
   std::snprintf(later.data(), later.size(), ",hover@%g", begin_s);
@@ -155,6 +159,15 @@ void fitToHover(double begin_s, Options& o) {
 int run(Options& o) {
   const bool bag = isBag(o.out);
   if (!bag) refuseBagOptions(o);
+  if (o.seconds->count() == 0) o.world.duration_s = flightInfo(o.world.flight).duration_s;
+  setCamera(o.camera, o.world);
+  // Base of a folder is by its definition where the camera is and looks along it.
+  if (!bag) o.world.T_base_cam = forwardCamera();
+  if (!bag && o.camera.camera == "bottom" && o.world.range_noise_m) {
+    throw UsageError(
+        "--range-noise: the base of a folder looks along its camera, so the bottom "
+        "camera's has no heights; write a bag");
+  }
   if (!o.force && std::filesystem::exists(o.out)) {
     throw std::runtime_error(o.out + ": is there already; choose another name or give --force");
   }
@@ -162,8 +175,6 @@ int run(Options& o) {
   if (const auto begin_s = hoverBegin_s(o.world.flight)) fitToHover(*begin_s, o);
   if (!o.observer_profile.empty()) o.world.observer = profileOfOption(o.observer_profile);
   if (!o.start.empty()) o.world.start = parseStart(o.start);
-  // Base of a folder is by its definition where the camera is.
-  if (!bag) o.world.T_base_cam = forwardCamera();
   auto world_pointer = asUsage([&o] { return std::make_unique<WorldSequence>(o.world); });
   WorldSequence& world = *world_pointer;
   {
@@ -183,7 +194,7 @@ int run(Options& o) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Renders a flight of an AR.Drone through a synthetic room: images, exact truth, odometry.",
+      "Renders a flight of an AR.Drone through a synthetic world: images, exact truth, odometry.",
       "make_world"};
   Options options;
   addOptions(app, options);

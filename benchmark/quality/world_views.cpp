@@ -23,21 +23,9 @@ std::optional<Eigen::Vector3d> pointSeen(const Scene& scene, const CameraModel& 
   const auto bearing_cam = camera.bearing(pixel_px);
   if (!bearing_cam) return std::nullopt;
   const Eigen::Vector3d ray = T_world_cam.linear() * *bearing_cam;
-  double over_length = 0;  // reciprocal distance of the nearest hit
-  for (const auto& surface : scene.surfaces) {
-    const Eigen::Vector3d away = surface.right.cross(surface.down);
-    const double distance_m = away.dot(surface.corner - T_world_cam.translation());
-    if (distance_m <= 1e-6) continue;  // seen from behind
-    const double nearer = away.dot(ray) / distance_m;
-    if (nearer <= over_length) continue;
-    const Eigen::Vector3d hit = T_world_cam.translation() + ray / nearer - surface.corner;
-    const double right_m = surface.right.dot(hit), down_m = surface.down.dot(hit);
-    const bool is_on_it =
-        right_m >= 0 && right_m <= surface.width_m && down_m >= 0 && down_m <= surface.height_m;
-    if (is_on_it) over_length = nearer;
-  }
-  if (over_length == 0) return std::nullopt;
-  return T_world_cam.translation() + ray / over_length;
+  const auto length = rangeAlong(scene, T_world_cam.translation(), ray);
+  if (!length) return std::nullopt;
+  return T_world_cam.translation() + ray * *length;
 }
 
 std::optional<Eigen::Vector2d> transferPixel(const Scene& scene, const CameraModel& camera,

@@ -210,6 +210,44 @@ TEST_F(MakeWorld, ExitCodesTellUsageFromFaults) {
   EXPECT_FALSE(fs::exists(path("x")));
 }
 
+TEST_F(MakeWorld, ListsItsFlights) {
+  ASSERT_EQ(run("--list"), 0);
+  const std::string list = text("output");
+  std::ifstream file(ARDRONE_VSLAM_SOURCE_DIR "/docs/make_world.md");
+  const std::string docs{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  for (const auto& flight : flights()) {
+    EXPECT_NE(list.find(flight.name + " "), std::string::npos) << flight.name;
+    EXPECT_NE(list.find(flight.summary), std::string::npos) << flight.name;
+    EXPECT_NE(docs.find("| `" + flight.name + "` |"), std::string::npos) << flight.name;
+  }
+}
+
+TEST_F(MakeWorld, OptionsOfWorldAndCameraChangeTheImages) {
+  const std::string brief = "hover --seconds 0.1 --rate 10 --force --out " + path("flight") + " ";
+  const auto firstImage = [&](const std::string& options) {
+    EXPECT_EQ(run(brief + options), 0) << text("output");
+    return cv::imread(path("flight/image/000000.png"), cv::IMREAD_UNCHANGED);
+  };
+  const cv::Mat usual = firstImage("");
+  for (const char* options :
+       {"--world room", "--light moving", "--gain 0.5", "--gain auto", "--image-noise 8",
+        "--artefacts 30", "--camera front_wide", "--world-seed 4"}) {
+    const cv::Mat other = firstImage(options);
+    ASSERT_EQ(other.size(), usual.size());
+    EXPECT_GT(cv::norm(usual, other, cv::NORM_L1), 0.5 * 640 * 360) << options;
+  }
+  EXPECT_EQ(firstImage("--camera bottom").size(), cv::Size(320, 240));
+  EXPECT_NE(text("flight/camera.yaml").find("image_width: 320"), std::string::npos);
+  // At rest neither a rolling nor a slow shutter shows.
+  EXPECT_LT(cv::norm(usual, firstImage("--shutter 20 --readout 25"), cv::NORM_L1),
+            0.01 * 640 * 360);
+  for (const char* wrong :
+       {"--gain 0", "--gain bright", "--gain 2x", "--artefacts 52", "--camera side",
+        "--light disco", "--world corridor", "--shutter -1", "--camera bottom --range-noise 0.1"}) {
+    EXPECT_EQ(run(brief + wrong), 2) << wrong << text("output");
+  }
+}
+
 TEST_F(MakeWorld, ForceReplacesAFlightAndNothingElse) {
   const std::string brief = "laps --seconds 0.1 --rate 10 --out ";
   ASSERT_EQ(run(brief + path("flight")), 0);

@@ -53,17 +53,17 @@ void writeRanges(const std::string& path, const std::vector<RangeReading>& range
   if (!file) throw std::runtime_error(path + ": cannot be written; check the free space");
 }
 
-std::vector<RangeReading> simulateRanges(const Trajectory& truth, double noise_m,
-                                         std::uint64_t seed) {
+std::vector<RangeReading> simulateRanges(const Trajectory& truth, const RangeAt& range_m,
+                                         double noise_m, std::uint64_t seed) {
   constexpr std::int64_t kInterval_ns = 40'000'000;
   constexpr std::uint64_t kStream = 25;
   RandomSource random(seed, kStream);
   std::vector<RangeReading> ranges;
   for (std::int64_t stamp_ns = truth.poses().front().stamp_ns;
        stamp_ns <= truth.poses().back().stamp_ns; stamp_ns += kInterval_ns) {
-    const Eigen::Isometry3d T_map_base = truth.at(stamp_ns);
-    const double range_m = T_map_base.translation().z() / T_map_base.linear()(2, 2);
-    ranges.push_back({stamp_ns, range_m + noise_m * random.normal(), 0, kNoBound_m});
+    const double true_range_m =
+        range_m(truth.at(stamp_ns), stamp_ns).value_or(std::numeric_limits<double>::quiet_NaN());
+    ranges.push_back({stamp_ns, true_range_m + noise_m * random.normal(), 0, kNoBound_m});
   }
   return ranges;
 }

@@ -2,126 +2,23 @@
 #include "world_flight.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
+#include "world_laps.hpp"
+#include "world_legs.hpp"
 #include "world_room.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kGravity_m_s2 = 9.81;
-constexpr double kDrag_per_s = 0.3;  // deceleration per speed
 constexpr double kWallMargin_m = 0.5;
-constexpr double kHoverBegin_s = 21.5;  // of laps_then_hover: the lap is complete
 
-double wrapAngle(double angle_rad) {
-  return std::remainder(angle_rad, 2 * M_PI);
+Eigen::Vector3d turnFrom(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  const Eigen::AngleAxisd turn(a.transpose() * b);
+  return turn.axis() * turn.angle();
 }
-
-/// From 0 at x = 0 to 1 at x = 1 with three continuous derivatives, so that not even the
-/// attitude's rate leaps; constant outside.
-double smoothStep(double x) {
-  if (x <= 0) return 0;
-  if (x >= 1) return 1;
-  return x * x * x * x * (35 + x * (-84 + x * (70 - 20 * x)));
-}
-/// Integral of smoothStep from 0 to x.
-double smoothStepIntegral(double x) {
-  if (x <= 0) return 0;
-  if (x >= 1) return x - 0.5;
-  const double x5 = x * x * x * x * x;
-  return x5 * (7 + x * (-14 + x * (10 - 2.5 * x)));
-}
-double wave(double t_s, double frequency_hz, double phase_rad) {
-  return std::sin(2 * M_PI * frequency_hz * t_s + phase_rad);
-}
-
-/// What the air does to a drone that holds its place: a few centimetres [m].
-Eigen::Vector3d gusts(double t_s) {
-  return {0.025 * wave(t_s, 0.31, 0) + 0.01 * wave(t_s, 0.77, 2),
-          0.025 * wave(t_s, 0.27, 1) + 0.01 * wave(t_s, 0.83, 3), 0.02 * wave(t_s, 0.37, 2)};
-}
-
-/// Counter-clockwise laps on an ellipse, no two quite alike, the nose along the path and at times
-/// turned outwards to the wall.
-class Laps : public Flight {
- public:
-  explicit Laps(const std::optional<FlightStart>& start) {
-    start_ = start.value_or(FlightStart{kRadiusX_m, 0, M_PI / 2});
-    first_phase_ = std::atan2(start_.y_m / kRadiusY_m, start_.x_m / kRadiusX_m);
-    first_turn_ = wrapAngle(start_.yaw_rad - pathYaw(0));
-  }
-
- protected:
-  Eigen::Vector3d position(double t_s) const override {
-    const double blend = smoothStep(t_s / kEntry_s);
-    const Eigen::Vector3d start(start_.x_m, start_.y_m, kStartHeight_m);
-    return start + blend * (pathPosition(t_s) - start);
-  }
-
-  double yaw(double t_s) const override {
-    const double blend = smoothStep(t_s / kEntry_s);
-    const double outwards = kLookOutwards_rad * (0.5 - 0.5 * std::cos(2 * M_PI * t_s / kLook_s));
-    return pathYaw(t_s) - blend * outwards + (1 - blend) * first_turn_;
-  }
-
- private:
-  static constexpr double kRadiusX_m = 2.0;
-  static constexpr double kRadiusY_m = 1.5;
-  static constexpr double kLap_s = 17;
-  static constexpr double kEntry_s = 5;  // from the start to the ellipse at full speed
-  static constexpr double kStartHeight_m = 1.2;
-  static constexpr double kLook_s = 11;
-  static constexpr double kLookOutwards_rad = 45 * M_PI / 180;
-
-  double phase(double t_s) const {
-    return first_phase_ + 2 * M_PI * kEntry_s / kLap_s * smoothStepIntegral(t_s / kEntry_s);
-  }
-
-  Eigen::Vector3d pathPosition(double t_s) const {
-    const double stretch = 1 + 0.06 * wave(t_s, 0.021, 0.4);
-    const double height = 1.25 + 0.2 * wave(t_s, 0.047, 1.1);
-    return Eigen::Vector3d(stretch * kRadiusX_m * std::cos(phase(t_s)),
-                           stretch * kRadiusY_m * std::sin(phase(t_s)), height) +
-           gusts(t_s);
-  }
-
-  /// Direction of the ellipse's tangent: that of a circle, corrected; never wraps.
-  double pathYaw(double t_s) const {
-    const double c = std::cos(phase(t_s)), s = std::sin(phase(t_s));
-    return phase(t_s) + M_PI / 2 +
-           std::atan2((kRadiusX_m - kRadiusY_m) * s * c, kRadiusX_m * s * s + kRadiusY_m * c * c);
-  }
-
-  FlightStart start_;
-  double first_phase_ = 0;
-  double first_turn_ = 0;
-};
-
-/// One lap, then hovering where it began: within a few centimetres and about a degree.
-class LapsThenHover : public Laps {
- public:
-  using Laps::Laps;
-
- protected:
-  Eigen::Vector3d position(double t_s) const override {
-    return Laps::position(lapTime(t_s)) + gusts(t_s) - gusts(lapTime(t_s));
-  }
-  double yaw(double t_s) const override {
-    constexpr double kSway_rad = 0.02;
-    return Laps::yaw(lapTime(t_s)) + kSway_rad * (wave(t_s, 0.19, 1) - wave(lapTime(t_s), 0.19, 1));
-  }
-
- private:
-  static constexpr double kBrake_s = 4;
-
-  /// Runs on as t_s does, and stops at the end of the lap.
-  static double lapTime(double t_s) {
-    const double braked_s = t_s - (kHoverBegin_s - kBrake_s);
-    return t_s - kBrake_s * smoothStepIntegral(braked_s / kBrake_s);
-  }
-};
 
 void checkStart(const FlightStart& start) {
   const bool inside = std::abs(start.x_m) <= kRoomLength_m / 2 - kWallMargin_m &&
@@ -136,6 +33,15 @@ void checkStart(const FlightStart& start) {
 
 }  // namespace
 
+Eigen::Matrix3d attitudeOf(const Eigen::Vector3d& thrust_world, double yaw_rad) {
+  const Eigen::Vector3d forward(std::cos(yaw_rad), std::sin(yaw_rad), 0);
+  const Eigen::Vector3d z = thrust_world.normalized();
+  const Eigen::Vector3d y = z.cross(forward).normalized();
+  Eigen::Matrix3d R_world_body;
+  R_world_body << y.cross(z), y, z;
+  return R_world_body;
+}
+
 Eigen::Isometry3d Flight::pose(double t_s) const {
   constexpr double h = 0.01;  // s; the error of the acceleration is about 1e-5 m/s^2
   const Eigen::Vector3d before = position(t_s - h), now = position(t_s), after = position(t_s + h);
@@ -143,33 +49,83 @@ Eigen::Isometry3d Flight::pose(double t_s) const {
   const Eigen::Vector3d acceleration = (after - 2 * now + before) / (h * h);
   const Eigen::Vector3d thrust =
       acceleration + kDrag_per_s * velocity + kGravity_m_s2 * Eigen::Vector3d::UnitZ();
-  const double heading = yaw(t_s);
-  const Eigen::Vector3d forward(std::cos(heading), std::sin(heading), 0);
-  const Eigen::Vector3d z = thrust.normalized();
-  const Eigen::Vector3d y = z.cross(forward).normalized();
   Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
-  T_world_body.linear() << y.cross(z), y, z;
+  T_world_body.linear() = attitudeOf(thrust, yaw(t_s));
   T_world_body.translation() = now;
   return T_world_body;
 }
 
-std::vector<std::string> flightNames() {
-  return {"laps", "laps_then_hover"};
+FlightState Flight::state(double t_s) const {
+  constexpr double h = 0.01;  // s
+  constexpr std::array<double, 3> kFirst = {3.0 / 4, -3.0 / 20, 1.0 / 60};
+  constexpr std::array<double, 3> kSecond = {3.0 / 2, -3.0 / 20, 1.0 / 90};
+  const Eigen::Vector3d now = position(t_s);
+  FlightState state;
+  state.T_world_body = pose(t_s);
+  for (std::size_t i = 0; i < kFirst.size(); ++i) {
+    const double step_s = h * static_cast<double>(i + 1);
+    const Eigen::Vector3d before = position(t_s - step_s), after = position(t_s + step_s);
+    state.velocity_world_m_s += kFirst[i] / h * (after - before);
+    state.acceleration_world_m_s2 += kSecond[i] / (h * h) * (after - 2 * now + before);
+    // In the body of now, so that opposite turns about it add up without a common rotation.
+    const Eigen::Matrix3d& R_world_body = state.T_world_body.linear();
+    state.turn_rate_body_rad_s += kFirst[i] / h *
+                                  (turnFrom(R_world_body, pose(t_s + step_s).linear()) -
+                                   turnFrom(R_world_body, pose(t_s - step_s).linear()));
+  }
+  return state;
+}
+
+const std::vector<FlightInfo>& flights() {
+  static const std::vector<FlightInfo> all = {
+      {"laps", "laps around the room, now and then looking at the wall", "room", "steady"},
+      {"laps_then_hover", "one lap, then hovering where it began", "room", "steady",
+       LapsThenHover::kHoverBegin_s + 60},
+      {"mapping_turn", "a slow turn by 360 degrees on the spot, then laps", "room", "steady", 82},
+      {"hover", "holds its place as well as a drone does", "furnished", "steady"},
+      {"corridor", "30 m down a corridor, and back flying backwards", "corridor", "steady", 71},
+      {"corridor_turn", "30 m down a corridor, turns round, and back", "corridor", "steady", 77},
+      {"pure_yaw", "turns on the spot, slowly and quickly, its middle never moving", "furnished",
+       "steady", 46},
+      {"fast_blur", "laps, from 20 s on at 2 m/s with quick looks aside; motion blur", "furnished",
+       "steady", 60, 0.016, 0.025},
+      {"dark", "laps; the light fades at 20 s, for 12 s, and comes back weaker", "furnished",
+       "fading"},
+      {"table", "over a table and back, with a climb that is none of the table's", "furnished",
+       "steady", 60},
+      {"moving_objects", "laps among boxes that move, under a lamp that does", "moving", "moving"},
+  };
+  return all;
+}
+
+const FlightInfo& flightInfo(const std::string& name) {
+  std::string known;
+  for (const auto& flight : flights()) {
+    if (flight.name == name) return flight;
+    known += (known.empty() ? "" : ", ") + flight.name;
+  }
+  throw std::invalid_argument("there is no flight '" + name + "'; known are " + known);
 }
 
 std::optional<double> hoverBegin_s(const std::string& flight) {
   if (flight != "laps_then_hover") return std::nullopt;
-  return kHoverBegin_s;
+  return LapsThenHover::kHoverBegin_s;
 }
 
 std::unique_ptr<Flight> makeFlight(const std::string& name,
                                    const std::optional<FlightStart>& start) {
+  flightInfo(name);
+  const bool is_fixed = name == "table" || name == "corridor" || name == "corridor_turn";
+  if (start && is_fixed) throw std::invalid_argument(name + ": has a start of its own");
   if (start) checkStart(*start);
-  if (name == "laps") return std::make_unique<Laps>(start);
   if (name == "laps_then_hover") return std::make_unique<LapsThenHover>(start);
-  std::string known;
-  for (const auto& flight : flightNames()) known += (known.empty() ? "" : ", ") + flight;
-  throw std::invalid_argument("there is no flight '" + name + "'; known are " + known);
+  if (name == "mapping_turn") return std::make_unique<TurnThenLaps>(start);
+  if (name == "fast_blur") return std::make_unique<FastLaps>(start);
+  if (name == "hover") return std::make_unique<LegsFlight>(hoverFlight(start));
+  if (name == "pure_yaw") return std::make_unique<LegsFlight>(pureYawFlight(start));
+  if (name == "table") return std::make_unique<LegsFlight>(tableFlight());
+  if (is_fixed) return std::make_unique<LegsFlight>(corridorFlight(name == "corridor_turn"));
+  return std::make_unique<Laps>(start);
 }
 
 }  // namespace ardrone_vslam

@@ -6,7 +6,6 @@
 
 #include "random_source.hpp"
 #include "range_readings.hpp"
-#include "world_room.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -23,50 +22,55 @@ std::size_t imageCount(const WorldOptions& options) {
   return static_cast<std::size_t>(count);
 }
 
-Trajectory flyTruth(const WorldOptions& options) {
-  const auto flight = makeFlight(options.flight, options.start);
-  const Eigen::Isometry3d T_body_base = arDroneFrontMount() * options.T_base_cam.inverse();
-  const std::size_t count = imageCount(options);
-  Trajectory truth;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double t_s = static_cast<double>(i) / options.rate_hz;
-    truth.append({kFirstStamp_ns + std::llround(t_s * 1e9), flight->pose(t_s) * T_body_base});
+bool isCorridor(const std::string& world) {
+  return world == "corridor";
+}
+
+World makeWorldFor(const WorldOptions& options) {
+  const FlightInfo& info = flightInfo(options.flight);
+  const std::string name = options.world.value_or(info.world);
+  if (isCorridor(name) != isCorridor(info.world)) {
+    throw std::invalid_argument("the flight " + info.name + " does not fit into the world '" +
+                                name + "'; its own is " + info.world);
   }
-  return truth;
+  return makeWorld(name, options.light.value_or(info.light), options.world_seed);
 }
 
 }  // namespace
 
-CameraIntrinsics arDroneFrontCamera() {
-  CameraIntrinsics camera;
-  camera.width_px = 640;
-  camera.height_px = 360;
-  camera.fx_px = 570;
-  camera.fy_px = 570;
-  camera.cx_px = 320;
-  camera.cy_px = 180;
-  camera.k1 = -0.525;
-  camera.k2 = 0.274;
-  return camera;
-}
-
-Eigen::Isometry3d arDroneFrontMount() {
-  return Eigen::Translation3d(0.21, 0, 0) * forwardCamera();
-}
-
 WorldSequence::WorldSequence(const WorldOptions& options)
     : options_(options),
-      renderer_(options.camera, options.image_noise_grey),
-      truth_(flyTruth(options)) {
-  room_ = makeRoom(options.world_seed);
+      flight_(makeFlight(options.flight, options.start)),
+      world_(makeWorldFor(options)),
+      camera_(options.camera, options.effects) {
+  flyTruth();
   if (options.observer) observer_ = simulateObserver(truth_, *options.observer, options.seed);
-  if (options.range_noise_m) ranges_ = simulateRanges(truth_, *options.range_noise_m, options.seed);
+  if (options.range_noise_m) {
+    const auto range_m = [this](const Eigen::Isometry3d& T_map_base, std::int64_t stamp_ns) {
+      return world_.rangeBelow_m(T_map_base, static_cast<double>(stamp_ns - kFirstStamp_ns) * 1e-9);
+    };
+    ranges_ = simulateRanges(truth_, range_m, *options.range_noise_m, options.seed);
+  }
+}
+
+Eigen::Isometry3d WorldSequence::T_world_base(double t_s) const {
+  return flight_->pose(t_s) * (options_.T_body_cam * options_.T_base_cam.inverse());
+}
+
+void WorldSequence::flyTruth() {
+  const std::size_t count = imageCount(options_);
+  for (std::size_t i = 0; i < count; ++i) {
+    truth_.append({kFirstStamp_ns + std::llround(seconds(i) * 1e9), T_world_base(seconds(i))});
+  }
 }
 
 cv::Mat WorldSequence::image(std::size_t index) {
-  const Eigen::Isometry3d T_world_cam = truth_.poses().at(index).T_map_base * options_.T_base_cam;
-  return renderer_.render(room_, T_world_cam,
-                          RandomSource::mix(options_.seed) + static_cast<std::uint64_t>(index));
+  const double t_s = seconds(index);
+  const auto motion = [&](double since_stamp_s) {
+    return T_world_base(t_s + since_stamp_s) * options_.T_base_cam;
+  };
+  return camera_.shoot(world_.at(t_s), motion,
+                       RandomSource::mix(options_.seed) + static_cast<std::uint64_t>(index));
 }
 
 }  // namespace ardrone_vslam

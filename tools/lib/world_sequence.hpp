@@ -9,15 +9,11 @@
 
 #include "observer_model.hpp"
 #include "sequence.hpp"
+#include "world.hpp"
+#include "world_camera.hpp"
 #include "world_flight.hpp"
-#include "world_renderer.hpp"
 
 namespace ardrone_vslam {
-
-/// The AR.Drone's front camera as its driver states it: 640x360.
-CameraIntrinsics arDroneFrontCamera();
-/// T_body_cam of that camera: 0.21 m before the middle of the drone.
-Eigen::Isometry3d arDroneFrontMount();
 
 /// What make_world renders.
 struct WorldOptions {
@@ -28,22 +24,26 @@ struct WorldOptions {
   std::optional<ObserverProfile> observer;
   std::optional<double> range_noise_m;  ///< nothing: the sequence has no ranges
   std::uint64_t seed = 0;               ///< noise of the observer, the ranges and the images
-  std::uint64_t world_seed = 0;         ///< the room
+  std::uint64_t world_seed = 0;         ///< the world
   std::optional<FlightStart> start;
-  /// Where base is: the camera always flies at arDroneFrontMount(), so arDroneFrontMount() makes
-  /// base the middle of the drone and forwardCamera() the camera's own position.
-  Eigen::Isometry3d T_base_cam = arDroneFrontMount();
+  std::optional<std::string> world;  ///< nothing: the flight's own
+  std::optional<std::string> light;  ///< nothing: the flight's own
   CameraIntrinsics camera = arDroneFrontCamera();
-  double image_noise_grey = 2;
+  Eigen::Isometry3d T_body_cam = arDroneFrontMount();
+  /// Where base is: T_body_cam makes it the middle of the drone and forwardCamera() the camera's
+  /// own position.
+  Eigen::Isometry3d T_base_cam = arDroneFrontMount();
+  CameraEffects effects;
 };
 
 /// A synthetic flight: rendered images, exact truth at each image, simulated observer. Stamps begin
 /// at 1 s (ROS takes 0 for "none"). Images may be asked for in any order and often.
 class WorldSequence : public Sequence {
  public:
-  /// Paints the room: takes about a second.
-  /// @throws std::invalid_argument for an unknown flight, a start outside the room, a rate or
-  /// duration that gives no image, a lens that folds
+  /// Paints the world: takes about a second.
+  /// @throws std::invalid_argument for an unknown flight, world or light, a flight that does not
+  /// fit into the world, a start outside the room, a rate or duration that gives no image, a lens
+  /// that folds
   explicit WorldSequence(const WorldOptions& options);
 
   std::string name() const override { return options_.flight; }
@@ -62,11 +62,19 @@ class WorldSequence : public Sequence {
     return {options_.observer->name, options_.seed, observer_.scale_error};
   }
   const WorldOptions& options() const { return options_; }
+  /// What the drone does and what is around it; seconds count from the first image.
+  const Flight& flight() const { return *flight_; }
+  const World& world() const { return world_; }
 
  private:
+  double seconds(std::size_t index) const { return static_cast<double>(index) / options_.rate_hz; }
+  Eigen::Isometry3d T_world_base(double t_s) const;
+  void flyTruth();
+
   WorldOptions options_;
-  Scene room_;
-  WorldRenderer renderer_;
+  std::unique_ptr<const Flight> flight_;
+  World world_;
+  WorldCamera camera_;
   Trajectory truth_;
   ObserverRun observer_;
   std::vector<RangeReading> ranges_;

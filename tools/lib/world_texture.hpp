@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -86,6 +87,34 @@ class MipTexture {
   }
 
   std::vector<Level> levels_;
+};
+
+/// A square of grain that is repeated in all directions, each second time mirrored so that it has
+/// no seams.
+class Grain {
+ public:
+  /// @param picture  8-bit grey about a mean of 128
+  Grain(const cv::Mat& picture, double texels_per_m)
+      : texture_(picture),
+        texels_per_m_(static_cast<float>(texels_per_m)),
+        size_(static_cast<float>(std::min(picture.rows, picture.cols))) {}
+
+  /// What is added to the surface's own grey there; steps as MipTexture's, but all in metres.
+  float sample(const Eigen::Vector2f& at_m, const Eigen::Vector2f& step_x_m,
+               const Eigen::Vector2f& step_y_m) const {
+    const Eigen::Vector2f at(fold(at_m.x() * texels_per_m_), fold(at_m.y() * texels_per_m_));
+    return texture_.sample(at, step_x_m * texels_per_m_, step_y_m * texels_per_m_) - 128;
+  }
+
+ private:
+  float fold(float texel) const {
+    const float in_pair = texel - 2 * size_ * std::floor(texel / (2 * size_));
+    return std::min(in_pair, 2 * size_ - in_pair);
+  }
+
+  MipTexture texture_;
+  float texels_per_m_;
+  float size_;
 };
 
 }  // namespace ardrone_vslam
