@@ -9,17 +9,6 @@
 #include "tiled_product.hpp"
 
 namespace ardrone_vslam {
-namespace {
-
-/// I + B' P B, its lower half.
-Eigen::MatrixXd innovation(const InformationRoot& root, const Eigen::MatrixXd& P_B) {
-  Eigen::MatrixXd M(P_B.cols(), P_B.cols());
-  M.triangularView<Eigen::Lower>() = root.rows.transpose() * P_B;
-  M.diagonal().array() += 1;
-  return M;
-}
-
-}  // namespace
 
 Information::Information(std::vector<int> of_coordinates) : coordinates(std::move(of_coordinates)) {
   const auto size = static_cast<Eigen::Index>(coordinates.size());
@@ -51,7 +40,8 @@ bool WindowState::update(const Information& information) {
   Eigen::MatrixXd P_w(P.rows(), information.vector.size());
   for (std::size_t k = 0; k < w.size(); ++k) P_w.col(static_cast<Eigen::Index>(k)) = P.col(w[k]);
   Eigen::MatrixXd G = tiledProduct(P_w, root.rows);
-  Eigen::MatrixXd M = innovation(root, G(w, Eigen::all));
+  Eigen::MatrixXd M = tiledProduct(root.rows.transpose(), G(w, Eigen::all));
+  M.diagonal().array() += 1;
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
   if (inner.info() != Eigen::Success) return false;
   inner.matrixU().solveInPlace<Eigen::OnTheRight>(G);
