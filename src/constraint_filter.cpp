@@ -33,6 +33,7 @@ void sum(const std::vector<Candidate>& candidates, Information& information) {
   for (const Candidate& c : candidates) {
     if (c.weight > 0) c.constraint.addTo(information, c.weight);
   }
+  information.matrix.triangularView<Eigen::StrictlyUpper>() = information.matrix.transpose();
 }
 
 /// What calibration, rolling shutter and the scene do to the tracks of a keyframe they do to all
@@ -54,9 +55,7 @@ bool agree(const WindowState& state, std::vector<Candidate>& candidates, Informa
     const auto error = state.preview(information);
     if (!error) return false;
     for (Candidate& c : candidates) {
-      const double left =
-          (c.constraint.residual - c.constraint.change(*error, information.coordinates.front()))
-              .squaredNorm();
+      const double left = c.constraint.squaredRest(*error, information.coordinates.front());
       const int dof = c.constraint.degreesOfFreedom();
       const bool is_last = round + 1 == kRounds;
       c.weight = is_last ? (left < chiSquare95(dof) ? 1 : 0) : 1 / squared(1 + left / dof);

@@ -13,14 +13,14 @@ InformationRoot::InformationRoot(const Information& information, const Eigen::Ve
   const Eigen::MatrixXd& N = information.matrix;
   const Eigen::Index size = N.rows();
   const Eigen::VectorXd whole = (variances.array() > 0).select(N.diagonal(), 0.0);
+  const Eigen::VectorXd per_whole = (whole.array() > 0).select(whole.cwiseInverse(), 0.0);
   Eigen::VectorXd left = whole;
   rows.resize(size, size);
   measured.resize(size);
   Eigen::Index rank = 0;
   for (; rank < size; ++rank) {
     Eigen::Index pivot = 0;
-    const double share =
-        (whole.array() > 0).select(left.array() / whole.array(), 0.0).maxCoeff(&pivot);
+    const double share = left.cwiseProduct(per_whole).maxCoeff(&pivot);
     if (!(share > kRounding)) break;
     const Eigen::RowVectorXd before = rows.row(pivot).head(rank);
     const double root = std::sqrt(left(pivot));

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ardrone_vslam/track_constraint.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "ardrone_vslam/triangulation.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -22,27 +21,73 @@ Eigen::Matrix<double, 2, 3> tangents(const Eigen::Vector3d& direction) {
   return rows;
 }
 
-Eigen::Vector3d cameraOf(const WindowPose& pose, const Eigen::Vector3d& camera_base) {
-  return pose.position_map + pose.R_map_base * camera_base;
+/// What takes a vector's part across a unit vector.
+Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
+  return Eigen::Matrix3d::Identity() - unit * unit.transpose();
+}
+
+/// Where a point lies beside a measured ray.
+struct Prediction {
+  Eigen::Vector3d direction;  // from the camera to the point
+  double distance_m;
+  double along;  // cosine to the measured ray
+};
+
+std::optional<Prediction> predict(const Ray& measured, const Eigen::Vector3d& point_map) {
+  constexpr double kNearest_m = 1e-6;
+  constexpr double kWidestCosine = 0.5;
+  const Eigen::Vector3d offset = point_map - measured.origin_map;
+  const double distance_m = offset.norm();
+  if (!(distance_m > kNearest_m)) return std::nullopt;
+  const Eigen::Vector3d direction = offset / distance_m;
+  const double along = measured.direction_map.dot(direction);
+  if (!(along > kWidestCosine)) return std::nullopt;
+  return Prediction{direction, distance_m, along};
 }
 
 /// The point nearest to all rays, a start for the iteration on angles.
-Eigen::Vector3d nearestPoint(const std::vector<WindowPose>& frames,
-                             const Eigen::Vector3d& camera_base, TrackViews views) {
+Eigen::Vector3d nearestPoint(const std::vector<Ray>& rays) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
-  for (const TrackView& view : views) {
-    const WindowPose& frame = frames[view.frame];
-    const Eigen::Vector3d ray = frame.R_map_base * view.bearing_base;
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - ray * ray.transpose();
+  for (const Ray& ray : rays) {
+    const Eigen::Matrix3d across = acrossOf(ray.direction_map);
     A += across;
-    b += across * cameraOf(frame, camera_base);
+    b += across * ray.origin_map;
   }
-  return A.ldlt().solve(b);
+  return A.inverse() * b;
 }
 
 double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Gives the rows of U orthonormal columns, of the same span (Gram and Schmidt, modified).
+void orthonormalise(std::vector<ViewRows>& views) {
+  for (int column = 0; column < 3; ++column) {
+    double length2 = 0;
+    for (const ViewRows& view : views) length2 += view.point.col(column).squaredNorm();
+    const double length = std::sqrt(length2);
+    Eigen::RowVector3d shared = Eigen::RowVector3d::Zero();
+    for (ViewRows& view : views) {
+      view.point.col(column) /= length;
+      shared += view.point.col(column).transpose() * view.point;
+    }
+    for (ViewRows& view : views) {
+      for (int other = column + 1; other < 3; ++other)
+        view.point.col(other) -= shared(other) * view.point.col(column);
+    }
+  }
+}
+
+/// Cholesky decomposition S = L L' of the lower half of the upper square; what is below, as rows
+/// that L is to be solved for, is taken along.
+void decompose(Eigen::MatrixXd& lower) {
+  for (Eigen::Index k = 0; k < lower.cols(); ++k) {
+    const Eigen::Index rows = lower.rows() - k;
+    lower.col(k).tail(rows) /= std::sqrt(lower(k, k));
+    for (Eigen::Index j = k + 1; j < lower.cols(); ++j)
+      lower.col(j).tail(lower.rows() - j) -= lower(j, k) * lower.col(k).tail(lower.rows() - j);
+  }
 }
 
 }  // namespace
@@ -50,22 +95,16 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 std::optional<RayResidual> rayResidual(const WindowPose& pose, const Eigen::Vector3d& camera_base,
                                        const Eigen::Vector3d& bearing_base,
                                        const Eigen::Vector3d& point_map) {
-  constexpr double kNearest_m = 1e-6;
-  constexpr double kWidestCosine = 0.5;
   const Eigen::Vector3d lever = pose.R_map_base * camera_base;
-  const Eigen::Vector3d offset = point_map - pose.position_map - lever;
-  const double distance_m = offset.norm();
-  if (!(distance_m > kNearest_m)) return std::nullopt;
-  const Eigen::Vector3d predicted = offset / distance_m;
-  const Eigen::Vector3d measured = pose.R_map_base * bearing_base;
-  const double along = measured.dot(predicted);
-  if (!(along > kWidestCosine)) return std::nullopt;
-  const Eigen::Matrix<double, 2, 3> B = tangents(predicted);
+  const Ray measured{pose.position_map + lever, pose.R_map_base * bearing_base};
+  const auto predicted = predict(measured, point_map);
+  if (!predicted) return std::nullopt;
+  const Eigen::Matrix<double, 2, 3> B = tangents(predicted->direction);
   RayResidual ray;
-  ray.residual = B * measured / along;
-  ray.point = B / distance_m;
+  ray.residual = B * measured.direction_map / predicted->along;
+  ray.point = B / predicted->distance_m;
   ray.pose.leftCols<3>() = -ray.point;
-  ray.pose.rightCols<3>() = B * skew(predicted) + ray.point * skew(lever);
+  ray.pose.rightCols<3>() = B * skew(predicted->direction) + ray.point * skew(lever);
   return ray;
 }
 
@@ -73,107 +112,114 @@ std::optional<TrackPoint> triangulateTrack(const std::vector<WindowPose>& frames
                                            const Eigen::Vector3d& camera_base, TrackViews views,
                                            double angle_deviation_rad) {
   if (views.size() < 2) return std::nullopt;
-  TrackPoint point;
-  point.position_map = nearestPoint(frames, camera_base, views);
-  Eigen::Matrix3d A;
-  constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds; ++round) {
-    A.setZero();
-    Eigen::Vector3d b = Eigen::Vector3d::Zero();
-    for (const TrackView& view : views) {
-      const auto ray =
-          rayResidual(frames[view.frame], camera_base, view.bearing_base, point.position_map);
-      if (!ray) return std::nullopt;
-      A += ray->point.transpose() * ray->point;
-      b += ray->point.transpose() * ray->residual;
-    }
-    point.position_map += A.ldlt().solve(b);
-    if (!point.position_map.allFinite()) return std::nullopt;
-  }
-  point.covariance_m2 = angle_deviation_rad * angle_deviation_rad * A.inverse();
-  if (!point.covariance_m2.allFinite()) return std::nullopt;
-  const Eigen::Vector3d first =
-      point.position_map - cameraOf(frames[views.front().frame], camera_base);
+  std::vector<Ray> rays;
+  rays.reserve(views.size());
   for (const TrackView& view : views) {
     const WindowPose& frame = frames[view.frame];
-    const Eigen::Vector3d offset = point.position_map - cameraOf(frame, camera_base);
-    if (!(offset.dot(frame.R_map_base * view.bearing_base) > 0)) return std::nullopt;
+    rays.push_back({frame.position_map + frame.R_map_base * camera_base,
+                    frame.R_map_base * view.bearing_base});
+  }
+  TrackPoint point;
+  point.position_map = nearestPoint(rays);
+  Eigen::Matrix3d inverse;
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    // Of the residuals of rayResidual(), whose tangents are not needed here.
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    for (const Ray& ray : rays) {
+      const auto predicted = predict(ray, point.position_map);
+      if (!predicted) return std::nullopt;
+      const double per_m = 1 / predicted->distance_m;
+      A += per_m * per_m * acrossOf(predicted->direction);
+      b += per_m * (ray.direction_map / predicted->along - predicted->direction);
+    }
+    inverse = A.inverse();
+    point.position_map += inverse * b;
+    if (!point.position_map.allFinite()) return std::nullopt;
+  }
+  point.covariance_m2 = angle_deviation_rad * angle_deviation_rad * inverse;
+  if (!point.covariance_m2.allFinite()) return std::nullopt;
+  const Eigen::Vector3d first = point.position_map - rays.front().origin_map;
+  for (const Ray& ray : rays) {
+    const Eigen::Vector3d offset = point.position_map - ray.origin_map;
+    if (!(offset.dot(ray.direction_map) > 0)) return std::nullopt;
     point.parallax_rad = std::max(point.parallax_rad, angleBetween(first, offset));
   }
   return point;
 }
 
-Eigen::VectorXd TrackConstraint::change(const Eigen::VectorXd& error, int first) const {
-  Eigen::VectorXd rows(residual.size());
-  for (std::size_t i = 0; i < pose.size(); ++i)
-    rows.segment<2>(2 * static_cast<Eigen::Index>(i)) =
-        pose[i] * error.segment<6>(coordinates[i] - first);
-  rows -= point * (point.transpose() * rows).eval();
-  return rows;
+double TrackConstraint::squaredRest(const Eigen::VectorXd& error, int first) const {
+  const auto left = [&](const ViewRows& view) -> Eigen::Vector2d {
+    return view.residual - view.pose * error.segment<6>(view.coordinate - first);
+  };
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (const ViewRows& view : views) along += view.point.transpose() * left(view);
+  double sum = 0;
+  for (const ViewRows& view : views) sum += (left(view) - view.point * along).squaredNorm();
+  return sum;
 }
 
 double TrackConstraint::distance(const WindowState& state) const {
   const auto P = state.covariance();
-  Eigen::MatrixXd S(residual.size(), residual.size());  // A P A' + I, its lower half
-  for (std::size_t i = 0; i < pose.size(); ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      S.block<2, 2>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(j)) =
-          pose[i] * P.block<6, 6>(coordinates[i], coordinates[j]) * pose[j].transpose();
+  const auto n = 2 * static_cast<Eigen::Index>(views.size());
+  Eigen::MatrixXd S(n + 4, n);  // A P A' + I, its lower half, and below it r' and U'
+  Eigen::Index column = 0;
+  for (auto right = views.begin(); right != views.end(); ++right, column += 2) {
+    Eigen::Index row = column;
+    for (auto left = right; left != views.end(); ++left, row += 2) {
+      const Eigen::Matrix<double, 6, 2> P_A =
+          P.block<6, 6>(left->coordinate, right->coordinate) * right->pose.transpose();
+      S.block<2, 2>(row, column) = left->pose * P_A;
     }
+    S.block<1, 2>(n, column) = right->residual.transpose();
+    S.block<3, 2>(n + 1, column) = right->point.transpose();
   }
   S.diagonal().array() += 1;
   // Across U the inverse is S^-1 - S^-1 U (U' S^-1 U)^-1 U' S^-1.
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> root(S);
-  const Eigen::VectorXd r = root.matrixL().solve(residual);
-  const Eigen::Matrix<double, Eigen::Dynamic, 3> U = root.matrixL().solve(point);
-  const Eigen::Vector3d along = U.transpose() * r;
-  return r.squaredNorm() - along.dot(Eigen::Matrix3d(U.transpose() * U).llt().solve(along));
+  decompose(S);
+  const Eigen::Matrix4d rest = S.bottomRows<4>() * S.bottomRows<4>().transpose();
+  const Eigen::Vector3d along = rest.bottomLeftCorner<3, 1>();
+  const Eigen::Matrix3d inverse = rest.bottomRightCorner<3, 3>().inverse();
+  return rest(0, 0) - along.dot(inverse * along);
 }
 
 void TrackConstraint::addTo(Information& information, double weight) const {
   const int first = information.coordinates.front();
-  std::vector<Eigen::Matrix<double, 6, 3>> along(pose.size());  // A' U
-  for (std::size_t i = 0; i < pose.size(); ++i) {
-    const auto row = 2 * static_cast<Eigen::Index>(i);
-    const int at_i = coordinates[i] - first;
-    along[i] = pose[i].transpose() * point.middleRows<2>(row);
-    const Eigen::Matrix<double, 6, 2> weighted = weight * pose[i].transpose();
-    information.matrix.block<6, 6>(at_i, at_i) += weighted * pose[i];
-    information.vector.segment<6>(at_i) += weighted * residual.segment<2>(row);
-    for (std::size_t j = 0; j <= i; ++j) {
-      const int at_j = coordinates[j] - first;
-      const Eigen::Matrix<double, 6, 6> taken = weight * along[i] * along[j].transpose();
-      information.matrix.block<6, 6>(at_i, at_j) -= taken;
-      if (j < i) information.matrix.block<6, 6>(at_j, at_i) -= taken.transpose();
-    }
+  for (auto left = views.begin(); left != views.end(); ++left) {
+    const int row = left->coordinate - first;
+    const Eigen::Matrix<double, 6, 2> pose = weight * left->pose.transpose();
+    const Eigen::Matrix<double, 6, 3> along = weight * left->along;
+    information.vector.segment<6>(row) += pose * left->residual;
+    information.matrix.block<6, 6>(row, row) += pose * left->pose;
+    for (auto right = views.begin(); right <= left; ++right)
+      information.matrix.block<6, 6>(row, right->coordinate - first) -=
+          along * right->along.transpose();
   }
 }
 
 std::optional<TrackConstraint> constraintOf(const WindowState& state,
                                             const Eigen::Vector3d& camera_base, TrackViews views,
                                             const TrackPoint& point, double angle_deviation_rad) {
-  const auto n = static_cast<Eigen::Index>(views.size());
   TrackConstraint constraint;
-  constraint.pose.reserve(views.size());
-  constraint.coordinates.reserve(views.size());
-  constraint.residual.resize(2 * n);
-  Eigen::Matrix<double, Eigen::Dynamic, 3> on_point(2 * n, 3);
+  constraint.views.reserve(views.size());
   for (const TrackView& view : views) {
     const auto ray =
         rayResidual(state.frames()[view.frame], camera_base, view.bearing_base, point.position_map);
     if (!ray) return std::nullopt;
-    const auto row = 2 * static_cast<Eigen::Index>(constraint.pose.size());
-    constraint.pose.push_back(ray->pose / angle_deviation_rad);
-    constraint.coordinates.push_back(state.frameCoordinate(view.frame));
-    constraint.residual.segment<2>(row) = ray->residual / angle_deviation_rad;
-    on_point.middleRows<2>(row) = ray->point;
+    ViewRows& rows = constraint.views.emplace_back();
+    rows.coordinate = state.frameCoordinate(view.frame);
+    rows.pose = ray->pose / angle_deviation_rad;
+    rows.point = ray->point;  // the rows across it do not depend on where the point is
+    rows.residual = ray->residual / angle_deviation_rad;
   }
-  // The rows across the point's own Jacobian do not depend on where it is.
-  const Eigen::HouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 3>> qr(on_point);
-  constraint.point.setIdentity(2 * n, 3);
-  constraint.point.applyOnTheLeft(qr.householderQ());
-  constraint.residual -=
-      constraint.point * (constraint.point.transpose() * constraint.residual).eval();
+  orthonormalise(constraint.views);
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (const ViewRows& rows : constraint.views) along += rows.point.transpose() * rows.residual;
+  for (ViewRows& rows : constraint.views) {
+    rows.residual -= rows.point * along;
+    rows.along = rows.pose.transpose() * rows.point;
+  }
   return constraint;
 }
 
@@ -181,36 +227,43 @@ Eigen::Matrix3d covarianceByFrames(const WindowState& state, const Eigen::Vector
                                    TrackViews views, const Eigen::Vector3d& point_map,
                                    std::size_t anchor) {
   // Error of the point less that of a point which keeps its place beside the anchor = G e, e the
-  // errors of bias, scale, anchor, and views.
-  constexpr int kBeforeViews = 10;
-  std::vector<int> coordinates;
-  const auto include = [&coordinates](int first, int count) {
-    for (int k = 0; k < count; ++k) coordinates.push_back(first + k);
+  // errors of bias, scale, anchor, and views: six columns of G each.
+  struct Part {
+    int coordinate;
+    Eigen::Matrix<double, 3, 6> G;
   };
-  include(WindowState::kBias, 4);
-  include(state.frameCoordinate(anchor), WindowState::kFrame);
-  Eigen::Matrix<double, 3, Eigen::Dynamic> G(
-      3, kBeforeViews + WindowState::kFrame * static_cast<Eigen::Index>(views.size()));
+  std::vector<Part> parts;
+  parts.reserve(views.size() + 2);
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-  auto column = kBeforeViews;
   for (const TrackView& view : views) {
     const auto ray =
         rayResidual(state.frames()[view.frame], camera_base, view.bearing_base, point_map);
     if (!ray) continue;
     A += ray->point.transpose() * ray->point;
-    G.middleCols<6>(column) = ray->point.transpose() * ray->pose;
-    include(state.frameCoordinate(view.frame), WindowState::kFrame);
-    column += WindowState::kFrame;
+    parts.push_back({state.frameCoordinate(view.frame), ray->point.transpose() * ray->pose});
   }
-  G.conservativeResize(3, column);
-  G.rightCols(column - kBeforeViews) = -(A.inverse() * G.rightCols(column - kBeforeViews)).eval();
+  const Eigen::Matrix3d minus_inverse = -A.inverse();
+  for (Part& part : parts) part.G = (minus_inverse * part.G).eval();
   const WindowPose& pose = state.frames()[anchor];
   const Eigen::Vector3d from_anchor = point_map - pose.position_map;
-  G.leftCols<3>() = from_anchor * pose.stretch_by_bias_s_m.transpose();
-  G.col(3) = from_anchor;
-  G.middleCols<3>(4) = -Eigen::Matrix3d::Identity();
-  G.middleCols<3>(7) = skew(from_anchor);
-  return G * state.covariance()(coordinates, coordinates) * G.transpose();
+  Part beside{state.frameCoordinate(anchor), {}};
+  beside.G << -Eigen::Matrix3d::Identity(), skew(from_anchor);
+  parts.push_back(beside);
+  Part stretch{WindowState::kBias, Eigen::Matrix<double, 3, 6>::Zero()};  // not of what follows
+  stretch.G.leftCols<3>() = from_anchor * pose.stretch_by_bias_s_m.transpose();
+  stretch.G.col(WindowState::kScale - WindowState::kBias) = from_anchor;
+  parts.push_back(stretch);
+
+  const auto P = state.covariance();
+  Eigen::Matrix3d half = Eigen::Matrix3d::Zero();  // of G P G', which is symmetric
+  for (auto left = parts.begin(); left != parts.end(); ++left) {
+    Eigen::Matrix<double, 6, 3> P_G =
+        0.5 * P.block<6, 6>(left->coordinate, left->coordinate) * left->G.transpose();
+    for (auto right = parts.begin(); right != left; ++right)
+      P_G += P.block<6, 6>(left->coordinate, right->coordinate) * right->G.transpose();
+    half += left->G * P_G;
+  }
+  return half + half.transpose();
 }
 
 double chiSquare95(int degrees_of_freedom) {

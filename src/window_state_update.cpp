@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What measurements do to the window's mean and covariance.
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "ardrone_vslam/rotation.hpp"
 #include "ardrone_vslam/window_state.hpp"
@@ -8,17 +9,6 @@
 #include "tiled_product.hpp"
 
 namespace ardrone_vslam {
-namespace {
-
-/// I + B' P B, its lower half.
-Eigen::MatrixXd innovation(const InformationRoot& root, const Eigen::MatrixXd& P_B) {
-  Eigen::MatrixXd M(P_B.cols(), P_B.cols());
-  M.triangularView<Eigen::Lower>() = root.rows.transpose() * P_B;
-  M.diagonal().array() += 1;
-  return M;
-}
-
-}  // namespace
 
 Information::Information(std::vector<int> of_coordinates) : coordinates(std::move(of_coordinates)) {
   const auto size = static_cast<Eigen::Index>(coordinates.size());
@@ -26,30 +16,32 @@ Information::Information(std::vector<int> of_coordinates) : coordinates(std::mov
   vector = Eigen::VectorXd::Zero(size);
 }
 
-// With the information's rows B (H' W H = B B', H' W r = B m) the gain is P B (I + B' P B)^-1, and
-// only so many columns as there are independent measurements take part.
+// Of (P^-1 + H' W H) e = H' W r, times P, which may be singular. Nobody asks for the covariance,
+// and so the information need not be taken apart.
 std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {
   const std::vector<int>& w = information.coordinates;
-  const InformationRoot root(information, covariance().diagonal()(w));
-  if (root.measured.size() == 0) return Eigen::VectorXd::Zero(information.vector.size());
   const Eigen::MatrixXd P_ww = covariance()(w, w);
-  const Eigen::MatrixXd P_B = tiledProduct(P_ww, root.rows);
-  Eigen::MatrixXd M = innovation(root, P_B);
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
-  const Eigen::VectorXd error = P_B * inner.solve(root.measured);
+  Eigen::MatrixXd M = tiledProduct(P_ww, information.matrix);
+  M.diagonal().array() += 1;
+  const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>> inner(M);
+  const Eigen::VectorXd error = inner.solve(P_ww * information.vector);
   if (!error.allFinite()) return std::nullopt;
   return error;
 }
 
+// With the information's rows B (H' W H = B B', H' W r = B m) the gain is P B (I + B' P B)^-1, and
+// only so many columns as there are independent measurements take part.
 bool WindowState::update(const Information& information) {
   if (!information.matrix.allFinite() || !information.vector.allFinite()) return false;
   const std::vector<int>& w = information.coordinates;
   auto P = covariance_.all();
   const InformationRoot root(information, P.diagonal()(w));
   if (root.measured.size() == 0) return true;
-  const Eigen::MatrixXd P_w = P(Eigen::all, w);
+  Eigen::MatrixXd P_w(P.rows(), information.vector.size());
+  for (std::size_t k = 0; k < w.size(); ++k) P_w.col(static_cast<Eigen::Index>(k)) = P.col(w[k]);
   Eigen::MatrixXd G = tiledProduct(P_w, root.rows);
-  Eigen::MatrixXd M = innovation(root, G(w, Eigen::all));
+  Eigen::MatrixXd M = tiledProduct(root.rows.transpose(), G(w, Eigen::all));
+  M.diagonal().array() += 1;
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
   if (inner.info() != Eigen::Success) return false;
   inner.matrixU().solveInPlace<Eigen::OnTheRight>(G);

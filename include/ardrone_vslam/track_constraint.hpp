@@ -62,21 +62,29 @@ std::optional<TrackPoint> triangulateTrack(const std::vector<WindowPose>& frames
                                            const Eigen::Vector3d& camera_base, TrackViews views,
                                            double angle_deviation_rad);
 
-/// What a track says of its frames when nothing is known of its point: rows r = A e + n of unit
-/// noise, two a view, of which a projection I - U U' takes out the three directions of the point.
-/// A has one 2 x 6 block a view, and so nothing here costs more than O(views^2).
-struct TrackConstraint {
-  std::vector<int> coordinates;                    ///< of WindowState: the first of each view's six
-  std::vector<Eigen::Matrix<double, 2, 6>> pose;   ///< blocks of A
-  Eigen::Matrix<double, Eigen::Dynamic, 3> point;  ///< U, orthonormal columns
-  Eigen::VectorXd residual;                        ///< r, projected
+/// The two rows of a TrackConstraint that a view gives.
+struct ViewRows {
+  int coordinate = 0;                 ///< of WindowState: the first of the frame's six
+  Eigen::Matrix<double, 2, 6> pose;   ///< block of A
+  Eigen::Matrix<double, 2, 3> point;  ///< rows of U
+  Eigen::Matrix<double, 6, 3> along;  ///< pose' point
+  Eigen::Vector2d residual;           ///< of r, projected
+};
 
-  int degreesOfFreedom() const { return static_cast<int>(residual.size()) - 3; }
-  /// A e, projected. @param first  coordinate that `error` begins with
-  Eigen::VectorXd change(const Eigen::VectorXd& error, int first) const;
+/// What a track says of its frames when nothing is known of its point: rows r = A e + n of unit
+/// noise, two a view, of which a projection I - U U', U's columns orthonormal, takes out the three
+/// directions of the point. A has one 2 x 6 block a view, and so nothing but distance() costs more
+/// than O(views^2).
+struct TrackConstraint {
+  std::vector<ViewRows> views;
+
+  int degreesOfFreedom() const { return 2 * static_cast<int>(views.size()) - 3; }
+  /// |r - A e|^2, projected. @param first  coordinate that `error` begins with
+  double squaredRest(const Eigen::VectorXd& error, int first) const;
   /// r' (H P H' + I)^-1 r, H the projected A, on what the projection leaves.
   double distance(const WindowState& state) const;
-  /// Adds weight H' H and weight H' r; the information's coordinates must be consecutive.
+  /// Adds the lower half of weight H' H, and weight H' r; the information's coordinates must be
+  /// consecutive.
   void addTo(Information& information, double weight) const;
 };
 
