@@ -204,6 +204,8 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   toFeatures(*frame.features, features_);
   ObserverState observer = frame.observer;
   observer.height_m = heights_->at(observer);
+  has_range_ = has_range_ || heights_->missing() == totals_.heights_missing;
+  totals_.heights_missing = heights_->missing();
   const FrameResult& result = slam_->process(features_, observer, stage_clock_.hook());
   totals_.heights_tilted = heights_->tilted();
   if (result.height == HeightOutcome::kRejected) ++totals_.heights_rejected;

@@ -39,6 +39,10 @@ class MapperNodelet : public nodelet::Nodelet {
   /// Says once that the odometry is too fast to be in metres.
   void noteSpeed(const ObserverState& state);
   void noteStep(double step_m);
+  /// What is wrong with the ranges once images have been without for seconds; else empty.
+  std::string missingRange() const;
+  /// Every second.
+  void remindOfRange();
   void takeFrameNames(const nav_msgs::Odometry& odometry);
   /// Works on every image whose odometry has come.
   void processReady();
@@ -95,6 +99,8 @@ class MapperNodelet : public nodelet::Nodelet {
   int seconds_waiting_ = 0;
   bool has_features_ = false;  // within this second
   bool has_answer_ = false;
+  bool has_range_ = false;  // near an image's stamp
+  int seconds_without_range_ = 0;
 };
 
 }  // namespace ardrone_vslam

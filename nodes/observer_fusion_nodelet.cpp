@@ -3,6 +3,7 @@
 
 #include <nav_msgs/Path.h>
 
+#include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "frame_names.hpp"
@@ -108,11 +109,15 @@ void ObserverFusionNodelet::onCorrection(const PoseCorrectionConstPtr& message) 
   if (!checked.value) return refuseCorrection(checked.fault);
   const std::string fault = frameFault(*message);
   if (!fault.empty()) return refuseCorrection(fault);
-  // One that goes back: the mapper began anew, what it said of a later time is void.
-  while (!waiting_.empty() && waiting_.back().stamp_ns >= checked.value->stamp_ns) {
-    waiting_.pop_back();
+  const std::int64_t stamp_ns = checked.value->stamp_ns;
+  if (!waiting_.empty() && waiting_.back().stamp_ns - stamp_ns >= StampGuard::kRestart_ns) {
+    // The mapper began anew: what it said of a later time is void.
+    while (!waiting_.empty() && waiting_.back().stamp_ns >= stamp_ns) waiting_.pop_back();
   }
-  waiting_.push_back(*checked.value);
+  const auto later = std::upper_bound(
+      waiting_.begin(), waiting_.end(), stamp_ns,
+      [](std::int64_t stamp, const LateCorrection& waiting) { return stamp < waiting.stamp_ns; });
+  waiting_.insert(later, *checked.value);
   if (waiting_.size() > kMostWaiting) {
     waiting_.pop_front();
     refuseCorrection("too many corrections wait for odometry at their stamps");

@@ -126,7 +126,7 @@ Matrix6d ConstraintFilter::covariance() const {
         (squared(noise.attitude_noise_deg) + squared(noise.tilt_deviation_deg)) *
         squared(M_PI / 180);
   }
-  return covariance;
+  return 0.5 * (covariance + covariance.transpose());  // to the bit, whatever rounding did
 }
 
 double ConstraintFilter::scaleDeviation() const {

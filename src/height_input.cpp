@@ -38,7 +38,10 @@ std::optional<double> HeightInput::at(const ObserverState& observer) {
     return std::nullopt;
   }
   const auto range_m = rangeAt(observer.stamp_ns);
-  if (!range_m) return std::nullopt;
+  if (!range_m) {
+    ++missing_;
+    return std::nullopt;
+  }
   const double cosine = observer.T_odom_base.linear()(2, 2);  // between the two z axes
   if (!(cosine >= std::cos(config_.range_max_tilt_deg * M_PI / 180))) {
     ++tilted_;

@@ -9,6 +9,37 @@
 #include "slam_state.hpp"
 
 namespace ardrone_vslam {
+namespace {
+
+/// Parameters that contradict each other, and what helps.
+std::vector<std::string> faultsBetween(const SlamConfig& config) {
+  std::vector<std::string> faults;
+  const HeightInputConfig& height = config.height_input;
+  const ConstraintFilterConfig& filter = config.constraint_filter;
+  if (height.use_range && height.known_height_m > 0)
+    faults.emplace_back("use_range and known_height_m exclude each other: one height is enough");
+  if (config.estimator == Estimator::kConstraint) {
+    if (config.planar)
+      faults.emplace_back(
+          "planar needs estimator thesis (or observer): the constraint filter has no 2-D mode");
+    if (filter.min_track_views > filter.window_frames)
+      faults.emplace_back(
+          "min_track_views is above window_frames, so no track would be long enough to be used: "
+          "lower min_track_views, or raise window_frames");
+  }
+  if (config.estimator == Estimator::kThesis) {
+    const auto refuse = [&faults](const std::string& parameter, const std::string& without) {
+      faults.push_back(parameter + " needs estimator constraint, the thesis filter would not use " +
+                       "it: set estimator to constraint, or " + without);
+    };
+    if (height.use_range) refuse("use_range", "use_range to false");
+    if (height.known_height_m > 0) refuse("known_height_m", "known_height_m to 0");
+    if (!filter.attitude_states) refuse("attitude_states false", "attitude_states to true");
+  }
+  return faults;
+}
+
+}  // namespace
 
 bool isFinite(const FrameResult& r) {
   return r.T_map_base.matrix().allFinite() && r.T_odom_base.matrix().allFinite() &&
@@ -29,12 +60,8 @@ std::string mountingFault(const Eigen::Isometry3d& T_base_cam) {
 
 Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
   validate(config);
-  if (config.planar && config.estimator == Estimator::kConstraint)
-    throw ConfigError(
-        {"planar needs estimator thesis (or observer): the constraint filter has no "
-         "2-D mode"});
-  if (config.height_input.use_range && config.height_input.known_height_m > 0)
-    throw ConfigError({"use_range and known_height_m exclude each other: one height is enough"});
+  const std::vector<std::string> faults = faultsBetween(config);
+  if (!faults.empty()) throw ConfigError(faults);
   const std::string fault = mountingFault(T_base_cam);
   if (!fault.empty()) throw std::invalid_argument("the camera's mounting: " + fault);
   state_ = std::make_unique<State>(config, T_base_cam);

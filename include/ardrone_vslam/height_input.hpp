@@ -63,8 +63,10 @@ class HeightInput {
   /// Forgets all readings: time began again.
   void clear() { readings_.clear(); }
   std::int64_t newestStamp_ns() const { return readings_.empty() ? 0 : readings_.back().stamp_ns; }
-  /// Readings refused, and images without a height because base was tilted.
+  /// Readings refused; images without a height because no range was near their stamp, and because
+  /// base was tilted.
   std::uint64_t refused() const { return refused_; }
+  std::uint64_t missing() const { return missing_; }
   std::uint64_t tilted() const { return tilted_; }
 
  private:
@@ -74,6 +76,7 @@ class HeightInput {
   double buffer_s_;
   std::deque<RangeReading> readings_;  // oldest first
   std::uint64_t refused_ = 0;
+  std::uint64_t missing_ = 0;
   std::uint64_t tilted_ = 0;
 };
 

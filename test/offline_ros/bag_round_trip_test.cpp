@@ -10,6 +10,7 @@
 
 #include <iterator>
 
+#include "ardrone_vslam/height_input.hpp"
 #include "bag_sequence.hpp"
 #include "bag_writer.hpp"
 #include "support/sequence_folders.hpp"
@@ -113,6 +114,48 @@ TEST(BagRoundTrip, RecordedObserverWithDistortionAndOwnNames) {
     EXPECT_EQ(bag->observer()[i].stamp_ns, source->observer()[i].stamp_ns);
     expectSamePose(bag->observer()[i].T_odom_base, source->observer()[i].T_odom_base);
   }
+}
+
+TEST(BagRoundTrip, RangesGiveTheSameHeights) {
+  TemporaryFolder folder;
+  makeTumFolder(folder, 6);
+  std::string ranges;
+  for (int i = 0; i < 12; ++i)
+    ranges += std::to_string(0.01 + 0.05 * i) + " " + std::to_string(1.2 + 0.0123 * i) + "\n";
+  folder.write("range.txt", ranges);
+  const auto source = openFolder(folder.path());
+  writeBag(*source, driftingOptions(), folder.file("out.bag"));
+  EXPECT_TRUE(openBag(folder.file("out.bag"), {})->ranges().empty()) << "nobody asked for them";
+  BagReadOptions options;
+  options.use_range = true;
+  const auto bag = openBag(folder.file("out.bag"), options);
+  const std::vector<RangeReading> before = source->ranges();
+  const std::vector<RangeReading> after = bag->ranges();
+  ASSERT_EQ(before.size(), 12u);
+  ASSERT_EQ(after.size(), before.size());
+  HeightInputConfig config;
+  config.use_range = true;
+  HeightInput from_folder(config, 10);
+  HeightInput from_bag(config, 10);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(from_folder.push(before[i]), HeightInput::Push::kAccepted);
+    EXPECT_EQ(from_bag.push(after[i]), HeightInput::Push::kAccepted);
+  }
+  constexpr double kSingle_m = 1e-6;  // sensor_msgs/Range is of single precision
+  int heights = 0;
+  ObserverState here;
+  ObserverState there;
+  for (std::size_t i = 0; i < source->size(); ++i) {
+    here.stamp_ns = source->stamp_ns(i);
+    there.stamp_ns = bag->stamp_ns(i);
+    const auto height = from_folder.at(here);
+    const auto height_by_bag = from_bag.at(there);
+    ASSERT_EQ(height.has_value(), height_by_bag.has_value()) << i;
+    if (!height) continue;
+    EXPECT_NEAR(*height, *height_by_bag, kSingle_m) << i;
+    ++heights;
+  }
+  EXPECT_GE(heights, 5);
 }
 
 TEST(BagRoundTrip, ImagesMayBeAskedForInAnyOrder) {

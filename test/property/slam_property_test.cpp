@@ -142,5 +142,39 @@ INSTANTIATE_TEST_SUITE_P(Means, SlamProperty,
                          ::testing::Values(MeanKind::kPrinted, MeanKind::kExact),
                          [](const auto& mean) { return std::string(nameOf(mean.param)); });
 
+/// The constraint filter, with and without errors of attitude.
+class ConstraintProperty : public ::testing::TestWithParam<bool> {
+ protected:
+  static SlamConfig config() {
+    SlamConfig config;
+    config.constraint_filter.attitude_states = GetParam();
+    return config;
+  }
+};
+
+TEST_P(ConstraintProperty, EveryCovarianceIsSymmetricAndPositiveDefinite) {
+  const Recording recording = recordLaps(5);
+  for (const double mounting_deviation_deg : {0, 1}) {
+    SlamConfig with = config();
+    with.constraint_filter.observer.mounting_deviation_deg = mounting_deviation_deg;
+    const FlightRun run = test::run(recording.frames, recording.observer, with);
+    for (std::size_t i = 0; i < run.results.size(); ++i) {
+      const FrameResult& r = run.results[i];
+      ASSERT_TRUE(r.T_map_base.matrix().allFinite()) << i;
+      ASSERT_EQ(r.covariance, Matrix6d(r.covariance.transpose())) << i;
+      // As correlations: metres and radians differ.
+      const Vector6d scale = r.covariance.diagonal().cwiseSqrt().cwiseInverse();
+      ASSERT_TRUE(scale.allFinite()) << i;
+      const Matrix6d correlation = scale.asDiagonal() * r.covariance * scale.asDiagonal();
+      const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(correlation);
+      ASSERT_GT(eigen.eigenvalues()(0), 1e-9) << i;
+      ASSERT_NEAR(r.deviation_m, std::sqrt(r.covariance.topLeftCorner<3, 3>().trace() / 3), 1e-12);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, ConstraintProperty, ::testing::Values(true, false),
+                         [](const auto& form) { return form.param ? "full" : "linear"; });
+
 }  // namespace
 }  // namespace ardrone_vslam

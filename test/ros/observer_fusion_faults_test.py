@@ -165,6 +165,23 @@ class Faults(unittest.TestCase):
         self.assertAlmostEqual(self.answer(self.step()).pose.pose.position.y, 0.25)
         self.fly_until(0.75)
 
+    def test_a_correction_that_was_overtaken_leaves_those_that_wait(self):
+        self.correct(self.correction(0.05, 0.25))
+        newer, older = self.correction(-0.65, 0.75), self.correction(-0.35, 0.5)
+        self.correction_pub.publish(newer)
+        self.correction_pub.publish(older)
+        self.fly_until(0.5)
+        self.fly_until(0.75)
+
+    def test_a_correction_of_a_mapper_that_began_anew_voids_those_that_wait(self):
+        self.correct(self.correction(0.05, 0.25))
+        self.correction_pub.publish(self.correction(-1.65, 0.75))
+        self.correction_pub.publish(self.correction(-0.35, 0.5))
+        self.fly_until(0.5)
+        for _ in range(20):
+            stamp = self.step()
+        self.assertAlmostEqual(self.answer(stamp).pose.pose.position.y, 0.5)
+
     def test_a_correction_older_than_the_buffer(self):
         self.correct(self.correction(0.05, 0.25))
         for _ in range(39):

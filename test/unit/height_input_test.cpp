@@ -83,6 +83,20 @@ TEST(HeightInput, WhatIsNoRangeIsRefusedAndCounted) {
   EXPECT_EQ(input.push(reading(10, 1)), Push::kAccepted) << "time began again";
 }
 
+TEST(HeightInput, ImagesWithoutARangeAreCounted) {
+  HeightInput input(withRange(), 10);
+  EXPECT_FALSE(input.at(observerAt(1000)));
+  input.push(reading(1000, 1));
+  EXPECT_TRUE(input.at(observerAt(1000)));
+  EXPECT_FALSE(input.at(observerAt(1000, 0.4)));
+  EXPECT_FALSE(input.at(observerAt(9000))) << "its range is long past";
+  EXPECT_EQ(input.missing(), 2U);
+  EXPECT_EQ(input.tilted(), 1U);
+  HeightInput without(HeightInputConfig(), 10);
+  EXPECT_FALSE(without.at(observerAt(1000)));
+  EXPECT_EQ(without.missing(), 0U) << "nobody asked for one";
+}
+
 TEST(HeightInput, AKnownHeightIsConstantAndNeedsNoRange) {
   HeightInputConfig config;
   EXPECT_FALSE(HeightInput(config, 10).at(observerAt(1000)));

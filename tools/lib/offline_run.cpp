@@ -133,6 +133,7 @@ RunResult BackEnd::finish() {
   run_.images_travel = watch_.isStuck();
   run_.absurd_speed_m_s = speed_.absurd_m_s();
   run_.ranges_refused = heights_.refused();
+  run_.heights_missing = heights_.missing();
   run_.heights_tilted = heights_.tilted();
   run_.landmarks = slam_.landmarks().all();
   return std::move(run_);

@@ -42,7 +42,8 @@ struct RunResult {
       0;  ///< no odometry at the image's stamp: before the first state, in a gap, or after the last
   int observer_states_refused = 0;  ///< not finite, out of bounds, duplicate or backward stamps
   std::uint64_t ranges_refused = 0;
-  std::uint64_t heights_tilted = 0;  ///< images without a height as base was tilted
+  std::uint64_t heights_missing = 0;  ///< images without a range near their stamp
+  std::uint64_t heights_tilted = 0;   ///< images without a height as base was tilted
   /// The tracks moved for seconds on end by more than the observer's turning explains.
   bool images_travel = false;
   bool odometry_froze = false;  ///< for a while, although the images travelled

@@ -119,6 +119,7 @@ void addScale(const RunResult& run, Json& summary) {
   summary["heights_used"] = count(HeightOutcome::kApplied);
   summary["heights_rejected"] = count(HeightOutcome::kRejected);
   summary["floors"] = count(HeightOutcome::kNewFloor);
+  summary["heights_missing"] = run.heights_missing;
   summary["heights_tilted"] = run.heights_tilted;
   summary["ranges_refused"] = run.ranges_refused;
 }

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parameters of Slam that contradict each other are refused by name, with what helps.
+#include <gtest/gtest.h>
+
+#include "ardrone_vslam/slam.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+std::vector<std::string> faultsOf(const SlamConfig& config) {
+  try {
+    Slam(config, Eigen::Isometry3d::Identity());
+  } catch (const ConfigError& e) {
+    return e.faults();
+  }
+  return {};
+}
+
+/// One fault that has all the words.
+void expectFault(const SlamConfig& config, const std::vector<std::string>& words) {
+  const std::vector<std::string> faults = faultsOf(config);
+  ASSERT_EQ(faults.size(), 1U) << words.front();
+  for (const std::string& word : words)
+    EXPECT_NE(faults[0].find(word), std::string::npos) << faults[0] << "\nhas no " << word;
+}
+
+TEST(SlamConfig, TheThesisFilterRefusesWhatItWouldNotUse) {
+  SlamConfig config;
+  config.height_input.use_range = true;
+  EXPECT_TRUE(faultsOf(config).empty());
+  config.estimator = Estimator::kThesis;
+  expectFault(config, {"use_range", "estimator to constraint", "use_range to false"});
+  config.height_input.use_range = false;
+  config.height_input.known_height_m = 1.65;
+  expectFault(config, {"known_height_m", "estimator to constraint", "known_height_m to 0"});
+  config.height_input.known_height_m = 0;
+  config.constraint_filter.attitude_states = false;
+  expectFault(config, {"attitude_states", "estimator to constraint", "attitude_states to true"});
+  config.height_input.use_range = true;
+  EXPECT_EQ(faultsOf(config).size(), 2U) << "all faults are told at once";
+}
+
+TEST(SlamConfig, TheObserverIsARowBesideTheOthersWithTheirParameters) {
+  SlamConfig config;
+  config.estimator = Estimator::kObserver;
+  config.height_input.use_range = true;
+  config.constraint_filter.attitude_states = false;
+  EXPECT_TRUE(faultsOf(config).empty());
+}
+
+TEST(SlamConfig, TracksMustFitIntoTheWindow) {
+  SlamConfig config;
+  config.constraint_filter.window_frames = 5;
+  config.constraint_filter.min_track_views = 5;
+  EXPECT_TRUE(faultsOf(config).empty());
+  config.constraint_filter.min_track_views = 6;
+  expectFault(config, {"lower min_track_views", "raise window_frames"});
+  config.estimator = Estimator::kThesis;
+  EXPECT_TRUE(faultsOf(config).empty()) << "it has no window";
+}
+
+TEST(SlamConfig, OneHeightIsEnough) {
+  SlamConfig config;
+  config.height_input.use_range = true;
+  config.height_input.known_height_m = 1.65;
+  expectFault(config, {"use_range and known_height_m exclude each other"});
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How WindowState::propagate carries errors on, against differences of the poses themselves.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "ardrone_vslam/rotation.hpp"
+#include "ardrone_vslam/window_state.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kFrames = 8;
+
+ObserverState observerAt(int frame) {
+  ObserverState state;
+  state.stamp_ns = 100'000'000LL * frame;
+  state.T_odom_base.translation() << 0.1 * frame, 0.03 * frame, 0.02 * frame;
+  state.T_odom_base.linear() = rotationOf({0.03 * frame, -0.02 * frame, 0.08 * frame});
+  return state;
+}
+
+/// All but the floor's, which is exactly known as long as nobody measures a height.
+std::vector<int> uncertainCoordinates(const WindowState& state) {
+  std::vector<int> coordinates;
+  for (int k = 0; k < state.frameCoordinate(state.frames().size()); ++k)
+    if (k != WindowState::kFloor) coordinates.push_back(k);
+  return coordinates;
+}
+
+/// Makes a measurement that moves the mean by the change (of the uncertain coordinates).
+void moveMean(WindowState& state, const Eigen::VectorXd& change) {
+  Information information(uncertainCoordinates(state));
+  const Eigen::MatrixXd P = state.covariance()(information.coordinates, information.coordinates);
+  information.matrix.diagonal().setConstant(1e-3);
+  information.vector = P.llt().solve(change) + information.matrix * change;
+  const auto preview = state.preview(information);
+  ASSERT_TRUE(preview);
+  ASSERT_LT((*preview - change).norm(), 1e-9 * change.norm());
+  ASSERT_TRUE(state.update(information));
+}
+
+/// A window whose odom and mounting were found to be turned. Neither bias nor scale have been
+/// corrected: else F stands by the corrected step for the reported one.
+WindowState window(const ObserverNoiseConfig& config, const Eigen::Vector3d& odom_turn_rad) {
+  WindowState state(config);
+  state.start(observerAt(0));
+  for (int i = 1; i < kFrames; ++i) state.propagate(observerAt(i));
+  Eigen::VectorXd change =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(uncertainCoordinates(state).size()));
+  change.segment<3>(WindowState::kAttitude) = odom_turn_rad;
+  change.segment<3>(WindowState::kMounting) << 0.05, -0.1, 0.15;
+  moveMean(state, change);
+  return state;
+}
+
+/// What the next step makes of the mean: attitude of odom, mounting, newest position and attitude.
+constexpr int kOutputs = 12;
+
+Eigen::Matrix<double, kOutputs, 1> difference(const WindowState& a, const WindowState& b) {
+  Eigen::Matrix<double, kOutputs, 1> d;
+  const WindowPose& pose_a = a.frames().back();
+  const WindowPose& pose_b = b.frames().back();
+  d << rotationVectorOf(a.T_map_odom().linear() * b.T_map_odom().linear().transpose()),
+      rotationVectorOf(a.R_mounting() * b.R_mounting().transpose()),
+      pose_a.position_map - pose_b.position_map,
+      rotationVectorOf(pose_a.R_map_base * pose_b.R_map_base.transpose());
+  return d;
+}
+
+/// By central differences of the mean, one coordinate after the other.
+void expectErrorsCarriedAsTheMeanIs(const WindowState& before) {
+  const std::vector<int> inputs = uncertainCoordinates(before);
+  const auto size = static_cast<Eigen::Index>(inputs.size());
+  constexpr double kStep = 1e-5;
+  Eigen::MatrixXd transition(kOutputs, size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    WindowState more = before;
+    WindowState less = before;
+    moveMean(more, kStep * Eigen::VectorXd::Unit(size, k));
+    moveMean(less, -kStep * Eigen::VectorXd::Unit(size, k));
+    more.propagate(observerAt(kFrames));
+    less.propagate(observerAt(kFrames));
+    transition.col(k) = difference(more, less) / (2 * kStep);
+  }
+  WindowState after = before;
+  after.propagate(observerAt(kFrames));
+  // Of the errors that a step leaves alone, which take no noise: their covariance with the new ones
+  // is the transition times what it was.
+  std::vector<int> kept;
+  for (int k = before.frameCoordinate(0); k < before.frameCoordinate(kFrames); ++k)
+    kept.push_back(k);
+  std::vector<int> outputs;
+  const int newest = before.frameCoordinate(kFrames);
+  for (const int first : {static_cast<int>(WindowState::kAttitude),
+                          static_cast<int>(WindowState::kMounting), newest, newest + 3})
+    for (int k = 0; k < 3; ++k) outputs.push_back(first + k);
+  const Eigen::MatrixXd expected = transition * before.covariance()(inputs, kept);
+  const Eigen::MatrixXd actual = after.covariance()(outputs, kept);
+  const char* const kNames[] = {"attitude of odom", "mounting", "position", "attitude"};
+  for (Eigen::Index k = 0; k < kOutputs; ++k) {
+    ASSERT_GT(expected.row(k).norm(), 1e-6);
+    EXPECT_LT((actual - expected).row(k).norm(), 1e-6 * expected.row(k).norm())
+        << kNames[k / 3] << " " << k % 3;
+  }
+}
+
+TEST(WindowPropagation, CarriesErrorsAsSmallChangesOfTheMeanShow) {
+  ObserverNoiseConfig config;
+  config.mounting_deviation_deg = 2;
+  config.tilt_time_s = 1e6;
+  expectErrorsCarriedAsTheMeanIs(window(config, {0.2, -0.1, 0.4}));
+}
+
+/// To first order in the turn of odom, which is a few degrees.
+TEST(WindowPropagation, CarriesErrorsOfATiltThatFades) {
+  ObserverNoiseConfig config;
+  config.mounting_deviation_deg = 2;
+  config.tilt_time_s = 0.5;
+  expectErrorsCarriedAsTheMeanIs(window(config, {0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
