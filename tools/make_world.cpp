@@ -12,7 +12,9 @@
 
 #ifdef ARDRONE_VSLAM_WITH_ROS
 #include "bag_writer.hpp"
+#include "driver_bag.hpp"
 #endif
+#include "driver_arguments.hpp"
 #include "profile_option.hpp"
 #include "progress_line.hpp"
 #include "tool_main.hpp"
@@ -33,7 +35,9 @@ struct Options {
   std::string images = "raw";
   std::string compression = "none";
   CameraArguments camera;
+  DriverArguments driver;
   const CLI::Option* seconds = nullptr;
+  const CLI::Option* rate = nullptr;
   std::vector<const CLI::Option*> bag_only;
 };
 
@@ -51,9 +55,8 @@ void addOptions(CLI::App& app, Options& o) {
   o.seconds = app.add_option("--seconds", o.world.duration_s,
                              "of flight; default: the whole of it (--list)")
                   ->check(CLI::Range(0.001, 1e6));
-  app.add_option("--rate", o.world.rate_hz, "images a second")
-      ->capture_default_str()
-      ->check(CLI::Range(0.001, 1e3));
+  o.rate = app.add_option("--rate", o.world.rate_hz, "images a second; default: 30, driver's 20")
+               ->check(CLI::Range(0.001, 1e3));
   app.add_option("--observer-profile", o.observer_profile,
                  "how the simulated odometry drifts: truth, wheel, drone, hover, harsh "
                  "(config/observer_profiles.yaml); default: drone in a bag, no odometry in a "
@@ -73,7 +76,8 @@ void addOptions(CLI::App& app, Options& o) {
   images->capture_default_str()->check(CLI::IsMember({"raw", "png", "jpeg"}));
   auto* compression = app.add_option("--compression", o.compression, "of the bag's chunks");
   compression->capture_default_str()->check(CLI::IsMember({"none", "lz4", "bz2"}));
-  o.bag_only = {images, compression};
+  addDriverOptions(app, o.driver);
+  o.bag_only = {images, compression, o.driver.driver};
 }
 
 bool isBag(const std::string& path) {
@@ -91,20 +95,35 @@ FlightStart parseStart(const std::string& text) {
 }
 
 #ifdef ARDRONE_VSLAM_WITH_ROS
-void writeWorldBag(WorldSequence& world, const Options& o, ProgressLine& progress) {
+template <class WriteOptions>
+void setFormat(const Options& o, WriteOptions& write) {
   using Format = BagWriteOptions::ImageFormat;
-  using Compression = BagWriteOptions::Compression;
-  BagWriteOptions write;
   write.image_format = o.images == "png"    ? Format::kPng
                        : o.images == "jpeg" ? Format::kJpeg
                                             : Format::kRaw;
-  write.compression = o.compression == "lz4"   ? Compression::kLz4
-                      : o.compression == "bz2" ? Compression::kBz2
-                                               : Compression::kNone;
-  write.observer_profile = o.world.observer;
-  write.seed = o.world.seed;
+  write.compression = o.compression == "lz4"   ? BagCompression::kLz4
+                      : o.compression == "bz2" ? BagCompression::kBz2
+                                               : BagCompression::kNone;
   write.tool = "make_world (ardrone_vslam) " ARDRONE_VSLAM_VERSION ", flight " + o.world.flight +
                ", world seed " + std::to_string(o.world.world_seed);
+}
+
+void writeWorldBag(WorldSequence& world, const Options& o, ProgressLine& progress) {
+  if (o.driver.isChosen()) {
+    DriverBagOptions write;
+    setFormat(o, write);
+    write.faults = o.driver.faults;
+    write.tf_prefix = o.driver.tf_prefix;
+    write.camera = o.camera.camera;
+    write.profile = *o.world.observer;
+    write.progress = [&progress](std::size_t done) { progress.update(done); };
+    writeDriverBag(world, write, o.out);
+    return;
+  }
+  BagWriteOptions write;
+  setFormat(o, write);
+  write.observer_profile = o.world.observer;
+  write.seed = o.world.seed;
   write.progress = [&progress](std::size_t done, std::size_t) { progress.update(done); };
   writeBag(world, write, o.out);
 }
@@ -161,6 +180,8 @@ int run(Options& o) {
   if (!bag) refuseBagOptions(o);
   if (o.seconds->count() == 0) o.world.duration_s = flightInfo(o.world.flight).duration_s;
   setCamera(o.camera, o.world);
+  resolveDriver(o.driver, o.world);
+  if (o.driver.isChosen() && o.rate->count() == 0) o.world.rate_hz = kDriverImageRate_hz;
   // Base of a folder is by its definition where the camera is and looks along it.
   if (!bag) o.world.T_base_cam = forwardCamera();
   if (!bag && o.camera.camera == "bottom" && o.world.range_noise_m) {

@@ -206,5 +206,25 @@ TEST_F(ToolUsage, ReplayOfADamagedBagNamesItAndDoesNotCrash) {
   expectOutput({"replay: ", "damaged.bag", "is no readable bag", "rosbag reindex"});
 }
 
+TEST_F(ToolUsage, TheDriversOptionsGoWithADriver) {
+  const auto makeWorld = [this](const std::string& arguments) {
+    return run(ARDRONE_VSLAM_MAKE_WORLD " laps --seconds 0.1 --out " + path("d.bag") + " " +
+               arguments);
+  };
+  EXPECT_EQ(makeWorld("--fault bursts"), 2);
+  expectOutput({"make_world: ", "--driver ardrone"});
+  EXPECT_EQ(makeWorld("--driver ardrone --fault bursts --fault slow"), 2);
+  expectOutput({"no fault 'slow'", "all, released, mirrored_yaw"});
+  EXPECT_EQ(makeWorld("--driver ardrone --range-noise 0.1"), 2);
+  expectOutput({"--range-noise", "altd"});
+  EXPECT_EQ(makeWorld("--driver ardrone --tf-prefix a/b"), 2);
+  expectOutput({"--tf-prefix: 'a/b'"});
+  EXPECT_EQ(run(ARDRONE_VSLAM_MAKE_WORLD " laps --driver ardrone --out " + path("folder")), 2);
+  expectOutput({"--driver is for bags only"});
+  EXPECT_FALSE(std::filesystem::exists(path("d.bag")));
+  EXPECT_EQ(makeWorld("--driver ardrone --fault all --compressed jpeg"), 0);
+  expectOutput({"d.bag: 2 images", "observer profile drone"});
+}
+
 }  // namespace
 }  // namespace ardrone_vslam

@@ -4,7 +4,6 @@
 #include <cv_bridge/cv_bridge.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <rosbag/bag.h>
-#include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Range.h>
 #include <sensor_msgs/image_encodings.h>
@@ -15,10 +14,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "bag_file.hpp"
 #include "bag_messages.hpp"
 #include "camera_info.hpp"
 
@@ -28,7 +27,6 @@ namespace {
 constexpr std::int64_t kMinStamp_ns = 1'000'000'000;
 constexpr std::int64_t kOffset_ns = 100'000'000'000;
 constexpr std::int64_t kMaxStamp_ns = std::int64_t{0xffffffff} * 1'000'000'000;
-constexpr int kJpegQuality = 90;
 
 /// What is written, in ROS's time.
 struct BagContents {
@@ -109,29 +107,11 @@ std::string infoText(const Sequence& sequence, const BagWriteOptions& options,
   return yaml.c_str();
 }
 
-/// rosbag play latches what was recorded from a latched publisher.
-template <class Message>
-boost::shared_ptr<ros::M_string> latchedHeader(const Message& message) {
-  auto header = boost::make_shared<ros::M_string>();
-  (*header)["type"] = ros::message_traits::datatype(message);
-  (*header)["md5sum"] = ros::message_traits::md5sum(message);
-  (*header)["message_definition"] = ros::message_traits::definition(message);
-  (*header)["callerid"] = "/make_bag";
-  (*header)["latching"] = "1";
-  return header;
-}
-
 class BagWriter {
  public:
   BagWriter(Sequence& sequence, const BagWriteOptions& options, BagContents contents,
-            const std::string& path)
-      : sequence_(sequence), options_(options), contents_(std::move(contents)) {
-    bag_.open(path, rosbag::bagmode::Write);
-    if (options.compression == BagWriteOptions::Compression::kLz4) {
-      bag_.setCompression(rosbag::compression::LZ4);
-    } else if (options.compression == BagWriteOptions::Compression::kBz2) {
-      bag_.setCompression(rosbag::compression::BZ2);
-    }
+            rosbag::Bag& bag)
+      : sequence_(sequence), options_(options), contents_(std::move(contents)), bag_(bag) {
     camera_info_ = cameraInfoFromIntrinsics(sequence.camera());
     camera_info_.header.frame_id = options.frames.camera;
     odometry_ = toOdometryMessages(contents_.observer, options.frames.odom, options.frames.base);
@@ -163,7 +143,6 @@ class BagWriter {
         writeImage(image++);
       }
     }
-    bag_.close();
   }
 
  private:
@@ -231,26 +210,17 @@ class BagWriter {
       const cv_bridge::CvImage bridge(header, sensor_msgs::image_encodings::MONO8, image);
       bag_.write(options_.topics.image, header.stamp, *bridge.toImageMsg());
     } else {
-      writeCompressed(header, image);
+      const bool is_png = options_.image_format == BagWriteOptions::ImageFormat::kPng;
+      bag_.write(options_.topics.image + "/compressed", header.stamp,
+                 compressedImage(header, image, is_png));
     }
     if (options_.progress) options_.progress(index + 1, contents_.image_stamps_ns.size());
-  }
-
-  void writeCompressed(const std_msgs::Header& header, const cv::Mat& image) {
-    const bool is_png = options_.image_format == BagWriteOptions::ImageFormat::kPng;
-    sensor_msgs::CompressedImage message;
-    message.header = header;
-    message.format = is_png ? "mono8; png compressed " : "mono8; jpeg compressed ";
-    const std::vector<int> quality{cv::IMWRITE_JPEG_QUALITY, kJpegQuality};
-    cv::imencode(is_png ? ".png" : ".jpg", image, message.data,
-                 is_png ? std::vector<int>() : quality);
-    bag_.write(options_.topics.image + "/compressed", header.stamp, message);
   }
 
   Sequence& sequence_;
   const BagWriteOptions& options_;
   BagContents contents_;
-  rosbag::Bag bag_;
+  rosbag::Bag& bag_;
   sensor_msgs::CameraInfo camera_info_;
   std::vector<nav_msgs::Odometry> odometry_;
 };
@@ -268,22 +238,10 @@ BagWriteReport writeBag(Sequence& sequence, const BagWriteOptions& options,
   report.images = contents.image_stamps_ns.size();
   report.odometry = contents.observer.size();
   report.truth = contents.truth.size();
-  // An interrupted run must not leave half a bag under the name of a whole one.
-  const std::string part = path + ".part";
-  try {
-    BagWriter(sequence, options, std::move(contents), part)
+  writeBagFile(path, options.compression, [&](rosbag::Bag& bag) {
+    BagWriter(sequence, options, std::move(contents), bag)
         .writeAll(infoText(sequence, options, report));
-    std::filesystem::rename(part, path);
-  } catch (const rosbag::BagException& e) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw std::runtime_error(path + ": cannot be written (" + e.what() +
-                             "); check the folder, its permissions and the free space");
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw;
-  }
+  });
   return report;
 }
 

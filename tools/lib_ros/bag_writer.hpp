@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "bag_file.hpp"
 #include "observer_model.hpp"
 #include "sequence.hpp"
 
@@ -29,7 +30,7 @@ struct BagFrameNames {
 
 struct BagWriteOptions {
   enum class ImageFormat { kRaw, kPng, kJpeg };
-  enum class Compression { kNone, kLz4, kBz2 };
+  using Compression = BagCompression;
 
   BagTopicNames topics;
   BagFrameNames frames;

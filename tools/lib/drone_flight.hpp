@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "drone_packet.hpp"
+#include "observer_model.hpp"
+#include "trajectory.hpp"
+#include "world.hpp"
+#include "world_flight.hpp"
+
+namespace ardrone_vslam {
+
+constexpr double kPacketRate_hz = 200;  ///< of the AR.Drone with navdata_demo 0
+
+/// A flight as the drone itself measures it.
+struct DroneFlight {
+  Trajectory truth;                  ///< at the packets
+  std::vector<DronePacket> packets;  ///< as many as true poses
+  double scale_error = 0;            ///< drawn by the profile
+};
+
+/// Velocity and attitude drift as the profile says (its rate and its link are the drone's here);
+/// their integral is the profile's odometry. Accelerometer and gyroscope have white noise, unless
+/// the profile is `truth`. @param first_ns  the stamp at the flight's beginning
+/// Equal arguments give equal results.
+DroneFlight flyDrone(const Flight& flight, const World& world, double duration_s,
+                     std::int64_t first_ns, ObserverProfile profile, std::uint64_t seed);
+
+}  // namespace ardrone_vslam
