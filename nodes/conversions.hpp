@@ -18,6 +18,7 @@
 #include "ardrone_vslam/landmark_map.hpp"
 #include "ardrone_vslam/late_fusion.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_faults.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "camera_info_conversion.hpp"
 #include "checked.hpp"
@@ -34,6 +35,9 @@ ros::Time toRosTime(std::int64_t stamp_ns);
 /// Pose of base in odom with a normalised quaternion, within rangeFault's bounds. The covariance is
 /// the message's, also one that counts as not given (covarianceFault).
 Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry);
+
+/// The same with any finite position and twist: for the ObserverAdapter, which repairs some.
+Checked<ObserverState> toUnboundedState(const nav_msgs::Odometry& odometry);
 
 /// Its range is not looked at: HeightInput knows what is one.
 Checked<RangeReading> toRangeReading(const sensor_msgs::Range& message);
@@ -77,6 +81,7 @@ PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isome
                                    const Frames& frames);
 /// Fills the state and the counts of one frame; leaves stage times and totals alone.
 void toStatus(const FrameResult& result, const std::string& map_frame, Status& status);
+void toStatus(const OdometryFaultCounts& faults, Status& status);
 
 /// Landmarks as a cloud: x y z [m], deviation [m], times_seen, id.
 sensor_msgs::PointCloud2 toCloud(const LandmarkMap& map, const std::string& map_frame,

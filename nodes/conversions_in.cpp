@@ -74,7 +74,7 @@ ros::Time toRosTime(std::int64_t stamp_ns) {
   return time.fromNSec(static_cast<std::uint64_t>(stamp_ns));
 }
 
-Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
+Checked<ObserverState> toUnboundedState(const nav_msgs::Odometry& odometry) {
   const auto T_odom_base = toIsometry(odometry.pose.pose);
   if (!T_odom_base.value) return {std::nullopt, T_odom_base.fault};
   const auto& covariance = odometry.pose.covariance;
@@ -93,9 +93,14 @@ Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
   state.twist_base << twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.x,
       twist.angular.y, twist.angular.z;
   state.twist_covariance = toMatrix(odometry.twist.covariance);
-  const std::string range_fault = rangeFault(state);
-  if (!range_fault.empty()) return {std::nullopt, range_fault};
   return {state, {}};
+}
+
+Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
+  const auto checked = toUnboundedState(odometry);
+  const std::string range_fault = checked.value ? rangeFault(*checked.value) : "";
+  if (!range_fault.empty()) return {std::nullopt, range_fault};
+  return checked;
 }
 
 Checked<RangeReading> toRangeReading(const sensor_msgs::Range& message) {

@@ -208,6 +208,12 @@ void toStatus(const FrameResult& result, const std::string& map_frame, Status& s
   status.deviation = result.state == SlamState::kNotFinite ? 0 : result.deviation_m;
 }
 
+void toStatus(const OdometryFaultCounts& faults, Status& status) {
+  status.odometry_fault.assign(EnumNames<OdometryFault>::kNames.begin(),
+                               EnumNames<OdometryFault>::kNames.end());
+  status.odometry_fault_count.assign(faults.begin(), faults.end());
+}
+
 sensor_msgs::PointCloud2 toCloud(const LandmarkMap& map, const std::string& map_frame,
                                  std::int64_t stamp_ns) {
   using sensor_msgs::PointField;

@@ -13,6 +13,25 @@ constexpr double kTick_s = 0.05;                // how late the end of a wait ma
 constexpr std::uint32_t kOdometryQueue = 2000;  // 10 s at 200 Hz, while the mapper is busy
 constexpr std::uint32_t kRangeQueue = 500;
 
+/// Why an odometry message is not used; empty when it is.
+std::string explain(ObserverBuffer::Push answer, const ObserverState& message) {
+  switch (answer) {
+    case ObserverBuffer::Push::kAccepted:
+      return {};
+    case ObserverBuffer::Push::kNotFinite:
+      return "it is not finite";
+    case ObserverBuffer::Push::kOutOfRange: {
+      const std::string fault = rangeFault(message);
+      return fault.empty() ? "its position jumped by kilometres" : fault;
+    }
+    case ObserverBuffer::Push::kDuplicateStamp:
+      return "its stamp is that of the message before";
+    case ObserverBuffer::Push::kBackwardStamp:
+      return "its stamp is before that of the message before; stamps must ascend";
+  }
+  return {};
+}
+
 double now_s() {
   return ros::SteadyTime::now().toSec();
 }
@@ -56,6 +75,7 @@ void MapperNodelet::readParameters() {
     reader.finish();
     // Some faults lie between parameters: tell them now, not in mid-air.
     Slam(config_, Eigen::Isometry3d::Identity());
+    adapter_ = std::make_unique<ObserverAdapter>(config_.observer_adapter);
     matcher_ = std::make_unique<FrameMatcher>(config_.observer, node_config_.odometry_wait_s);
     heights_ = std::make_unique<HeightInput>(config_.height_input, config_.observer.buffer_s);
   } catch (const ConfigError& e) {
@@ -113,35 +133,38 @@ bool MapperNodelet::acceptFeatures(const Features& features) {
 }
 
 void MapperNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
-  const auto checked = toObserverState(*odometry);
+  const auto checked = toUnboundedState(*odometry);
   std::string fault = checked.fault;
   if (checked.value) {
     const std::int64_t back_ns = matcher_->newestObserver_ns() - checked.value->stamp_ns;
     if (back_ns >= StampGuard::kRestart_ns) {
       restartAt(checked.value->stamp_ns, odometry_sub_.getTopic());
     }
-    switch (matcher_->addObserver(*checked.value)) {
-      case ObserverBuffer::Push::kAccepted:
-        takeFrameNames(*odometry);
-        noteCovariance(*checked.value);
-        noteSpeed(*checked.value);
-        return processReady();
-      case ObserverBuffer::Push::kNotFinite:
-        fault = "it is not finite";
-        break;
-      case ObserverBuffer::Push::kOutOfRange:
-        fault = rangeFault(*checked.value);
-        break;
-      case ObserverBuffer::Push::kDuplicateStamp:
-        fault = "its stamp is that of the message before";
-        break;
-      case ObserverBuffer::Push::kBackwardStamp:
-        fault = "its stamp is before that of the message before; stamps must ascend";
-        break;
+    fault = takeOdometry(*checked.value);
+    noteOdometryFaults();
+    if (fault.empty()) {
+      takeFrameNames(*odometry);
+      noteCovariance(*checked.value);
     }
+    processReady();
   }
+  if (fault.empty()) return;
   ++totals_.odometry_refused;
   warn(odometry_sub_.getTopic(), fault);
+}
+
+std::string MapperNodelet::takeOdometry(const ObserverState& message) {
+  ready_.clear();
+  std::string fault = explain(adapter_->push(message, ready_), message);
+  for (const ObserverState& state : ready_) {
+    const ObserverBuffer::Push answer = matcher_->addObserver(state);
+    if (answer == ObserverBuffer::Push::kAccepted) {
+      noteSpeed(state);
+    } else {
+      fault = explain(answer, state);
+    }
+  }
+  return fault;
 }
 
 void MapperNodelet::onRange(const sensor_msgs::RangeConstPtr& range) {

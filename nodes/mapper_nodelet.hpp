@@ -43,6 +43,10 @@ class MapperNodelet : public nodelet::Nodelet {
   std::string missingRange() const;
   /// Every second.
   void remindOfRange();
+  /// Says what the adapter has found since this was called last.
+  void noteOdometryFaults();
+  /// What of a message is ready goes to the matcher. @return the sentence when it is not used
+  std::string takeOdometry(const ObserverState& message);
   void takeFrameNames(const nav_msgs::Odometry& odometry);
   /// Works on every image whose odometry has come.
   void processReady();
@@ -77,6 +81,9 @@ class MapperNodelet : public nodelet::Nodelet {
   std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
   std::unique_ptr<MapperOutputs> outputs_;
 
+  std::unique_ptr<ObserverAdapter> adapter_;
+  std::vector<ObserverState> ready_;       // from the adapter; kept for its memory
+  OdometryFaultCounts odometry_faults_{};  // those that were said
   std::unique_ptr<FrameMatcher> matcher_;
   std::unique_ptr<HeightInput> heights_;
   std::unique_ptr<Slam> slam_;

@@ -36,6 +36,18 @@ void MapperNodelet::noteStep(double step_m) {
   if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
 }
 
+void MapperNodelet::noteOdometryFaults() {
+  const OdometryFaultCounts& faults = adapter_->faults();
+  for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
+    const auto fault = static_cast<OdometryFault>(i);
+    if (faults[i] == odometry_faults_[i] || !isWorthWarning(fault)) continue;
+    const std::string sentence =
+        "the odometry on " + odometry_sub_.getTopic() + " " + explain(fault);
+    if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
+  }
+  odometry_faults_ = faults;
+}
+
 void MapperNodelet::publishStatus(const FrameResult& result, const Features& features) {
   Status status;
   toStatus(result, frames_.map, status);
@@ -103,6 +115,7 @@ void MapperNodelet::fillTotals(Status& status) const {
   status.heights_tilted = totals_.heights_tilted;
   status.heights_rejected = totals_.heights_rejected;
   status.odometry_steps = totals_.odometry_steps;
+  toStatus(adapter_->faults(), status);
   status.results_not_finite = totals_.results_not_finite;
   status.restarts = totals_.restarts;
 }
@@ -162,6 +175,11 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
   wrapper.add("images without odometry", totals_.dropped_no_odometry);
   wrapper.add("odometry messages refused", totals_.odometry_refused);
   wrapper.add("odometry steps", totals_.odometry_steps);
+  for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
+    if (adapter_->faults()[i] > 0)
+      wrapper.add(std::string("odometry fault ") + nameOf(static_cast<OdometryFault>(i)),
+                  adapter_->faults()[i]);
+  }
   if (!covariance_fault_.empty()) wrapper.add("odometry covariance", covariance_fault_);
   if (speed_.absurd_m_s() > 0) {
     wrapper.add("odometry speed",

@@ -9,6 +9,7 @@
 #include "ardrone_vslam/height_input.hpp"
 #include "ardrone_vslam/landmark_map.hpp"
 #include "ardrone_vslam/mapper.hpp"
+#include "ardrone_vslam/observer_adapter.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
 #include "ardrone_vslam/parameters.hpp"
 #include "ardrone_vslam/thesis_filter.hpp"
@@ -26,6 +27,7 @@ struct SlamConfig {
   Estimator estimator = Estimator::kConstraint;
   bool planar = false;
   ObserverBufferConfig observer;
+  ObserverAdapterConfig observer_adapter;
   HeightInputConfig height_input;
   AssociationConfig association;
   ThesisFilterConfig thesis_filter;
@@ -49,6 +51,7 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
           "2-D mode: all z are zero, for a front camera when height and tilt are unknown"},
       c.planar);
   visitParameters(c.observer, visit);
+  visitParameters(c.observer_adapter, visit);
   visitParameters(c.height_input, visit);
   visitParameters(c.association, visit);
   visitParameters(c.thesis_filter, visit);

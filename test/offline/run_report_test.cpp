@@ -278,6 +278,22 @@ TEST(RunReport, OdometryThatStepsOrFreezesIsCountedAndAWarning) {
   EXPECT_NE(verdict.warnings[1].find("2.5 m"), std::string::npos);
 }
 
+TEST(RunReport, TheOdometrysFaultsAreCountedAndWarnedOf) {
+  RunResult run = someRun();
+  run.odometry_faults[static_cast<std::size_t>(OdometryFault::kBurst)] = 12;
+  run.odometry_faults[static_cast<std::size_t>(OdometryFault::kNoCovariance)] = 900;
+  const RunEvaluation evaluation = evaluate(run, straightTruth());
+  const Json summary = summaryOf(run, evaluation, {"s", "drone", 1, "constraint"});
+  EXPECT_EQ(summary["odometry_faults"]["burst"], 12);
+  EXPECT_EQ(summary["odometry_faults"]["no_covariance"], 900);
+  EXPECT_EQ(summary["odometry_faults"]["jump"], 0);
+  const RunVerdict verdict = judgeRun("flight", run, evaluation, false);
+  EXPECT_TRUE(verdict.faults.empty());
+  ASSERT_EQ(verdict.warnings.size(), 1U) << "many sound drivers give no covariance";
+  for (const char* part : {"flight: the odometry sends several", "(burst: 12)"})
+    EXPECT_NE(verdict.warnings[0].find(part), std::string::npos) << part;
+}
+
 TEST(RunReport, ARunWithoutLandmarksSaysWhyThatMayBe) {
   RunResult run = someRun();
   run.landmarks.clear();

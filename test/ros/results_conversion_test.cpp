@@ -106,6 +106,17 @@ TEST(ResultConversion, StatusCountsWhatWasRemoved) {
   EXPECT_EQ(status.scale_deviation, 0.01);
 }
 
+TEST(ResultConversion, StatusNamesAndCountsTheOdometrysFaults) {
+  Status status;
+  OdometryFaultCounts faults{};
+  faults[static_cast<std::size_t>(OdometryFault::kBurst)] = 7;
+  toStatus(faults, status);
+  ASSERT_EQ(status.odometry_fault.size(), kOdometryFaultCount);
+  ASSERT_EQ(status.odometry_fault_count.size(), kOdometryFaultCount);
+  for (std::size_t i = 0; i < kOdometryFaultCount; ++i)
+    EXPECT_EQ(status.odometry_fault_count[i], status.odometry_fault[i] == "burst" ? 7U : 0U) << i;
+}
+
 TEST(ResultConversion, EveryOtherStateHasAReason) {
   const std::vector<std::pair<SlamState, std::uint8_t>> states{
       {SlamState::kBuildingMap, Status::BUILDING_MAP},

@@ -86,6 +86,7 @@ BackEnd::BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
                  const std::vector<ObserverState>& observer, std::vector<RangeReading> ranges)
     : slam_(config, T_base_cam),
       T_base_cam_(T_base_cam),
+      adapter_(config.observer_adapter),
       buffer_(config.observer),
       observer_(observer),
       heights_(config.height_input, config.observer.buffer_s),
@@ -95,15 +96,25 @@ bool BackEnd::observerAt(std::int64_t stamp_ns, ObserverState& state) {
   auto lookup = buffer_.at(stamp_ns, state);
   while ((lookup == ObserverBuffer::Lookup::kEmpty || lookup == ObserverBuffer::Lookup::kNotYet) &&
          next_ < observer_.size()) {
-    const ObserverState& next = observer_[next_++];
-    if (buffer_.push(next) == ObserverBuffer::Push::kAccepted) {
-      speed_.see(next);
-    } else {
-      ++run_.observer_states_refused;
-    }
+    takeNextObserver();
     lookup = buffer_.at(stamp_ns, state);
   }
   return lookup == ObserverBuffer::Lookup::kFound;
+}
+
+void BackEnd::takeNextObserver() {
+  using Push = ObserverBuffer::Push;
+  ready_.clear();
+  if (adapter_.push(observer_[next_++], ready_) != Push::kAccepted) ++run_.observer_states_refused;
+  const bool is_last = next_ == observer_.size();
+  if (is_last && adapter_.flush(ready_) != Push::kAccepted) ++run_.observer_states_refused;
+  for (const ObserverState& state : ready_) {
+    if (buffer_.push(state) == Push::kAccepted) {
+      speed_.see(state);
+    } else {
+      ++run_.observer_states_refused;
+    }
+  }
 }
 
 std::optional<double> BackEnd::heightAt(const ObserverState& state) {
@@ -132,6 +143,7 @@ void BackEnd::process(const TrackedFrame& frame) {
 RunResult BackEnd::finish() {
   run_.images_travel = watch_.isStuck();
   run_.absurd_speed_m_s = speed_.absurd_m_s();
+  run_.odometry_faults = adapter_.faults();
   run_.ranges_refused = heights_.refused();
   run_.heights_missing = heights_.missing();
   run_.heights_tilted = heights_.tilted();

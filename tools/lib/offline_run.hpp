@@ -12,6 +12,7 @@
 #include "../../nodes/standstill_watch.hpp"
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/height_input.hpp"
+#include "ardrone_vslam/observer_adapter.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/stages.hpp"
 #include "config_file.hpp"
@@ -41,6 +42,7 @@ struct RunResult {
   int frames_without_observer =
       0;  ///< no odometry at the image's stamp: before the first state, in a gap, or after the last
   int observer_states_refused = 0;  ///< not finite, out of bounds, duplicate or backward stamps
+  OdometryFaultCounts odometry_faults{};
   std::uint64_t ranges_refused = 0;
   std::uint64_t heights_missing = 0;  ///< images without a range near their stamp
   std::uint64_t heights_tilted = 0;   ///< images without a height as base was tilted
@@ -62,8 +64,9 @@ void runFrontEnd(Sequence& sequence, const TrackerConfig& config,
                  const std::vector<ObserverState>& attitude, int threads,
                  const std::function<void(const TrackedFrame& frame)>& consume);
 
-/// Features + observer -> poses and map, as the nodelets do it: odometry interpolated at the
-/// image's stamp by an ObserverBuffer, ranges by a HeightInput.
+/// Features + observer -> poses and map, as the nodelets do it: odometry through an
+/// ObserverAdapter, interpolated at the image's stamp by an ObserverBuffer, ranges by a
+/// HeightInput.
 class BackEnd {
  public:
   BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
@@ -73,6 +76,7 @@ class BackEnd {
 
  private:
   bool observerAt(std::int64_t stamp_ns, ObserverState& state);
+  void takeNextObserver();
   std::optional<double> heightAt(const ObserverState& state);
 
   Slam slam_;
@@ -80,7 +84,9 @@ class BackEnd {
   StandstillWatch watch_;       ///< sees an observer that only turns: what moves then is the images
   StandstillWatch standstill_;  ///< the same with its positions
   SpeedWatch speed_;
+  ObserverAdapter adapter_;
   ObserverBuffer buffer_;
+  std::vector<ObserverState> ready_;  ///< kept for its memory
   const std::vector<ObserverState>& observer_;
   std::size_t next_ = 0;
   HeightInput heights_;

@@ -250,6 +250,8 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
       std::count_if(run.frames.begin(), run.frames.end(),
                     [](const RunFrame& f) { return f.result.odometry_step_m > 0; });
   summary["odometry_froze"] = run.odometry_froze;
+  for (std::size_t i = 0; i < kOdometryFaultCount; ++i)
+    summary["odometry_faults"][EnumNames<OdometryFault>::kNames[i]] = run.odometry_faults[i];
   summary["profile"] = label.profile;
   summary["seed"] = label.seed ? Json(*label.seed) : Json(nullptr);
   summary["estimator"] = label.estimator;

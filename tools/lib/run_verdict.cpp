@@ -109,6 +109,12 @@ RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEval
     largest_step_m = std::max(largest_step_m, frame.result.odometry_step_m);
   if (largest_step_m > 0)
     verdict.warnings.push_back(name + ": " + explainStep("the odometry", largest_step_m));
+  for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
+    const auto fault = static_cast<OdometryFault>(i);
+    if (run.odometry_faults[i] == 0 || !isWorthWarning(fault)) continue;
+    verdict.warnings.push_back(name + ": the odometry " + explain(fault) + " (" + nameOf(fault) +
+                               ": " + std::to_string(run.odometry_faults[i]) + ")");
+  }
   if (run.landmarks.empty()) {
     verdict.warnings.push_back(
         "no landmark came out, so the poses are the odometry's: images too dark, blurred or plain, "

@@ -115,6 +115,10 @@ std::optional<ObserverState> fromOdometryMessage(const nav_msgs::Odometry& messa
   state.stamp_ns = toNanoseconds(message.header.stamp);
   state.T_odom_base = *pose;
   state.covariance = covariance;
+  const auto& v = message.twist.twist.linear;
+  const auto& w = message.twist.twist.angular;
+  state.twist_base << v.x, v.y, v.z, w.x, w.y, w.z;
+  state.twist_covariance = ConstCovarianceMap(message.twist.covariance.data());
   return state;
 }
 

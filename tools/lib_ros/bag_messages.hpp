@@ -34,8 +34,7 @@ geometry_msgs::TransformStamped toTransformMessage(const Eigen::Isometry3d& T_pa
 std::vector<nav_msgs::Odometry> toOdometryMessages(const std::vector<ObserverState>& states,
                                                    const std::string& odom_frame,
                                                    const std::string& base_frame);
-/// @return nothing when pose, twist or their covariances are not finite: the twist is not used, but
-/// the nodelets drop such a message, and offline gives what they give
+/// @return nothing when pose, twist or their covariances are not finite, as the nodelets
 std::optional<ObserverState> fromOdometryMessage(const nav_msgs::Odometry& message);
 
 }  // namespace ardrone_vslam

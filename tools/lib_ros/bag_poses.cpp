@@ -13,6 +13,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "ardrone_vslam/observer_adapter.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "bag_messages.hpp"
 #include "bag_read_message.hpp"
@@ -85,7 +86,7 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
     const auto state = fromOdometryMessage(*message);
     if (!state) {
       ++not_finite;
-    } else if (isTooFar(state->T_odom_base.translation())) {
+    } else if (ObserverAdapter::isBeyondAllJumps(*state)) {
       ++too_far;
     } else if (!odometry.states.empty() && state->stamp_ns < odometry.states.back().stamp_ns) {
       ++backward;

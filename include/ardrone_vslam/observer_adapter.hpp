@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_faults.hpp"
+#include "ardrone_vslam/parameters.hpp"
+
+namespace ardrone_vslam {
+
+enum class ObserverMode { kPose, kTwist };
+template <>
+struct EnumNames<ObserverMode> {
+  static constexpr std::array<const char*, 2> kNames{"pose", "twist"};
+};
+
+enum class ObserverHeight { kPose, kTwist };
+template <>
+struct EnumNames<ObserverHeight> {
+  static constexpr std::array<const char*, 2> kNames{"pose", "twist"};
+};
+
+/// Which part of the odometry's messages is believed.
+struct ObserverAdapterConfig {
+  ObserverMode mode = ObserverMode::kPose;
+  ObserverHeight height = ObserverHeight::kPose;
+};
+
+template <class Visitor>
+void visitParameters(ObserverAdapterConfig& c, Visitor&& visit) {
+  visit(
+      ParameterInfo{"observer_mode", "choice", 0, 0,
+                    "pose: the odometry's position is believed; twist: it is integrated anew from "
+                    "the twist (axes of base) and the orientation, for drivers that integrate "
+                    "wrongly (ardrone_autonomy's yaw is mirrored); not with observer_fusion"},
+      c.mode);
+  visit(ParameterInfo{"observer_height", "choice", 0, 0,
+                      "observer_mode twist: z is the pose's, or integrated like x and y"},
+        c.height);
+}
+
+/// Odometry messages -> the states that ObserverBuffer is given. Recognises what drivers do wrong,
+/// repairs what it can and counts it. Deterministic: the stamps are its only clock.
+class ObserverAdapter {
+ public:
+  explicit ObserverAdapter(const ObserverAdapterConfig& config);
+
+  /// One message, as it came: its position may be out of bounds. From the first burst of equal
+  /// stamps on, messages are held until the next stamp comes, to be spread over the gap before.
+  /// @param ready  gets the states that are ready, stamps ascending; none, one or a burst
+  /// @return why this message, or one held before it, is not used; else kAccepted
+  ObserverBuffer::Push push(const ObserverState& message, std::vector<ObserverState>& ready);
+
+  /// What is held, when no further message will come.
+  ObserverBuffer::Push flush(std::vector<ObserverState>& ready);
+
+  /// Whether the position is too far out even for a driver that integrates from the epoch:
+  /// nonsense.
+  static bool isBeyondAllJumps(const ObserverState& message);
+
+  const OdometryFaultCounts& faults() const { return faults_; }
+
+ private:
+  void count(OdometryFault fault) { ++faults_[static_cast<std::size_t>(fault)]; }
+  void beginAnew();
+  ObserverBuffer::Push adapt(const ObserverState& message, std::vector<ObserverState>& ready);
+  bool follows(const ObserverState& message);
+  Eigen::Vector3d wayByTwist_m(const ObserverState& message) const;
+  void watchTwist(const ObserverState& message, const Eigen::Vector3d& raw_way_m);
+  double heightByTwist_m(const ObserverState& message, double vertical_way_m) const;
+
+  ObserverAdapterConfig config_;
+  OdometryFaultCounts faults_{};
+  WholeMetresWatch whole_metres_;
+
+  bool is_bursting_ = false;  // a burst has been seen since the stamps began
+  std::vector<ObserverState> held_;
+  std::int64_t newest_ns_ = 0;              // of the messages; 0: none
+  std::optional<ObserverState> last_;       // message that was used, its stamp spread
+  std::optional<ObserverState> candidate_;  // message that jumped, until one agrees with it
+  Eigen::Vector3d position_odom_m_ = Eigen::Vector3d::Zero();  // last answer
+  Eigen::Vector3d offset_odom_m_ = Eigen::Vector3d::Zero();    // of the answers from the messages
+  double without_twist_m_ = 0;  // way of the poses while the twist is zero
+};
+
+}  // namespace ardrone_vslam

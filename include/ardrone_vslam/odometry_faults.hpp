@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "ardrone_vslam/parameters.hpp"
+
+namespace ardrone_vslam {
+
+/// What drivers do wrong with odometry, beyond single messages that cannot be used.
+enum class OdometryFault {
+  kNoCovariance,  ///< messages whose position covariance is all zero
+  kJump,          ///< the position jumped by kilometres
+  kReset,         ///< the position began anew at the origin
+  kRestart,       ///< the stamps began anew
+  kWholeMetres,   ///< steps of a height that comes in whole metres
+  kBurst,         ///< several messages with one stamp
+  kHole,          ///< nothing for so long that the twist no longer tells the way
+  kNoTwist,       ///< metres on end that the poses moved with a twist of zeros
+};
+template <>
+struct EnumNames<OdometryFault> {
+  static constexpr std::array<const char*, 8> kNames{"no_covariance", "jump",  "reset", "restart",
+                                                     "whole_metres",  "burst", "hole",  "no_twist"};
+};
+constexpr std::size_t kOdometryFaultCount = EnumNames<OdometryFault>::kNames.size();
+
+/// How often each was seen, by the enumerators' order.
+using OdometryFaultCounts = std::array<std::uint64_t, kOdometryFaultCount>;
+
+/// Whether users should be told: many sound drivers give no covariance, which is only counted.
+bool isWorthWarning(OdometryFault fault);
+
+/// A sentence's end for users, its subject the odometry: what is wrong, what is done, what helps.
+const char* explain(OdometryFault fault);
+
+/// Tells heights in whole metres (a driver that divides integers) from a height that is constant.
+class WholeMetresWatch {
+ public:
+  /// One height, in order. @return whether it is a step of whole metres after others
+  bool see(double height_m);
+  /// Whether all heights of late were whole metres, and not the same.
+  bool isWhole() const { return is_whole_; }
+
+ private:
+  static constexpr int kFewest = 10;
+
+  int count_ = 0;  // whole ones on end
+  double last_m_ = 0;
+  bool is_whole_ = false;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/odometry_faults.hpp"
+
+#include <cmath>
+
+namespace ardrone_vslam {
+
+bool isWorthWarning(OdometryFault fault) {
+  return fault != OdometryFault::kNoCovariance;
+}
+
+const char* explain(OdometryFault fault) {
+  switch (fault) {
+    case OdometryFault::kNoCovariance:
+      return "gives no position covariance: its noise is that of walk_m_per_sqrt_m and _s (thesis: "
+             "observer_noise_m_per_sqrt_m and _s)";
+    case OdometryFault::kJump:
+      return "jumped by kilometres and stayed there (ardrone_autonomy does when it is started in "
+             "flight): the position goes on from where it was";
+    case OdometryFault::kReset:
+      return "began anew at its origin: the position goes on from where it was; do not restart or "
+             "reset the driver in flight";
+    case OdometryFault::kRestart:
+      return "has stamps that began anew (a bag plays again, the clock was set back): it is taken "
+             "as a new flight";
+    case OdometryFault::kWholeMetres:
+      return "has heights in whole metres (ardrone_autonomy before 1.4.1): update the driver; "
+             "until "
+             "then observer_mode twist smooths them, and height is known to a metre only";
+    case OdometryFault::kBurst:
+      return "sends several messages with one stamp: they are spread over the gap before, and come "
+             "one stamp later for it; set realtime_navdata in the driver, as its launch file does";
+    case OdometryFault::kHole:
+      return "was silent for more than a second, and the way flown in that time is lost: check the "
+             "radio link and `rostopic hz`";
+    case OdometryFault::kNoTwist:
+      return "has a twist of zeros although its pose moves: set observer_mode to pose";
+  }
+  return "";
+}
+
+bool WholeMetresWatch::see(double height_m) {
+  if (height_m != std::round(height_m)) {
+    *this = {};
+    return false;
+  }
+  const bool is_step = count_ > 0 && height_m != last_m_;
+  if (count_ < kFewest) ++count_;
+  last_m_ = height_m;
+  if (!is_step || count_ < kFewest) return false;
+  is_whole_ = true;
+  return true;
+}
+
+}  // namespace ardrone_vslam
