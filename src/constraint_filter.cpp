@@ -90,6 +90,7 @@ void ConstraintFilter::predict(const ObserverState& observer,
                                const std::optional<OdometryStep>& step) {
   const bool is_kept = newest_is_keyframe_ || newest().id == reference_id_;
   state_.propagate(observer, step);
+  if (step) trusted_T_map_odom_.translation() -= trusted_T_map_odom_.linear() * step->step_odom_m;
   if (!is_kept) state_.removeFrame(state_.frames().size() - 2);
   newest_is_keyframe_ = false;
   watchForContradiction();

@@ -13,6 +13,7 @@ constexpr double kMemory_s = 0.1;          // the velocity's
 constexpr double kAcceleration_m_s2 = 10;  // more than a camera drone's
 constexpr double kSlack_m = 0.25;          // noise of positions
 constexpr double kStampSlack = 0.5;        // of the way: stamps jitter by a share of their interval
+constexpr double kLonger = 0.5;            // of what is allowed for: than the way so far
 constexpr double kDeviations = 5;          // by the observer's own covariance
 constexpr double kFrozen_m = 1e-9;         // less than any odometry moves in flight
 constexpr double kFlying_m_s = 0.3;        // nothing stops at once
@@ -45,11 +46,14 @@ std::optional<OdometryStep> OdometryStepWatch::see(const ObserverState& state) {
                         kAcceleration_m_s2 * (kMemory_s + stepping_s_ + dt_s) * dt_s +
                         kDeviations * std::sqrt(growth_m2(last, state));
   const Eigen::Vector3d excess_m = way_m - expected_m;
-  if (has_velocity_ && stepping_s_ < kLongest_s && excess_m.norm() > most_m) {
+  // A way no longer than the speed explains is none: a car may stop, or a recording turn round.
+  const bool is_long = way_m.norm() > expected_m.norm() + kLonger * most_m;
+  const bool is_other = excess_m.norm() > most_m;
+  if (has_velocity_ && stepping_s_ < kLongest_s && is_other && is_long) {
     stepping_s_ += dt_s;
     return OdometryStep{expected_m, excess_m, most_m / 3};
   }
-  const bool is_anew = !has_velocity_ || stepping_s_ >= kLongest_s;
+  const bool is_anew = !has_velocity_ || is_other;
   const double share = is_anew ? 1 : 1 - std::exp(-dt_s / kMemory_s);
   velocity_odom_m_s_ += share * (way_m / dt_s - velocity_odom_m_s_);
   has_velocity_ = true;

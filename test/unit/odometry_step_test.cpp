@@ -49,6 +49,12 @@ TEST_F(OdometryStepTest, DronesCarsAndGapsTakeNoSteps) {
   EXPECT_FALSE(see(2.9, 4.0)) << "and a stop in the next";
 }
 
+TEST_F(OdometryStepTest, ACarThatStopsOrARecordingThatTurnsRoundTakesNone) {
+  for (int i = 0; i < 10; ++i) ASSERT_FALSE(see(0.1 * i, 1.5 * i));
+  for (int i = 1; i < 10; ++i) EXPECT_FALSE(see(0.9 + 0.1 * i, 13.5 - 1.5 * i)) << i;
+  EXPECT_FALSE(see(1.9, 0)) << "standing";
+}
+
 TEST_F(OdometryStepTest, WhatTheObserverSaysOfItselfIsBelieved) {
   for (int i = 0; i < 10; ++i) ASSERT_FALSE(see(0.1 * i, 0.1 * i, 0.01));
   EXPECT_FALSE(see(1.0, 3, 1));
