@@ -13,10 +13,10 @@ constexpr double kMemory_s = 0.1;          // the velocity's
 constexpr double kAcceleration_m_s2 = 10;  // more than a camera drone's
 constexpr double kSlack_m = 0.25;          // noise of positions
 constexpr double kStampSlack = 0.5;        // of the way: stamps jitter by a share of their interval
-constexpr double kLonger = 0.5;            // of what is allowed for: than the way so far
 constexpr double kDeviations = 5;          // by the observer's own covariance
 constexpr double kFrozen_m = 1e-9;         // less than any odometry moves in flight
 constexpr double kFlying_m_s = 0.3;        // nothing stops at once
+constexpr double kShortestFreeze_s = 0.5;  // a message may come twice
 constexpr double kLongestFreeze_s = 10;    // then the whole map is in question anyway
 
 double growth_m2(const ObserverState& from, const ObserverState& to) {
@@ -40,14 +40,15 @@ std::optional<OdometryStep> OdometryStepWatch::see(const ObserverState& state) {
     frozen_s_ += dt_s;
     return std::nullopt;
   }
-  const double lost_m = speed_m_s * std::min(std::exchange(frozen_s_, 0), kLongestFreeze_s);
+  const double frozen_s = std::min(std::exchange(frozen_s_, 0), kLongestFreeze_s);
+  const double lost_m = frozen_s < kShortestFreeze_s ? 0 : speed_m_s * frozen_s;
   const Eigen::Vector3d expected_m = velocity_odom_m_s_ * dt_s;
   const double most_m = kSlack_m + kStampSlack * expected_m.norm() +
                         kAcceleration_m_s2 * (kMemory_s + stepping_s_ + dt_s) * dt_s +
                         kDeviations * std::sqrt(growth_m2(last, state));
   const Eigen::Vector3d excess_m = way_m - expected_m;
   // A way no longer than the speed explains is none: a car may stop, or a recording turn round.
-  const bool is_long = way_m.norm() > expected_m.norm() + kLonger * most_m;
+  const bool is_long = way_m.norm() > expected_m.norm() + most_m;
   const bool is_other = excess_m.norm() > most_m;
   if (has_velocity_ && stepping_s_ < kLongest_s && is_other && is_long) {
     stepping_s_ += dt_s;

@@ -51,8 +51,10 @@ TEST_F(OdometryStepTest, DronesCarsAndGapsTakeNoSteps) {
 
 TEST_F(OdometryStepTest, ACarThatStopsOrARecordingThatTurnsRoundTakesNone) {
   for (int i = 0; i < 10; ++i) ASSERT_FALSE(see(0.1 * i, 1.5 * i));
-  for (int i = 1; i < 10; ++i) EXPECT_FALSE(see(0.9 + 0.1 * i, 13.5 - 1.5 * i)) << i;
-  EXPECT_FALSE(see(1.9, 0)) << "standing";
+  EXPECT_FALSE(see(1.0, 14.2)) << "half way on, half way back";
+  for (int i = 2; i < 10; ++i) EXPECT_FALSE(see(0.9 + 0.1 * i, 15.7 - 1.5 * i)) << i;
+  EXPECT_FALSE(see(1.9, 2.2)) << "standing";
+  EXPECT_FALSE(see(2.0, 0.7)) << "a message came twice";
 }
 
 TEST_F(OdometryStepTest, WhatTheObserverSaysOfItselfIsBelieved) {
