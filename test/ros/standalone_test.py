@@ -28,7 +28,9 @@ class Standalone(unittest.TestCase):
         statuses = [s for s in drone.status.all() if s.images > 0]
         self.assertLessEqual(max(s.features for s in statuses), 200)
         self.assertGreater(max(s.features for s in statuses), 100)
-        self.assertEqual(statuses[-1].state, Status.LOCALISED)
+        # The default estimator: too short a flight to come back to anything.
+        self.assertEqual(statuses[-1].state, Status.TRACKING)
+        self.assertGreater(statuses[-1].landmarks, 0)
 
 
 if __name__ == "__main__":
