@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace ardrone_vslam {
@@ -102,6 +101,10 @@ std::optional<std::size_t> ConstraintFilter::frameOf(std::uint32_t id) const {
   return indexOf(state_.frames(), id);
 }
 
+std::optional<std::size_t> ConstraintFilter::anchorOf(std::uint32_t id) const {
+  return indexOf(state_.anchors(), id);
+}
+
 Eigen::Isometry3d ConstraintFilter::T_map_base() const {
   Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();
   T_map_base.linear() = newest().R_map_base * state_.R_mounting().transpose();
@@ -132,10 +135,6 @@ Matrix6d ConstraintFilter::covariance() const {
 
 double ConstraintFilter::scaleDeviation() const {
   return std::sqrt(state_.covariance()(WindowState::kScale, WindowState::kScale));
-}
-
-std::optional<std::size_t> ConstraintFilter::anchorOf(std::uint32_t id) const {
-  return indexOf(state_.anchors(), id);
 }
 
 bool ConstraintFilter::isKeyframe(const ImageFeatures& features) {
@@ -173,43 +172,6 @@ const std::vector<UsedTrack>& ConstraintFilter::track(const ImageFeatures& featu
             config_.track_deviation_px / features.focal_length_px);
   if (is_full) dropOldest();
   return used_;
-}
-
-void ConstraintFilter::chooseAnchor() {
-  if (const auto frame = frameOf(anchor_id_)) {
-    const WindowPose& anchor = state_.frames()[*frame];
-    const double way_m = (newest().position_map - anchor.position_map).norm();
-    const double turn_rad =
-        Eigen::AngleAxisd(newest().R_map_base.transpose() * anchor.R_map_base).angle();
-    if (way_m < config_.anchor_spacing * point_distance_m_ &&
-        turn_rad < config_.anchor_turn_deg * M_PI / 180)
-      return;
-  }
-  anchor_id_ = newest().id;
-  moves_.begin(newest());
-}
-
-std::vector<AnchorMove> ConstraintFilter::takeMoves(double focal_length_px) {
-  constexpr double kUnseen_px = 0.3;
-  return moves_.take(state_, point_distance_m_, kUnseen_px / focal_length_px);
-}
-
-std::vector<AnchorDrift> ConstraintFilter::drifts() const {
-  const int n = state_.frameCoordinate(state_.frames().size() - 1);
-  std::vector<AnchorDrift> drifts;
-  const auto add = [&](const WindowPose& pose, int a) {
-    const Matrix6d relative = state_.relativeCovariance(n, a);
-    drifts.push_back({pose.id, std::max(relative.topLeftCorner<3, 3>().trace() / 3, 0.0),
-                      std::max(relative.bottomRightCorner<3, 3>().trace() / 3, 0.0)});
-  };
-  for (std::size_t i = 0; i < state_.anchors().size(); ++i)
-    add(state_.anchors()[i], state_.anchorCoordinate(i));
-  for (std::size_t i = 0; i < state_.frames().size(); ++i)
-    add(state_.frames()[i], state_.frameCoordinate(i));
-  // The frame that rest is told by may be older than anchors.
-  std::sort(drifts.begin(), drifts.end(),
-            [](const AnchorDrift& a, const AnchorDrift& b) { return a.anchor_id < b.anchor_id; });
-  return drifts;
 }
 
 bool ConstraintFilter::hasKnownBaseline(TrackViews views) const {
@@ -272,33 +234,6 @@ void ConstraintFilter::useTracks(const std::vector<FinishedTrack>& finished, dou
   const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
   std::nth_element(distances_m.begin(), middle, distances_m.end());
   point_distance_m_ = *middle;
-}
-
-void ConstraintFilter::dropOldest() {
-  const auto& frames = state_.frames();
-  const std::size_t oldest = frames.front().id == reference_id_ && !reference_is_keyframe_ ? 1 : 0;
-  const std::uint32_t id = frames[oldest].id;
-  tracks_.dropFrame(id);
-  if (anchors_in_use_.erase(id) == 0) {
-    state_.removeFrame(oldest);
-    return;
-  }
-  state_.makeAnchor(oldest);
-  if (static_cast<int>(state_.anchors().size()) > config_.max_anchors) joinAnchors();
-}
-
-void ConstraintFilter::joinAnchors() {
-  const auto& anchors = state_.anchors();
-  std::size_t nearest = 1;
-  double shortest_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < anchors.size(); ++i) {
-    const double way_m = (anchors[i].position_map - anchors[i - 1].position_map).norm();
-    if (way_m >= shortest_m) continue;
-    shortest_m = way_m;
-    nearest = i;
-  }
-  moves_.join(anchors[nearest], anchors[nearest - 1].id);
-  state_.removeAnchor(nearest);
 }
 
 }  // namespace ardrone_vslam
