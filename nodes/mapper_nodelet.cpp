@@ -233,6 +233,7 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   totals_.heights_tilted = heights_->tilted();
   if (result.height == HeightOutcome::kRejected) ++totals_.heights_rejected;
   noteStep(result.odometry_step_m);
+  noteDistrust(result.state);
   has_answer_ = true;
   if (result.state == SlamState::kNotFinite) return refuseResult(result, *frame.features);
   answered_ns_ = result.stamp_ns;

@@ -39,6 +39,8 @@ class MapperNodelet : public nodelet::Nodelet {
   /// Says once that the odometry is too fast to be in metres.
   void noteSpeed(const ObserverState& state);
   void noteStep(double step_m);
+  /// Says that the camera is left out.
+  void noteDistrust(SlamState state);
   /// What is wrong with the ranges once images have been without for seconds; else empty.
   std::string missingRange() const;
   /// Every second.

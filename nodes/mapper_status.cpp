@@ -36,6 +36,12 @@ void MapperNodelet::noteStep(double step_m) {
   if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
 }
 
+void MapperNodelet::noteDistrust(SlamState state) {
+  if (state != SlamState::kDistrusted) return;
+  const std::string sentence = explain(state);
+  if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
+}
+
 void MapperNodelet::noteOdometryFaults() {
   const OdometryFaultCounts& faults = adapter_->faults();
   for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {

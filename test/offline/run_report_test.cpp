@@ -278,6 +278,16 @@ TEST(RunReport, OdometryThatStepsOrFreezesIsCountedAndAWarning) {
   EXPECT_NE(verdict.warnings[1].find("2.5 m"), std::string::npos);
 }
 
+TEST(RunReport, ImagesAtWhichTheCameraIsDistrustedAreCountedAndAWarning) {
+  RunResult run = someRun();
+  run.frames[1].result.state = SlamState::kDistrusted;
+  const RunEvaluation evaluation = evaluate(run, straightTruth());
+  EXPECT_EQ(summaryOf(run, evaluation, {"s", "drone", 1, "constraint"})["frames_distrusted"], 1);
+  const RunVerdict verdict = judgeRun("flight", run, evaluation, false);
+  ASSERT_EQ(verdict.warnings.size(), 1U);
+  EXPECT_NE(verdict.warnings[0].find("contradict each other"), std::string::npos);
+}
+
 TEST(RunReport, TheOdometrysFaultsAreCountedAndWarnedOf) {
   RunResult run = someRun();
   run.odometry_faults[static_cast<std::size_t>(OdometryFault::kBurst)] = 12;

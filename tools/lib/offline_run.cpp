@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "offline_run.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <future>
 #include <utility>
@@ -149,6 +150,12 @@ RunResult BackEnd::finish() {
   run_.heights_tilted = heights_.tilted();
   run_.landmarks = slam_.landmarks().all();
   return std::move(run_);
+}
+
+std::int64_t countDistrusted(const RunResult& run) {
+  return std::count_if(run.frames.begin(), run.frames.end(), [](const RunFrame& frame) {
+    return frame.result.state == SlamState::kDistrusted;
+  });
 }
 
 }  // namespace ardrone_vslam

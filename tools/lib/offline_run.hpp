@@ -53,6 +53,9 @@ struct RunResult {
   double scale_error = 0;       ///< the one drawn for the observer
 };
 
+/// Images at which the watchdog left the camera out.
+std::int64_t countDistrusted(const RunResult& run);
+
 /// Called with the number of images done, from the calling thread.
 using Progress = std::function<void(std::size_t)>;
 

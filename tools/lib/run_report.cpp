@@ -250,6 +250,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
       std::count_if(run.frames.begin(), run.frames.end(),
                     [](const RunFrame& f) { return f.result.odometry_step_m > 0; });
   summary["odometry_froze"] = run.odometry_froze;
+  summary["frames_distrusted"] = countDistrusted(run);
   for (std::size_t i = 0; i < kOdometryFaultCount; ++i)
     summary["odometry_faults"][EnumNames<OdometryFault>::kNames[i]] = run.odometry_faults[i];
   summary["profile"] = label.profile;

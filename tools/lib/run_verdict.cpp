@@ -109,6 +109,11 @@ RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEval
     largest_step_m = std::max(largest_step_m, frame.result.odometry_step_m);
   if (largest_step_m > 0)
     verdict.warnings.push_back(name + ": " + explainStep("the odometry", largest_step_m));
+  const auto distrusted = countDistrusted(run);
+  if (distrusted > 0) {
+    verdict.warnings.push_back(name + ": distrusted at " + std::to_string(distrusted) +
+                               " images: " + explain(SlamState::kDistrusted));
+  }
   for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
     const auto fault = static_cast<OdometryFault>(i);
     if (run.odometry_faults[i] == 0 || !isWorthWarning(fault)) continue;
