@@ -110,14 +110,6 @@ TEST_F(FrameMatcherTest, ARestartForgetsTheRunBeforeWhicheverInputComesFirst) {
   EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
 }
 
-TEST_F(FrameMatcherTest, WaitingFramesOfAnotherCameraAreCounted) {
-  matcher_.addFeatures(featuresAt(kSecond_ns), 0);
-  matcher_.dropWaiting();
-  matcher_.addObserver(observerAt(kSecond_ns, 0));
-  EXPECT_FALSE(matcher_.next(0, usable));
-  EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
-}
-
 TEST(OdometryMiss, EachReasonNamesTheTopic) {
   using Lookup = ObserverBuffer::Lookup;
   std::set<std::string> sentences;
