@@ -202,6 +202,21 @@ bool ConstraintFilter::hasKnownBaseline(TrackViews views) const {
   return across_m2 < squared(config_.baseline_uncertainty) * length_m2;
 }
 
+double ConstraintFilter::stretchDeviation(TrackViews views,
+                                          const Eigen::Vector3d& camera_base) const {
+  const WindowPose& first = state_.frames()[views.front().frame];
+  const WindowPose& last = state_.frames()[views.back().frame];
+  const Eigen::Vector3d baseline = last.position_map + last.R_map_base * camera_base -
+                                   first.position_map - first.R_map_base * camera_base;
+  const double length_m = baseline.norm();
+  const Eigen::Vector3d along_base = last.R_map_base.transpose() * baseline / length_m;
+  constexpr int kBias = WindowState::kBias;
+  const double variance =
+      along_base.dot(state_.covariance().block<3, 3>(kBias, kBias) * along_base);
+  const double time_s = static_cast<double>(last.stamp_ns - first.stamp_ns) * 1e-9;
+  return std::sqrt(variance) * time_s / length_m;
+}
+
 std::optional<FloorHeight> ConstraintFilter::floorOf(TrackViews views) const {
   if (!config_.height.floor_points) return std::nullopt;
   constexpr double kDown = 0.7;  // cosine: 45 degrees
@@ -264,7 +279,8 @@ void ConstraintFilter::useTracks(const std::vector<FinishedTrack>& finished,
     if (!point) continue;
     const Eigen::Matrix3d by_frames = covarianceByFrames(state_, camera.camera_base, c.track->views,
                                                          point->position_map, *frameOf(anchor_id_));
-    used_.push_back({*c.track, *point, anchor_id_, point->covariance_m2 + by_frames});
+    used_.push_back({*c.track, *point, anchor_id_, point->covariance_m2 + by_frames,
+                     stretchDeviation(c.track->views, camera.camera_base)});
     distances_m.push_back((point->position_map - newest().position_map).norm());
   }
   if (used_.empty()) return;

@@ -158,6 +158,8 @@ void Slam::State::moveLandmarks() {
 }
 
 bool Slam::State::isWellKnown(const UsedTrack& one) const {
+  // What all points of a slow or turning camera share would show only when it is elsewhere.
+  if (one.stretch_deviation > 0.5 * config.constraint_filter.landmark_deviation) return false;
   const double distance_m = (one.point.position_map - view.origin_map()).norm();
   return std::sqrt(one.covariance_m2.trace()) <
          config.constraint_filter.landmark_deviation * distance_m;

@@ -155,6 +155,9 @@ struct UsedTrack {
   std::uint32_t anchor_id = 0;  ///< the frame whose error the point shares
   /// Of the point beside its anchor, by the noise of the rays and the errors of the frames.
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
+  /// By what share the odometry's velocity error may have stretched the baseline, and so all that
+  /// was seen along it.
+  double stretch_deviation = 0;
 };
 
 enum class FixOutcome {
@@ -243,6 +246,7 @@ class ConstraintFilter {
   std::optional<std::size_t> frameOf(std::uint32_t id) const;
   bool isKeyframe(const ImageFeatures& features);
   bool hasKnownBaseline(TrackViews views) const;
+  double stretchDeviation(TrackViews views, const Eigen::Vector3d& camera_base) const;
   /// With `floor_points`, of a track that ends below.
   std::optional<FloorHeight> floorOf(TrackViews views) const;
   void chooseAnchor();

@@ -24,7 +24,7 @@ struct WindowPose {
   /// velocity over its square. What is seen from here shares it.
   Eigen::Vector3d stretch_by_bias_s_m = Eigen::Vector3d::Zero();
   std::optional<double> height_m;  ///< above the floor, measured
-  double stretch = 1;  ///< by corrections of scale and bias, of what belongs to it
+  double stretch = 1;              ///< by corrections of scale and bias, of what belongs to it
 };
 
 /// Measurements r = H x + n of some error coordinates, compressed to H' W H and H' W r.

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A drone that turns on the spot, its camera at the nose, through the whole pipeline: what it makes
+// landmarks of is where they are, and nothing jumps.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "observer_model.hpp"
+#include "offline_run.hpp"
+#include "world_sequence.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr double kRate_hz = 15;
+
+struct Judged {
+  int landmarks = 0;
+  int at_wrong_depth = 0;     ///< by more than 30 % from where the camera was
+  double largest_jump_m = 0;  ///< of the position's error from image to image
+};
+
+class TurningDrone {
+ public:
+  TurningDrone() : world_(options()) {
+    T_world_map_ = world_.flight().pose(0) * world_.truth().poses()[0].T_map_base.inverse();
+    runFrontEnd(world_, {}, {}, 2,
+                [this](const TrackedFrame& frame) { frames_.push_back(frame.features); });
+  }
+
+  Judged fly(const std::string& profile, std::uint64_t seed) const {
+    ObserverBufferConfig buffer_config;
+    buffer_config.buffer_s = 100;
+    ObserverBuffer buffer(buffer_config);
+    const ObserverProfile drift =
+        loadObserverProfile(profile, ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");
+    for (const ObserverState& state : simulateObserver(world_.truth(), drift, seed).states)
+      buffer.push(state);
+    Slam slam(SlamConfig{}, world_.T_base_cam());
+    Judged judged;
+    std::set<std::uint32_t> known;
+    Eigen::Vector3d error_m = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      ObserverState observer;
+      EXPECT_EQ(buffer.at(frames_[i].stamp_ns, observer), ObserverBuffer::Lookup::kFound);
+      const Eigen::Isometry3d T_map_base = slam.process(frames_[i], observer).T_map_base;
+      const Eigen::Isometry3d& truth = world_.truth().poses()[i].T_map_base;
+      const Eigen::Vector3d now_m = T_map_base.translation() - truth.translation();
+      judged.largest_jump_m = std::max(judged.largest_jump_m, (now_m - error_m).norm());
+      error_m = now_m;
+      for (const Landmark& landmark : slam.landmarks().all()) {
+        if (!known.insert(landmark.id).second) continue;
+        ++judged.landmarks;
+        const double ratio = depthRatio(landmark.position_map, T_map_base, truth, i);
+        if (std::abs(ratio - 1) > 0.3) ++judged.at_wrong_depth;
+      }
+    }
+    return judged;
+  }
+
+ private:
+  static WorldOptions options() {
+    WorldOptions options;
+    options.flight = "pure_yaw";
+    options.duration_s = 30;
+    options.rate_hz = kRate_hz;
+    return options;
+  }
+
+  /// Distance of a point from where the camera is thought to be, over that of what is there truly.
+  double depthRatio(const Eigen::Vector3d& point_map, const Eigen::Isometry3d& T_map_base,
+                    const Eigen::Isometry3d& truth, std::size_t frame) const {
+    const Eigen::Vector3d seen_cam = (T_map_base * world_.T_base_cam()).inverse() * point_map;
+    const Eigen::Isometry3d T_world_cam = T_world_map_ * truth * world_.T_base_cam();
+    const auto range_m =
+        rangeAlong(world_.world().at(static_cast<double>(frame) / kRate_hz),
+                   T_world_cam.translation(), T_world_cam.linear() * seen_cam.normalized());
+    return range_m ? seen_cam.norm() / *range_m : 0;
+  }
+
+  WorldSequence world_;
+  Eigen::Isometry3d T_world_map_;
+  std::vector<ImageFeatures> frames_;
+};
+
+// The odometry's velocity error may be more than the nose's speed of 0.07 m/s, and then all depths
+// err by one factor: with landmarks in spite of that 1451 to 1797 of them were at 0.5 to 2.1 times
+// their distance with three of these seeds.
+TEST(PureYaw, NoLandmarkAtAWrongDepthAndNoJump) {
+  const TurningDrone drone;
+  for (const std::uint64_t seed : {1, 4, 5}) {
+    const Judged judged = drone.fly("drone", seed);
+    EXPECT_LE(judged.at_wrong_depth, judged.landmarks / 50) << "of " << judged.landmarks;
+    EXPECT_LT(judged.largest_jump_m, 0.25) << seed;  // measured: 0.24, where the first tracks are used
+  }
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
