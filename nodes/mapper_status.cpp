@@ -43,7 +43,7 @@ void MapperNodelet::noteDistrust(SlamState state) {
 }
 
 void MapperNodelet::noteOdometryFaults() {
-  const OdometryFaultCounts& faults = adapter_->faults();
+  const OdometryFaultCounts faults = odometryFaults();
   for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
     const auto fault = static_cast<OdometryFault>(i);
     if (faults[i] == odometry_faults_[i] || !isWorthWarning(fault)) continue;
@@ -121,7 +121,7 @@ void MapperNodelet::fillTotals(Status& status) const {
   status.heights_tilted = totals_.heights_tilted;
   status.heights_rejected = totals_.heights_rejected;
   status.odometry_steps = totals_.odometry_steps;
-  toStatus(adapter_->faults(), status);
+  toStatus(odometryFaults(), status);
   status.results_not_finite = totals_.results_not_finite;
   status.restarts = totals_.restarts;
 }
@@ -181,10 +181,11 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
   wrapper.add("images without odometry", totals_.dropped_no_odometry);
   wrapper.add("odometry messages refused", totals_.odometry_refused);
   wrapper.add("odometry steps", totals_.odometry_steps);
+  const OdometryFaultCounts faults = odometryFaults();
   for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
-    if (adapter_->faults()[i] > 0)
+    if (faults[i] > 0)
       wrapper.add(std::string("odometry fault ") + nameOf(static_cast<OdometryFault>(i)),
-                  adapter_->faults()[i]);
+                  faults[i]);
   }
   if (!covariance_fault_.empty()) wrapper.add("odometry covariance", covariance_fault_);
   if (speed_.absurd_m_s() > 0) {

@@ -25,7 +25,8 @@ class ReplayEqualsNodelets(unittest.TestCase):
         poses = Recorder("/vslam/pose", PoseWithCovarianceStamped)
         with tempfile.TemporaryDirectory() as out:
             subprocess.run([rospy.get_param("~replay"), rospy.get_param("~bag"), "--out", out,
-                            "--config", rospy.get_param("~config")], check=True)
+                            "--config", rospy.get_param("~config")]
+                           + rospy.get_param("~arguments", "").split(), check=True)
             offline = np.loadtxt(os.path.join(out, "fused.tum"))
         self.assertGreater(len(offline), 30)
         play([poses])

@@ -70,7 +70,9 @@ class BagFile : public BagSequence {
                   ? *options.camera
                   : readCameraInfo(bag_, topics.camera_info, options.rectified, warnings_);
     images_ = std::make_unique<BagImages>(bag_, topics, camera_, warnings_);
-    BagOdometry odometry = readOdometry(bag_, topics.odometry, warnings_);
+    BagOdometry odometry = options.drone_filter ? readNavdata(bag_, topics.navdata, topics.imu,
+                                                              *options.drone_filter, warnings_)
+                                                : readOdometry(bag_, topics.odometry, warnings_);
     ranges_ = readRanges(bag_, topics.range);
     truth_ = readTruth(bag_, topics.truth, warnings_);
     const std::string base = options.base_frame.empty() ? odometry.base_frame : options.base_frame;
@@ -84,6 +86,7 @@ class BagFile : public BagSequence {
     T_base_cam_ =
         options.T_base_cam ? *options.T_base_cam : readExtrinsics(bag_, base, withoutSlash(camera));
     observer_ = std::move(odometry.states);
+    observer_faults_ = odometry.faults;
     note_ = readObserverNote(bag_);
   }
 
@@ -99,6 +102,7 @@ class BagFile : public BagSequence {
   Eigen::Isometry3d T_base_cam() const override { return T_base_cam_; }
   const Trajectory& truth() const override { return truth_; }
   const std::vector<ObserverState>& observer() const override { return observer_; }
+  OdometryFaultCounts observerFaults() const override { return observer_faults_; }
   std::vector<RangeReading> ranges() const override { return ranges_; }
   ObserverNote observerNote() const override { return note_; }
   const std::vector<std::string>& warnings() const override { return warnings_; }
@@ -111,6 +115,7 @@ class BagFile : public BagSequence {
   Eigen::Isometry3d T_base_cam_;
   Trajectory truth_;
   std::vector<ObserverState> observer_;
+  OdometryFaultCounts observer_faults_{};
   std::vector<RangeReading> ranges_;
   ObserverNote note_;
   std::vector<std::string> warnings_;
