@@ -41,4 +41,8 @@ Checked<DroneImu> toDroneImu(const sensor_msgs::Imu& m) {
   return {imu, {}};
 }
 
+DroneCommandReading toDroneCommand(const geometry_msgs::Twist& m, std::int64_t received_ns) {
+  return {received_ns, {m.linear.x, m.linear.y}};
+}
+
 }  // namespace ardrone_vslam

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ardrone_vslam/Navdata.h>
+#include <geometry_msgs/Twist.h>
 #include <sensor_msgs/Imu.h>
 
 #include "ardrone_vslam/drone_observer.hpp"
@@ -17,5 +18,7 @@ constexpr const char* kObserverFrame = "observer_odom";
 /// zero, is not used. Values out of bounds are DroneObserver's to refuse.
 Checked<NavdataReading> toNavdataReading(const Navdata& message);
 Checked<DroneImu> toDroneImu(const sensor_msgs::Imu& message);
+/// @param received_ns  commands have no stamp
+DroneCommandReading toDroneCommand(const geometry_msgs::Twist& message, std::int64_t received_ns);
 
 }  // namespace ardrone_vslam

@@ -31,6 +31,8 @@ NavdataInput::NavdataInput(ros::NodeHandle nh, const DroneFilterConfig& config, 
       refuse_(std::move(refuse)),
       observer_(config),
       odometry_pub_(nh.advertise<nav_msgs::Odometry>("observer_odometry", kQueue)),
+      command_sub_(nh.subscribe("cmd_vel", kQueue, &NavdataInput::onCommand, this,
+                                ros::TransportHints().tcpNoDelay())),
       imu_sub_(nh.subscribe("imu", kQueue, &NavdataInput::onImu, this,
                             ros::TransportHints().tcpNoDelay())),
       navdata_sub_(nh.subscribe("navdata", kQueue, &NavdataInput::onNavdata, this,
@@ -53,6 +55,12 @@ void NavdataInput::onImu(const sensor_msgs::ImuConstPtr& message) {
   const std::string fault = explain(observer_.push(*imu.value, ready_));
   if (!fault.empty()) refuse_(imu_sub_.getTopic(), fault);
   publishReady();
+}
+
+void NavdataInput::onCommand(const geometry_msgs::TwistConstPtr& message) {
+  const std::int64_t now_ns = toNanoseconds(ros::Time::now());
+  const std::string fault = explain(observer_.push(toDroneCommand(*message, now_ns)));
+  if (!fault.empty()) refuse_(command_sub_.getTopic(), fault);
 }
 
 void NavdataInput::publishReady() {

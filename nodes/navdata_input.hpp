@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ardrone_vslam/Navdata.h>
+#include <geometry_msgs/Twist.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
 #include <sensor_msgs/Imu.h>
@@ -14,8 +15,8 @@
 
 namespace ardrone_vslam {
 
-/// The AR.Drone's navdata and IMU -> the package's own observer (observer_mode navdata). It is
-/// published (`observer_odometry`) and handed on as if it had been received.
+/// The AR.Drone's navdata, IMU and commands -> the package's own observer (observer_mode navdata).
+/// It is published (`observer_odometry`) and handed on as if it had been received.
 class NavdataInput {
  public:
   struct Frames {
@@ -38,6 +39,7 @@ class NavdataInput {
  private:
   void onNavdata(const NavdataConstPtr& message);
   void onImu(const sensor_msgs::ImuConstPtr& message);
+  void onCommand(const geometry_msgs::TwistConstPtr& message);
   void publishReady();
 
   Frames frames_;
@@ -46,6 +48,7 @@ class NavdataInput {
   DroneObserver observer_;
   std::vector<ObserverState> ready_;  // kept for its memory
   ros::Publisher odometry_pub_;
+  ros::Subscriber command_sub_;
   ros::Subscriber imu_sub_;
   ros::Subscriber navdata_sub_;
 };

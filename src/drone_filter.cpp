@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kRadPerDeg = M_PI / 180;
-constexpr double kHoleNoise = 0.5;         // m/s^2/sqrt(Hz), of accelerations nobody measured
+// Of accelerations that nobody measured [m/s^2/sqrt(Hz)].
+constexpr double kInterpolatedNoise = 0.5;
+constexpr double kCommandedNoise = 0.2;
 constexpr double kForceBiasTime_s = 600;   // in which the accelerometer's bias may become another
 constexpr double kEchoes_hz = 25;          // of the sonar; heights in between are no new ones
 constexpr double kLongestSample_s = 0.07;  // of a packet: 15 Hz
@@ -145,13 +147,16 @@ DroneFilter::Foreseen DroneFilter::drag(const State& x, const Eigen::Matrix3d& R
   return drag;
 }
 
-void DroneFilter::predict(const DroneMeasurement& measured, double dt_s, bool in_hole) {
+void DroneFilter::predict(const DroneMeasurement& measured, double dt_s, Known known) {
   const Covariance F = motionJacobian(x_, measured, dt_s);
   x_ = motion(x_, measured, dt_s);
   P_ = F * P_ * F.transpose();
-  const double known =
+  const double guessed = known == Known::kMeasured    ? 0
+                         : known == Known::kCommanded ? kCommandedNoise
+                                                      : kInterpolatedNoise;
+  const double measured_noise =
       std::hypot(config_.gust_m_s2_per_sqrt_hz, config_.force_noise_m_s2_per_sqrt_hz);
-  addNoise(dt_s, in_hole ? std::max(known, kHoleNoise) : known);
+  addNoise(dt_s, std::max(measured_noise, guessed));
 }
 
 void DroneFilter::rest(double dt_s) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "commanded_flight.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -15,8 +16,11 @@ constexpr std::int64_t kRestart_ns = 1'000'000'000;   // stamps further back are
 constexpr std::int64_t kLongestGap_ns = 100'000'000;  // that packets are spread over
 constexpr double kStep_s = 0.02;                      // of the integration
 constexpr double kHole_s = 0.1;                       // in which nobody knows what was done
-constexpr double kLongestHole_s = 1;                  // as the ObserverAdapter's
-constexpr double kLostSpeed_m_s = 1;                  // that a drone may have flown at beyond it
+constexpr double kCommandsKept_s = 5;
+constexpr double kCommandHolds_s = 0.5;  // the drone hovers when it is told nothing for longer
+constexpr double kRadPerDeg = M_PI / 180;
+constexpr double kLongestHole_s = 1;  // as the ObserverAdapter's
+constexpr double kLostSpeed_m_s = 1;  // that a drone may have flown at beyond it
 constexpr double kTurnNoise_rad_s = 0.01;
 constexpr double kLargestForce_m_s2 = 1e3;
 constexpr double kHighest_m = 1e4;
@@ -63,11 +67,12 @@ DroneMeasurement between(const DroneMeasurement& a, const DroneMeasurement& b, d
 }  // namespace
 
 DroneObserver::DroneObserver(const DroneFilterConfig& config)
-    : filter_(config), floor_(config.table_step_m) {}
+    : config_(config), filter_(config), floor_(config.table_step_m) {}
 
 void DroneObserver::beginAnew() {
   packets_.clear();
   imu_.clear();
+  commands_.clear();
   newest_imu_ns_ = newest_packet_ns_ = last_group_ns_ = 0;
   last_.reset();
   floor_.clear();
@@ -107,6 +112,16 @@ Push DroneObserver::push(const DroneImu& imu, std::vector<ObserverState>& ready)
   imu_.push_back(imu);
   while (seconds(imu.stamp_ns - imu_.front().stamp_ns) > kLongestHole_s) imu_.pop_front();
   release(ready);
+  return Push::kAccepted;
+}
+
+Push DroneObserver::push(const DroneCommandReading& command) {
+  if (!command.tilt.allFinite()) return Push::kNotFinite;
+  if (!commands_.empty() && command.stamp_ns < commands_.back().stamp_ns) commands_.clear();
+  commands_.push_back(command);
+  while (seconds(command.stamp_ns - commands_.front().stamp_ns) > kCommandsKept_s) {
+    commands_.pop_front();
+  }
   return Push::kAccepted;
 }
 
@@ -210,15 +225,47 @@ void DroneObserver::keepYaw(NavdataReading& packet, double dt_s) {
 
 void DroneObserver::fly(const NavdataReading& packet, double dt_s) {
   const double flown_s = std::min(dt_s, kLongestHole_s);
-  const int steps = static_cast<int>(std::ceil(flown_s / kStep_s - 1e-9));
-  for (int i = 0; i < steps; ++i) {
-    filter_.predict(between(last_->measured, packet.measured, (i + 0.5) / steps), flown_s / steps,
-                    dt_s > kHole_s);
+  if (dt_s > kHole_s) {
+    bridge(packet, flown_s);
+  } else {
+    const int steps = static_cast<int>(std::ceil(flown_s / kStep_s - 1e-9));
+    for (int i = 0; i < steps; ++i) {
+      filter_.predict(between(last_->measured, packet.measured, (i + 0.5) / steps),
+                      flown_s / steps);
+    }
   }
   const double lost_s = dt_s - flown_s;
   if (lost_s > 0) filter_.widen(kLostSpeed_m_s * lost_s, kLostSpeed_m_s);
   if (!packet.is_standing) filter_.updateVelocity(packet.measured, dt_s);
   if (packet.measured.height_m > 0) useHeight(packet, dt_s);
+}
+
+/// Across a hole, by what the drone was told; where that is unknown, too, from one attitude to the
+/// other.
+void DroneObserver::bridge(const NavdataReading& packet, double flown_s) {
+  using Known = DroneFilter::Known;
+  const std::int64_t oldest_ns = last_->stamp_ns - std::llround(kCommandHolds_s * 1e9);
+  auto next = std::find_if(commands_.begin(), commands_.end(),
+                           [&](const DroneCommandReading& c) { return c.stamp_ns >= oldest_ns; });
+  const bool is_told = next != commands_.end() && next->stamp_ns < packet.stamp_ns;
+  CommandedFlight commanded(last_->measured, config_.command_tilt_deg * kRadPerDeg,
+                            config_.command_time_s);
+  const int steps = static_cast<int>(std::ceil(flown_s / kStep_s - 1e-9));
+  const double dt_s = flown_s / steps;
+  DroneCommandReading command{oldest_ns, Eigen::Vector2d::Zero()};
+  for (int i = 0; i < steps; ++i) {
+    const DroneMeasurement guessed = between(last_->measured, packet.measured, (i + 0.5) / steps);
+    if (!is_told) {
+      filter_.predict(guessed, dt_s, Known::kInterpolated);
+      continue;
+    }
+    const std::int64_t now_ns = last_->stamp_ns + std::llround((i + 0.5) * dt_s * 1e9);
+    for (; next != commands_.end() && next->stamp_ns <= now_ns; ++next) command = *next;
+    if (seconds(now_ns - command.stamp_ns) > kCommandHolds_s) command.tilt.setZero();
+    filter_.predict(commanded.step(command.tilt, filter_.state().segment<3>(DroneFilter::kVelocity),
+                                   yawOf(guessed.R_odom_base), dt_s),
+                    dt_s, Known::kCommanded);
+  }
 }
 
 void DroneObserver::useHeight(const NavdataReading& packet, double dt_s) {

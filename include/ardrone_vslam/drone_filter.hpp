@@ -25,6 +25,8 @@ struct DroneFilterConfig {
   double gust_m_s2_per_sqrt_hz = 0.03;
   double height_noise_m = 0.02;
   double table_step_m = 0.15;
+  double command_tilt_deg = 12;
+  double command_time_s = 0.12;
 };
 
 template <class Visitor>
@@ -67,6 +69,13 @@ void visitParameters(DroneFilterConfig& c, Visitor&& visit) {
                       "a height that differs by more from what accelerometer and velocity foresee "
                       "is another floor (a table), no climb"},
         c.table_step_m);
+  visit(ParameterInfo{"navdata_command_tilt_deg", "deg", 0.1, 45,
+                      "tilt at a cmd_vel of 1 (the drone's euler_angle_max): where navdata has a "
+                      "hole, what it was told says how it flew"},
+        c.command_tilt_deg);
+  visit(ParameterInfo{"navdata_command_time_s", "s", 0.001, 10,
+                      "time constant with which roll and pitch follow, twice over"},
+        c.command_time_s);
 }
 
 /// What the drone measures at one time.
@@ -99,6 +108,8 @@ class DroneFilter {
     kYaw = 16,
     kSize = 17
   };
+  /// Where attitude and force of a time come from: of a hole they are guessed.
+  enum class Known { kMeasured, kCommanded, kInterpolated };
   using State = Eigen::Matrix<double, kSize, 1>;
   using Covariance = Eigen::Matrix<double, kSize, kSize>;
   using Rows2 = Eigen::Matrix<double, 2, kSize>;
@@ -114,8 +125,8 @@ class DroneFilter {
 
   /// At x = y = 0, its height that above the floor.
   void begin(const DroneMeasurement& measured);
-  /// Flies on for so long. @param in_hole  nothing is known of the time between
-  void predict(const DroneMeasurement& measured, double dt_s, bool in_hole);
+  /// Flies on for so long.
+  void predict(const DroneMeasurement& measured, double dt_s, Known known = Known::kMeasured);
   /// Stands still for so long.
   void rest(double dt_s);
   /// @param dt_s  since the measurement before: that of the sensors' noise

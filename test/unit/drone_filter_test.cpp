@@ -83,7 +83,7 @@ TEST_F(DroneFilterTest, TheCovarianceStaysOneWhateverIsMeasured) {
   filter.begin(anyMeasurement());
   for (int i = 0; i < 2000; ++i) {
     const DroneMeasurement m = anyMeasurement();
-    filter.predict(m, 0.005, i % 100 == 0);
+    filter.predict(m, 0.005, static_cast<DroneFilter::Known>(i % 100 == 0));
     if (i % 3 == 0) filter.updateVelocity(m, 0.005);
     if (i % 5 == 0) filter.updateHeight(m.height_m, 0.005);
     if (i % 500 == 250) filter.changeFloor(i % 1000 == 250 ? 0.7 : 0.0);
@@ -113,7 +113,7 @@ TEST_F(DroneFilterTest, TheAccelerometerTellsTheSpeedByTheDrag) {
   m.force_base_m_s2 = m.R_odom_base.transpose() * Eigen::Vector3d(0, 0, kGravity_m_s2);
   filter.begin(m);
   for (int i = 0; i < 4000; ++i) {
-    filter.predict(m, 0.005, false);
+    filter.predict(m, 0.005);
     filter.updateVelocity(m, 0.005);
   }
   EXPECT_NEAR(filter.state()[DroneFilter::kVelocity], kSpeed_m_s, 0.05);

@@ -18,6 +18,8 @@ void BagOptions::addTo(CLI::App& app) {
       "of a bag, with observer_mode navdata; default: the only one there is");
   add("--imu-topic", bag_.imu_topic,
       "of a bag, with observer_mode navdata; default: the only one there is, if any");
+  add("--command-topic", bag_.command_topic,
+      "cmd_vel in a bag, with observer_mode navdata; default: the only Twist there is, if any");
   add("--truth-topic", bag_.truth_topic, "of a bag; default: the one called truth");
   add("--range-topic", bag_.range_topic,
       "of a bag, with use_range; default: the only one there is");

@@ -24,11 +24,10 @@ struct BagOdometry {
 BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
                          std::vector<std::string>& warnings);
 
-/// What the package's own observer makes of the AR.Drone's navdata and, unless its topic is empty,
-/// IMU, as the mapper nodelet does. `warnings` says how many messages it refused.
-BagOdometry readNavdata(const rosbag::Bag& bag, const std::string& navdata_topic,
-                        const std::string& imu_topic, const DroneFilterConfig& config,
-                        std::vector<std::string>& warnings);
+/// What the package's own observer makes of the AR.Drone's navdata and, where they are, IMU and
+/// commands, as the mapper nodelet does. `warnings` says how many messages it refused.
+BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
+                        const DroneFilterConfig& config, std::vector<std::string>& warnings);
 
 /// All of them, the ones without an echo, too.
 std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& topic);

@@ -4,6 +4,7 @@
 #include <ardrone_vslam/Navdata.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/Twist.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
@@ -110,6 +111,12 @@ template <>
 const SerialLayout& serialLayout<sensor_msgs::Imu>() {
   // orientation, turn rate and acceleration, each with a covariance
   static const SerialLayout kLayout{false, {{kStart, 1}, {(4 + 3 + 3 + 3 * 9) * 8, 0}}};
+  return kLayout;
+}
+
+template <>
+const SerialLayout& serialLayout<geometry_msgs::Twist>() {
+  static const SerialLayout kLayout{false, {{kTwist, 0}}};
   return kLayout;
 }
 

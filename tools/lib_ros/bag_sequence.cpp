@@ -70,9 +70,9 @@ class BagFile : public BagSequence {
                   ? *options.camera
                   : readCameraInfo(bag_, topics.camera_info, options.rectified, warnings_);
     images_ = std::make_unique<BagImages>(bag_, topics, camera_, warnings_);
-    BagOdometry odometry = options.drone_filter ? readNavdata(bag_, topics.navdata, topics.imu,
-                                                              *options.drone_filter, warnings_)
-                                                : readOdometry(bag_, topics.odometry, warnings_);
+    BagOdometry odometry = options.drone_filter
+                               ? readNavdata(bag_, topics, *options.drone_filter, warnings_)
+                               : readOdometry(bag_, topics.odometry, warnings_);
     ranges_ = readRanges(bag_, topics.range);
     truth_ = readTruth(bag_, topics.truth, warnings_);
     const std::string base = options.base_frame.empty() ? odometry.base_frame : options.base_frame;

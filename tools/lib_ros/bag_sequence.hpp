@@ -20,6 +20,7 @@ struct BagReadOptions {
   std::optional<DroneFilterConfig> drone_filter;
   std::string navdata_topic;  ///< ardrone_autonomy/Navdata
   std::string imu_topic;      ///< sensor_msgs/Imu; there may be none
+  std::string command_topic;  ///< geometry_msgs/Twist; there may be none
   std::string truth_topic;    ///< PoseStamped, PoseWithCovarianceStamped or Odometry, of base
   std::string range_topic;    ///< sensor_msgs/Range; read only with use_range
   bool use_range = false;

@@ -17,6 +17,7 @@ const char* const kCameraInfo = "sensor_msgs/CameraInfo";
 const char* const kOdometry = "nav_msgs/Odometry";
 const char* const kRange = "sensor_msgs/Range";
 const char* const kImu = "sensor_msgs/Imu";
+const char* const kTwist = "geometry_msgs/Twist";
 
 /// One role that a topic of the bag can play.
 struct Role {
@@ -127,6 +128,8 @@ void chooseNavdata(const TopicChooser& chooser, const BagReadOptions& options,
     chooser.refuseMissing(navdata, "record the driver's, or set observer_mode to twist or pose");
   }
   topics.imu = chooser.choose({"IMU", "--imu-topic", {kImu}}, options.imu_topic, any);
+  topics.command =
+      chooser.choose({"commands", "--command-topic", {kTwist}}, options.command_topic, any);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct ChosenTopics {
   std::string odometry;
   std::string navdata;
   std::string imu;
+  std::string command;
   std::string truth;
   std::string range;
 };
