@@ -116,7 +116,6 @@ class DriverRecording {
     }();
     return sequence;
   }
-
   TemporaryFolder folder_;
   rosbag::Bag bag_;
 };
