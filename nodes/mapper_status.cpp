@@ -94,7 +94,12 @@ void MapperNodelet::publishWaiting() {
   } else {
     status.state = Status::WAITING_FOR_ODOMETRY;
     status.state_name = "waiting_for_odometry";
-    status.reason = explain(matcher_->lastMiss(), odometry_sub_.getTopic());
+    const ObserverBuffer::Lookup miss = matcher_->lastMiss();
+    status.reason =
+        navdata_ && miss == ObserverBuffer::Lookup::kEmpty
+            ? "no navdata has come on " + odometry_sub_.getTopic() +
+                  " (ardrone_autonomy/Navdata): start the driver, or remap `navdata` to its topic"
+            : explain(miss, odometry_sub_.getTopic());
   }
   if (isReminderDue(++seconds_waiting_)) {
     NODELET_WARN_STREAM(status.state_name << ": " << status.reason);

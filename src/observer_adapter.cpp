@@ -92,7 +92,8 @@ Push ObserverAdapter::push(const ObserverState& message, std::vector<ObserverSta
   }
   const bool is_first = newest_ns_ == 0;
   if (!is_first && message.stamp_ns <= newest_ns_ - kRestart_ns) {
-    count(OdometryFault::kRestart);
+    // Of navdata the DroneObserver has counted it.
+    if (config_.mode != ObserverMode::kNavdata) count(OdometryFault::kRestart);
     beginAnew();
   } else if (!is_first && message.stamp_ns < newest_ns_) {
     return Push::kBackwardStamp;
