@@ -77,6 +77,9 @@ nav_msgs::Odometry toOdometryMessage(const FrameResult& result, const Frames& fr
                                      const ObserverState& observer);
 /// Live odometry seen from map; the twist (of base, axes of base) is the observer's.
 nav_msgs::Odometry toOdometryMessage(const MapState& state, const Frames& frames);
+/// The observer's state as a driver would send it.
+nav_msgs::Odometry toOdometryMessage(const ObserverState& state, const std::string& odom_frame,
+                                     const std::string& base_frame);
 PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
                                    const Frames& frames);
 /// Fills the state and the counts of one frame; leaves stage times and totals alone.

@@ -164,6 +164,17 @@ nav_msgs::Odometry toOdometryMessage(const MapState& state, const Frames& frames
   return message;
 }
 
+nav_msgs::Odometry toOdometryMessage(const ObserverState& state, const std::string& odom_frame,
+                                     const std::string& base_frame) {
+  nav_msgs::Odometry message;
+  message.header = headerOf(state.stamp_ns, odom_frame);
+  message.child_frame_id = base_frame;
+  message.pose.pose = toPose(state.T_odom_base);
+  toRowMajor(state.covariance, message.pose.covariance);
+  fillTwist(state.twist_base, state.twist_covariance, message.twist);
+  return message;
+}
+
 PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
                                    const Frames& frames) {
   PoseCorrection message;

@@ -75,4 +75,22 @@ std::string explain(ObserverBuffer::Lookup miss, const std::string& odometry_top
   return {};
 }
 
+std::string explain(ObserverBuffer::Push answer, const ObserverState& message) {
+  switch (answer) {
+    case ObserverBuffer::Push::kAccepted:
+      return {};
+    case ObserverBuffer::Push::kNotFinite:
+      return "it is not finite";
+    case ObserverBuffer::Push::kOutOfRange: {
+      const std::string fault = rangeFault(message);
+      return fault.empty() ? "its position jumped by kilometres" : fault;
+    }
+    case ObserverBuffer::Push::kDuplicateStamp:
+      return "its stamp is that of the message before";
+    case ObserverBuffer::Push::kBackwardStamp:
+      return "its stamp is before that of the message before; stamps must ascend";
+  }
+  return {};
+}
+
 }  // namespace ardrone_vslam

@@ -60,4 +60,7 @@ class FrameMatcher {
 /// A sentence for users: why an image has no odometry, and what helps.
 std::string explain(ObserverBuffer::Lookup miss, const std::string& odometry_topic);
 
+/// Why an odometry message is not used; empty when it is.
+std::string explain(ObserverBuffer::Push answer, const ObserverState& message);
+
 }  // namespace ardrone_vslam

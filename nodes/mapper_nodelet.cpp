@@ -13,25 +13,6 @@ constexpr double kTick_s = 0.05;                // how late the end of a wait ma
 constexpr std::uint32_t kOdometryQueue = 2000;  // 10 s at 200 Hz, while the mapper is busy
 constexpr std::uint32_t kRangeQueue = 500;
 
-/// Why an odometry message is not used; empty when it is.
-std::string explain(ObserverBuffer::Push answer, const ObserverState& message) {
-  switch (answer) {
-    case ObserverBuffer::Push::kAccepted:
-      return {};
-    case ObserverBuffer::Push::kNotFinite:
-      return "it is not finite";
-    case ObserverBuffer::Push::kOutOfRange: {
-      const std::string fault = rangeFault(message);
-      return fault.empty() ? "its position jumped by kilometres" : fault;
-    }
-    case ObserverBuffer::Push::kDuplicateStamp:
-      return "its stamp is that of the message before";
-    case ObserverBuffer::Push::kBackwardStamp:
-      return "its stamp is before that of the message before; stamps must ascend";
-  }
-  return {};
-}
-
 double now_s() {
   return ros::SteadyTime::now().toSec();
 }
@@ -58,12 +39,35 @@ void MapperNodelet::onInit() {
   map_timer_ = every(1.0 / node_config_.map_publish_hz, [this] {
     if (slam_) outputs_->publishMap(slam_->landmarks(), frames_.map);
   });
-  odometry_sub_ = nh.subscribe("odometry", kOdometryQueue, &MapperNodelet::onOdometry, this,
-                               ros::TransportHints().tcpNoDelay());
+  subscribeObserver();
   if (config_.height_input.use_range)
     range_sub_ = nh.subscribe("range", kRangeQueue, &MapperNodelet::onRange, this);
   features_sub_ = nh.subscribe("features", static_cast<std::uint32_t>(node_config_.queue_size),
                                &MapperNodelet::onFeatures, this);
+}
+
+void MapperNodelet::subscribeObserver() {
+  if (config_.observer_adapter.mode != ObserverMode::kNavdata) {
+    odometry_sub_ =
+        getNodeHandle().subscribe("odometry", kOdometryQueue, &MapperNodelet::onOdometry, this,
+                                  ros::TransportHints().tcpNoDelay());
+    return;
+  }
+  const auto refuse = [this](const std::string& topic, const std::string& fault) {
+    ++totals_.odometry_refused;
+    warn(topic, fault);
+  };
+  navdata_ = std::make_unique<NavdataInput>(
+      getNodeHandle(), config_.drone_filter,
+      NavdataInput::Frames{node_config_.odom_frame, node_config_.base_frame, tf_prefix_},
+      [this](const nav_msgs::OdometryConstPtr& odometry) { onOdometry(odometry); }, refuse);
+  odometry_sub_ = navdata_->subscriber();
+}
+
+OdometryFaultCounts MapperNodelet::odometryFaults() const {
+  OdometryFaultCounts faults = adapter_->faults();
+  if (navdata_) add(navdata_->faults(), faults);
+  return faults;
 }
 
 void MapperNodelet::readParameters() {

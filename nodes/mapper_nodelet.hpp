@@ -12,6 +12,7 @@
 #include "frame_matcher.hpp"
 #include "mapper_outputs.hpp"
 #include "mounting.hpp"
+#include "navdata_input.hpp"
 #include "node_config.hpp"
 #include "speed_watch.hpp"
 #include "stage_clock.hpp"
@@ -27,6 +28,9 @@ class MapperNodelet : public nodelet::Nodelet {
  private:
   void onInit() override;
   void readParameters();
+
+  /// odometry, or navdata in its place.
+  void subscribeObserver();
 
   void onFeatures(const FeaturesConstPtr& features);
   void onOdometry(const nav_msgs::OdometryConstPtr& odometry);
@@ -45,6 +49,7 @@ class MapperNodelet : public nodelet::Nodelet {
   std::string missingRange() const;
   /// Every second.
   void remindOfRange();
+  OdometryFaultCounts odometryFaults() const;
   /// Says what the adapter has found since this was called last.
   void noteOdometryFaults();
   /// What of a message is ready goes to the matcher. @return the sentence when it is not used
@@ -85,6 +90,7 @@ class MapperNodelet : public nodelet::Nodelet {
   std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
   std::unique_ptr<MapperOutputs> outputs_;
 
+  std::unique_ptr<NavdataInput> navdata_;  // observer_mode navdata
   std::unique_ptr<ObserverAdapter> adapter_;
   std::vector<ObserverState> ready_;       // from the adapter; kept for its memory
   OdometryFaultCounts odometry_faults_{};  // those that were said

@@ -43,7 +43,7 @@ void MapperNodelet::noteDistrust(SlamState state) {
 }
 
 void MapperNodelet::noteOdometryFaults() {
-  const OdometryFaultCounts& faults = adapter_->faults();
+  const OdometryFaultCounts faults = odometryFaults();
   for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
     const auto fault = static_cast<OdometryFault>(i);
     if (faults[i] == odometry_faults_[i] || !isWorthWarning(fault)) continue;
@@ -94,7 +94,12 @@ void MapperNodelet::publishWaiting() {
   } else {
     status.state = Status::WAITING_FOR_ODOMETRY;
     status.state_name = "waiting_for_odometry";
-    status.reason = explain(matcher_->lastMiss(), odometry_sub_.getTopic());
+    const ObserverBuffer::Lookup miss = matcher_->lastMiss();
+    status.reason =
+        navdata_ && miss == ObserverBuffer::Lookup::kEmpty
+            ? "no navdata has come on " + odometry_sub_.getTopic() +
+                  " (ardrone_autonomy/Navdata): start the driver, or remap `navdata` to its topic"
+            : explain(miss, odometry_sub_.getTopic());
   }
   if (isReminderDue(++seconds_waiting_)) {
     NODELET_WARN_STREAM(status.state_name << ": " << status.reason);
@@ -121,7 +126,7 @@ void MapperNodelet::fillTotals(Status& status) const {
   status.heights_tilted = totals_.heights_tilted;
   status.heights_rejected = totals_.heights_rejected;
   status.odometry_steps = totals_.odometry_steps;
-  toStatus(adapter_->faults(), status);
+  toStatus(odometryFaults(), status);
   status.results_not_finite = totals_.results_not_finite;
   status.restarts = totals_.restarts;
   status.camera_changes = totals_.camera_changes;
@@ -182,10 +187,11 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
   wrapper.add("images without odometry", totals_.dropped_no_odometry);
   wrapper.add("odometry messages refused", totals_.odometry_refused);
   wrapper.add("odometry steps", totals_.odometry_steps);
+  const OdometryFaultCounts faults = odometryFaults();
   for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
-    if (adapter_->faults()[i] > 0)
+    if (faults[i] > 0)
       wrapper.add(std::string("odometry fault ") + nameOf(static_cast<OdometryFault>(i)),
-                  adapter_->faults()[i]);
+                  faults[i]);
   }
   if (!covariance_fault_.empty()) wrapper.add("odometry covariance", covariance_fault_);
   if (speed_.absurd_m_s() > 0) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "frame_matcher.hpp"
 #include "frame_names.hpp"
 #include "params.hpp"
 
@@ -45,6 +46,7 @@ void ObserverFusionNodelet::readParameters() {
   try {
     reader.finish();
     fusion_ = std::make_unique<LateFusion>(config_);
+    adapter_ = std::make_unique<ObserverAdapter>(config_.observer_adapter);
   } catch (const ConfigError& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;
@@ -60,22 +62,10 @@ void ObserverFusionNodelet::readParameters() {
 
 void ObserverFusionNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
   has_odometry_ = true;
-  if (!push(*odometry)) return;
-  const std::string& base = node_config_.base_frame;
-  frames_.base = withTfPrefix(tf_prefix_, base.empty() ? odometry->child_frame_id : base);
-  const bool is_corrected = useWaiting();
-  if (const auto state = fusion_->newest()) live_pub_.publish(toOdometryMessage(*state, frames_));
-  if (is_corrected) publishRepropagated();
-}
-
-bool ObserverFusionNodelet::push(const nav_msgs::Odometry& odometry) {
-  const auto checked = toObserverState(odometry);
-  if (!checked.value) {
-    refuseOdometry(checked.fault);
-    return false;
-  }
-  const ObserverState& state = *checked.value;
-  if (fusion_->newestStamp_ns() - state.stamp_ns >= StampGuard::kRestart_ns) {
+  const auto checked = toUnboundedState(*odometry);
+  if (!checked.value) return refuseOdometry(checked.fault);
+  const ObserverState& message = *checked.value;
+  if (fusion_->newestStamp_ns() - message.stamp_ns >= StampGuard::kRestart_ns) {
     ++restarts_;
     NODELET_WARN_STREAM(
         "stamps on " << odometry_sub_.getTopic()
@@ -84,23 +74,20 @@ bool ObserverFusionNodelet::push(const nav_msgs::Odometry& odometry) {
     fusion_->clear();
     waiting_.clear();
   }
-  switch (fusion_->push(state)) {
-    case ObserverBuffer::Push::kAccepted:
-      return true;
-    case ObserverBuffer::Push::kNotFinite:
-      refuseOdometry("it is not finite");
-      break;
-    case ObserverBuffer::Push::kOutOfRange:
-      refuseOdometry(rangeFault(state));
-      break;
-    case ObserverBuffer::Push::kDuplicateStamp:
-      refuseOdometry("its stamp is that of the message before");
-      break;
-    case ObserverBuffer::Push::kBackwardStamp:
-      refuseOdometry("its stamp is before that of the message before; stamps must ascend");
-      break;
-  }
-  return false;
+  const std::string& base = node_config_.base_frame;
+  frames_.base = withTfPrefix(tf_prefix_, base.empty() ? odometry->child_frame_id : base);
+  ready_.clear();
+  const std::string fault = ardrone_vslam::explain(adapter_->push(message, ready_), message);
+  if (!fault.empty()) refuseOdometry(fault);
+  for (const ObserverState& state : ready_) take(state);
+}
+
+void ObserverFusionNodelet::take(const ObserverState& state) {
+  const std::string fault = ardrone_vslam::explain(fusion_->push(state), state);
+  if (!fault.empty()) return refuseOdometry(fault);
+  const bool is_corrected = useWaiting();
+  if (const auto live = fusion_->newest()) live_pub_.publish(toOdometryMessage(*live, frames_));
+  if (is_corrected) publishRepropagated();
 }
 
 void ObserverFusionNodelet::onCorrection(const PoseCorrectionConstPtr& message) {
@@ -169,7 +156,8 @@ std::string ObserverFusionNodelet::explain(LateFusion::Answer answer,
       return "its stamp is not after that of the correction in use";
     case LateFusion::Answer::kOtherOdometry:
       return text("its observer_pose is not where ", odometry_sub_.getTopic(),
-                  " was at its stamp; remap odometry to the mapper's topic");
+                  " was at its stamp; remap odometry to the mapper's topic, and set observer_mode "
+                  "and observer_height as the mapper's");
     case LateFusion::Answer::kBad:
       return faultOf(correction);
     case LateFusion::Answer::kUsed:

@@ -6,8 +6,10 @@
 
 #include <deque>
 #include <memory>
+#include <vector>
 
 #include "ardrone_vslam/late_fusion.hpp"
+#include "ardrone_vslam/observer_adapter.hpp"
 #include "conversions.hpp"
 #include "node_config.hpp"
 #include "stamp_guard.hpp"
@@ -27,8 +29,8 @@ class ObserverFusionNodelet : public nodelet::Nodelet {
   void onCorrection(const PoseCorrectionConstPtr& correction);
   void onSecond();
 
-  /// @return whether the state was taken into the buffer
-  bool push(const nav_msgs::Odometry& odometry);
+  /// One state from the adapter: into the buffer, and out as seen from map.
+  void take(const ObserverState& state);
   /// What is wrong with the frames of a correction, and what helps; empty when nothing is.
   std::string frameFault(const PoseCorrection& correction) const;
   /// Uses the corrections whose odometry has come. @return whether there was one
@@ -54,6 +56,8 @@ class ObserverFusionNodelet : public nodelet::Nodelet {
   ros::WallTimer second_timer_;
   std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
 
+  std::unique_ptr<ObserverAdapter> adapter_;
+  std::vector<ObserverState> ready_;  // from the adapter; kept for its memory
   std::unique_ptr<LateFusion> fusion_;
   std::deque<LateCorrection> waiting_;  // for their odometry; stamps ascend
   Frames frames_;                       // base is empty until the first odometry; odom is not used

@@ -92,7 +92,8 @@ Push ObserverAdapter::push(const ObserverState& message, std::vector<ObserverSta
   }
   const bool is_first = newest_ns_ == 0;
   if (!is_first && message.stamp_ns <= newest_ns_ - kRestart_ns) {
-    count(OdometryFault::kRestart);
+    // Of navdata the DroneObserver has counted it.
+    if (config_.mode != ObserverMode::kNavdata) count(OdometryFault::kRestart);
     beginAnew();
   } else if (!is_first && message.stamp_ns < newest_ns_) {
     return Push::kBackwardStamp;
@@ -101,9 +102,8 @@ Push ObserverAdapter::push(const ObserverState& message, std::vector<ObserverSta
     if (before && isRepeated(*before, message)) return Push::kDuplicateStamp;
     if (!is_bursting_ || held_.size() == 1) count(OdometryFault::kBurst);
     if (held_.empty()) {
-      // What shared the stamp has gone already; the next burst is held.
-      is_bursting_ = true;
-      return Push::kDuplicateStamp;
+      is_bursting_ = true;  // the next one is held
+      return absorb(message);
     }
     held_.push_back(message);
     return Push::kAccepted;
@@ -113,6 +113,26 @@ Push ObserverAdapter::push(const ObserverState& message, std::vector<ObserverSta
   if (!is_bursting_) return adapt(message, ready);
   held_.push_back(message);
   return answer;
+}
+
+/// Of a burst whose first message has been given out already: no state of its own. The first one
+/// counted for the whole gap before, of which all have equal shares.
+Push ObserverAdapter::absorb(const ObserverState& message) {
+  if (!last_ || last_->stamp_ns != message.stamp_ns || isJump(*last_, message)) {
+    return Push::kDuplicateStamp;
+  }
+  const Eigen::Vector3d before_m_s = speeds_m_s_ / absorbed_;
+  speeds_m_s_ += 0.5 * (velocity_odom_m_s(*last_) + velocity_odom_m_s(message));
+  ++absorbed_;
+  const Eigen::Vector3d missing_m = gap_s_ * (speeds_m_s_ / absorbed_ - before_m_s);
+  if (gap_s_ == 0) {  // the very first burst
+    position_odom_m_ = message.T_odom_base.translation() + offset_odom_m_;
+  } else if (config_.mode == ObserverMode::kTwist) {
+    position_odom_m_.head<2>() += missing_m.head<2>();
+    if (config_.height == ObserverHeight::kTwist) position_odom_m_.z() += missing_m.z();
+  }
+  last_ = message;
+  return Push::kAccepted;
 }
 
 Push ObserverAdapter::flush(std::vector<ObserverState>& ready) {
@@ -208,6 +228,9 @@ Push ObserverAdapter::adapt(const ObserverState& message, std::vector<ObserverSt
     state.covariance(2, 2) += kWholeMetreVariance_m2;
   }
   state.T_odom_base.translation() = position_m;
+  gap_s_ = last_ ? std::min(secondsBetween(*last_, message), kLongestWay_s) : 0;
+  speeds_m_s_ = 0.5 * (velocity_odom_m_s(last_ ? *last_ : message) + velocity_odom_m_s(message));
+  absorbed_ = 1;
   last_ = message;
   position_odom_m_ = position_m;
   ready.push_back(std::move(state));

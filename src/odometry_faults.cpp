@@ -5,8 +5,12 @@
 
 namespace ardrone_vslam {
 
+void add(const OdometryFaultCounts& counts, OdometryFaultCounts& sum) {
+  for (std::size_t i = 0; i < kOdometryFaultCount; ++i) sum[i] += counts[i];
+}
+
 bool isWorthWarning(OdometryFault fault) {
-  return fault != OdometryFault::kNoCovariance;
+  return fault != OdometryFault::kNoCovariance && fault != OdometryFault::kTableStep;
 }
 
 const char* explain(OdometryFault fault) {
@@ -35,6 +39,8 @@ const char* explain(OdometryFault fault) {
              "radio link and `rostopic hz`";
     case OdometryFault::kNoTwist:
       return "has a twist of zeros although its pose moves: set observer_mode to pose";
+    case OdometryFault::kTableStep:
+      return "measured its height above another floor than before (a table): z goes on as it was";
   }
   return "";
 }

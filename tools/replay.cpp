@@ -166,6 +166,13 @@ PipelineConfig configOf(const Options& given) {
 
 int run(const Options& o) {
   const PipelineConfig config = configOf(o);
+  const bool is_folder = std::filesystem::is_directory(o.input);
+  if (config.mapper.observer_adapter.mode == ObserverMode::kNavdata &&
+      (is_folder || !o.observer_profile.empty())) {
+    throw UsageError(o.input +
+                     ": observer_mode navdata needs a bag with the AR.Drone's navdata, and no "
+                     "--observer-profile; set it to pose or twist");
+  }
   if (!o.observer_profile.empty()) profileOfOption(o.observer_profile);
   const FrameSelection selection =
       asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });

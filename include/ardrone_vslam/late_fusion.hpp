@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ardrone_vslam/observer_adapter.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
 #include "ardrone_vslam/observer_noise.hpp"
 #include "ardrone_vslam/parameters.hpp"
@@ -18,6 +19,7 @@ namespace ardrone_vslam {
 /// names and defaults are those of the constraint filter.
 struct LateFusionConfig {
   ObserverBufferConfig observer;
+  ObserverAdapterConfig observer_adapter;  ///< of what is pushed: the mapper's
   double walk_m_per_sqrt_m = ObserverNoiseConfig{}.walk_m_per_sqrt_m;
   double walk_m_per_sqrt_s = ObserverNoiseConfig{}.walk_m_per_sqrt_s;
   double velocity_bias_m_s = ObserverNoiseConfig{}.velocity_bias_m_s;
@@ -31,6 +33,7 @@ struct LateFusionConfig {
 template <class Visitor>
 void visitParameters(LateFusionConfig& c, Visitor&& visit) {
   visitParameters(c.observer, visit);
+  visitParameters(c.observer_adapter, visit);
   visit(ParameterInfo{"walk_m_per_sqrt_m", "m/sqrt(m)", 0, 10,
                       "white odometry noise per square root of the way since the correction, where "
                       "the observer gives no covariance"},

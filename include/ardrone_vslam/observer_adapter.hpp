@@ -12,10 +12,10 @@
 
 namespace ardrone_vslam {
 
-enum class ObserverMode { kPose, kTwist };
+enum class ObserverMode { kPose, kTwist, kNavdata };
 template <>
 struct EnumNames<ObserverMode> {
-  static constexpr std::array<const char*, 2> kNames{"pose", "twist"};
+  static constexpr std::array<const char*, 3> kNames{"pose", "twist", "navdata"};
 };
 
 enum class ObserverHeight { kPose, kTwist };
@@ -36,7 +36,9 @@ void visitParameters(ObserverAdapterConfig& c, Visitor&& visit) {
       ParameterInfo{"observer_mode", "choice", 0, 0,
                     "pose: the odometry's position is believed; twist: it is integrated anew from "
                     "the twist (axes of base) and the orientation, for drivers that integrate "
-                    "wrongly (ardrone_autonomy's yaw is mirrored); not with observer_fusion"},
+                    "wrongly (ardrone_autonomy's yaw is mirrored); navdata: the package's own "
+                    "observer of the AR.Drone's topics `navdata` and `imu` takes the odometry's "
+                    "place. observer_fusion needs the same"},
       c.mode);
   visit(ParameterInfo{"observer_height", "choice", 0, 0,
                       "observer_mode twist: z is the pose's, or integrated like x and y"},
@@ -67,6 +69,7 @@ class ObserverAdapter {
  private:
   void count(OdometryFault fault) { ++faults_[static_cast<std::size_t>(fault)]; }
   void beginAnew();
+  ObserverBuffer::Push absorb(const ObserverState& message);
   ObserverBuffer::Push adapt(const ObserverState& message, std::vector<ObserverState>& ready);
   bool follows(const ObserverState& message);
   Eigen::Vector3d wayByTwist_m(const ObserverState& message) const;
@@ -84,6 +87,11 @@ class ObserverAdapter {
   std::optional<ObserverState> candidate_;  // message that jumped, until one agrees with it
   Eigen::Vector3d position_odom_m_ = Eigen::Vector3d::Zero();  // last answer
   Eigen::Vector3d offset_odom_m_ = Eigen::Vector3d::Zero();    // of the answers from the messages
+  // Of last_, should it be the first of a burst: the gap before it, sum and number of the mean
+  // speeds in it.
+  double gap_s_ = 0;
+  Eigen::Vector3d speeds_m_s_ = Eigen::Vector3d::Zero();
+  int absorbed_ = 1;
   double without_twist_m_ = 0;  // way of the poses while the twist is zero
 };
 

@@ -19,16 +19,20 @@ enum class OdometryFault {
   kBurst,         ///< several messages with one stamp
   kHole,          ///< nothing for so long that the twist no longer tells the way
   kNoTwist,       ///< metres on end that the poses moved with a twist of zeros
+  kTableStep,     ///< observer_mode navdata: another floor below, told from climbing
 };
 template <>
 struct EnumNames<OdometryFault> {
-  static constexpr std::array<const char*, 8> kNames{"no_covariance", "jump",  "reset", "restart",
-                                                     "whole_metres",  "burst", "hole",  "no_twist"};
+  static constexpr std::array<const char*, 9> kNames{"no_covariance", "jump",         "reset",
+                                                     "restart",       "whole_metres", "burst",
+                                                     "hole",          "no_twist",     "table_step"};
 };
 constexpr std::size_t kOdometryFaultCount = EnumNames<OdometryFault>::kNames.size();
 
 /// How often each was seen, by the enumerators' order.
 using OdometryFaultCounts = std::array<std::uint64_t, kOdometryFaultCount>;
+
+void add(const OdometryFaultCounts& counts, OdometryFaultCounts& sum);
 
 /// Whether users should be told: many sound drivers give no covariance, which is only counted.
 bool isWorthWarning(OdometryFault fault);

@@ -5,6 +5,7 @@
 
 #include "ardrone_vslam/association.hpp"
 #include "ardrone_vslam/constraint_filter.hpp"
+#include "ardrone_vslam/drone_filter.hpp"
 #include "ardrone_vslam/feature_map.hpp"
 #include "ardrone_vslam/height_input.hpp"
 #include "ardrone_vslam/landmark_map.hpp"
@@ -28,6 +29,7 @@ struct SlamConfig {
   bool planar = false;
   ObserverBufferConfig observer;
   ObserverAdapterConfig observer_adapter;
+  DroneFilterConfig drone_filter;
   HeightInputConfig height_input;
   AssociationConfig association;
   ThesisFilterConfig thesis_filter;
@@ -52,6 +54,7 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
       c.planar);
   visitParameters(c.observer, visit);
   visitParameters(c.observer_adapter, visit);
+  visitParameters(c.drone_filter, visit);
   visitParameters(c.height_input, visit);
   visitParameters(c.association, visit);
   visitParameters(c.thesis_filter, visit);

@@ -218,6 +218,27 @@ INSTANTIATE_TEST_SUITE_P(
                         [](auto& o) { o.twist.twist.linear.x = 1e300; }},
         SpoiledOdometry{"stamp is zero", [](auto& o) { o.header.stamp = ros::Time(); }}));
 
+TEST(OdometryConversion, AStateThereAndBack) {
+  ObserverState state;
+  state.stamp_ns = 5'000'000'007;
+  state.T_odom_base =
+      Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 2).normalized());
+  state.covariance.setConstant(0.5);
+  state.covariance(0, 4) = 7;
+  state.twist_base << 1, 2, 3, 4, 5, 6;
+  state.twist_covariance(1, 2) = 12;
+  const nav_msgs::Odometry message = toOdometryMessage(state, "observer_odom", "base");
+  EXPECT_EQ(message.header.frame_id, "observer_odom");
+  EXPECT_EQ(message.child_frame_id, "base");
+  const auto back = toUnboundedState(message).value;
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->stamp_ns, state.stamp_ns);
+  EXPECT_TRUE(back->T_odom_base.isApprox(state.T_odom_base, 1e-12));
+  EXPECT_EQ(back->covariance, state.covariance);
+  EXPECT_EQ(back->twist_base, state.twist_base);
+  EXPECT_EQ(back->twist_covariance, state.twist_covariance);
+}
+
 TEST(TimeConversion, RoundTripIsExact) {
   for (const std::int64_t stamp_ns :
        {std::int64_t{1}, std::int64_t{999'999'999}, std::int64_t{1'700'000'000'123'456'789}}) {

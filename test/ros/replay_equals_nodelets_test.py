@@ -11,6 +11,7 @@ import numpy as np
 import rospy
 import rostest
 from geometry_msgs.msg import PoseWithCovarianceStamped
+from nav_msgs.msg import Odometry
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from drone import Recorder, play  # noqa: E402
@@ -25,10 +26,12 @@ class ReplayEqualsNodelets(unittest.TestCase):
         poses = Recorder("/vslam/pose", PoseWithCovarianceStamped)
         with tempfile.TemporaryDirectory() as out:
             subprocess.run([rospy.get_param("~replay"), rospy.get_param("~bag"), "--out", out,
-                            "--config", rospy.get_param("~config")], check=True)
+                            "--config", rospy.get_param("~config")]
+                           + rospy.get_param("~arguments", "").split(), check=True)
             offline = np.loadtxt(os.path.join(out, "fused.tum"))
         self.assertGreater(len(offline), 30)
-        play([poses])
+        live = Recorder("/vslam/odometry_live", Odometry) if rospy.get_param("~observer_fusion", False) else None
+        play([poses, live] if live else [poses])
         last_s = offline[-1, 0]
         poses.wait(lambda p: p.header.stamp.to_sec() > last_s - 1e-4, PLAY_TIMEOUT_S)
         online = np.array([[p.header.stamp.to_sec(), p.pose.pose.position.x,
@@ -42,6 +45,19 @@ class ReplayEqualsNodelets(unittest.TestCase):
         # q and -q are the same orientation.
         same = np.abs((online[:, 4:] * offline[:, 4:]).sum(axis=1))
         np.testing.assert_allclose(same, 1, rtol=0, atol=1e-6)
+        if live:
+            self.check(live, online)
+
+    def check(self, live, fused):
+        """Corrections are of the odometry as observer_fusion has it: it goes on from the fused poses."""
+        last = live.wait(lambda o: o.header.stamp.to_sec() >= fused[-1, 0])
+        self.assertIsNotNone(last, "observer_fusion does not follow")
+        stamps_s = np.array([o.header.stamp.to_sec() for o in live.all()])
+        self.assertTrue((np.diff(stamps_s) > 0).all())
+        self.assertGreater(len(stamps_s), 3 * len(fused))
+        at = np.array([o.pose.pose.position.x for o in live.all()])
+        among = (fused[:, 0] >= stamps_s[0]) & (fused[:, 0] <= stamps_s[-1])
+        np.testing.assert_allclose(np.interp(fused[among, 0], stamps_s, at), fused[among, 1], atol=0.1)
 
 
 if __name__ == "__main__":

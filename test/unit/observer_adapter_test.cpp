@@ -257,7 +257,8 @@ TEST_F(ObserverAdapterTest, BurstsAreSpreadOverTheGapBefore) {
   for (const auto mode : {ObserverMode::kPose, ObserverMode::kTwist}) {
     feed(messagesOf(faults), mode);
     EXPECT_EQ(count(OdometryFault::kBurst), 1000U);
-    EXPECT_EQ(refused_, 5) << "of the first burst, before it is known as one";
+    EXPECT_EQ(refused_, 0);
+    // The first burst's first message is out before it is known as one.
     ASSERT_EQ(states_.size(), sound.size() - 5);
     for (std::size_t i = 1; i < states_.size(); ++i) {
       EXPECT_NEAR(static_cast<double>(states_[i].stamp_ns - sound[i + 5].stamp_ns), 0, 5);
@@ -265,7 +266,9 @@ TEST_F(ObserverAdapterTest, BurstsAreSpreadOverTheGapBefore) {
       EXPECT_EQ(states_[i].T_odom_base.matrix(), sound[i + 5].T_odom_base.matrix()) << i;
     }
   }
-  EXPECT_LT(worst_m(), 0.03) << "what the first burst loses";
+  EXPECT_LT(worst_m(), 0.03) << "the first burst's first message, 25 ms late";
+  states_.erase(states_.begin());
+  EXPECT_LT(worst_m(), 0.001) << "its way is not lost";
 }
 
 TEST_F(ObserverAdapterTest, AMessageSentTwiceIsRefusedAndIsNoBurst) {

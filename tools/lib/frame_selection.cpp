@@ -93,6 +93,7 @@ class SelectedSequence : public Sequence {
   const std::vector<ObserverState>& observer() const override { return observer_; }
   std::vector<RangeReading> ranges() const override { return ranges_; }
   ObserverNote observerNote() const override { return sequence_->observerNote(); }
+  OdometryFaultCounts observerFaults() const override { return sequence_->observerFaults(); }
 
  private:
   void restamp(const std::vector<std::size_t>& frames) {

@@ -57,7 +57,9 @@ std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
                 back_ends.process(frame);
                 if (progress) progress(++done);
               });
-  return back_ends.finish();
+  std::vector<RunResult> results = back_ends.finish();
+  for (RunResult& result : results) add(sequence.observerFaults(), result.odometry_faults);
+  return results;
 }
 
 }  // namespace ardrone_vslam

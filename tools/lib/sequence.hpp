@@ -12,6 +12,7 @@
 #include "ardrone_vslam/camera_model.hpp"
 #include "ardrone_vslam/height_input.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_faults.hpp"
 #include "trajectory.hpp"
 
 namespace ardrone_vslam {
@@ -52,6 +53,8 @@ class Sequence {
   virtual const Trajectory& truth() const = 0;
   /// The recorded observer; empty when there is none.
   virtual const std::vector<ObserverState>& observer() const = 0;
+  /// What was found of it already, beside what an ObserverAdapter will find.
+  virtual OdometryFaultCounts observerFaults() const { return {}; }
   /// What a range sensor under base read; empty when there is none.
   virtual std::vector<RangeReading> ranges() const { return {}; }
   /// How the recorded observer came about; empty when it is a real one or unknown.

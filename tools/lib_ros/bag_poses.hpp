@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ardrone_vslam/drone_observer.hpp"
 #include "ardrone_vslam/height_input.hpp"
 #include "bag_topics.hpp"
 #include "observer_model.hpp"
@@ -15,12 +16,18 @@ namespace ardrone_vslam {
 struct BagOdometry {
   std::vector<ObserverState> states;  ///< stamps may repeat, they do not go back
   std::string base_frame;             ///< child_frame_id without a leading slash
+  OdometryFaultCounts faults{};       ///< of the package's own observer
 };
 
 /// States that are not finite or go back are dropped; `warnings` says how many. Also warns when
 /// nothing moves.
 BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
                          std::vector<std::string>& warnings);
+
+/// What the package's own observer makes of the AR.Drone's navdata and, where they are, IMU and
+/// commands, as the mapper nodelet does. `warnings` says how many messages it refused.
+BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
+                        const DroneFilterConfig& config, std::vector<std::string>& warnings);
 
 /// All of them, the ones without an echo, too.
 std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& topic);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bag_read_message.hpp"
 
+#include <ardrone_vslam/Navdata.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/Twist.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
 #include <sensor_msgs/Range.h>
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
@@ -85,6 +88,35 @@ template <>
 const SerialLayout& serialLayout<nav_msgs::Odometry>() {
   static const SerialLayout kLayout{
       false, {{kStart, 1}, {0, 1}, {kPose + kCovariance + kTwist + kCovariance, 0}}};
+  return kLayout;
+}
+
+template <>
+const SerialLayout& serialLayout<Navdata>() {
+  // 22 numbers, seven arrays of the tags, the clock
+  static const SerialLayout kLayout{false,
+                                    {{kStart, 1},
+                                     {22 * kNumber, 4},
+                                     {0, 4},
+                                     {0, 4},
+                                     {0, 4},
+                                     {0, 4},
+                                     {0, 4},
+                                     {0, 4},
+                                     {kNumber, 0}}};
+  return kLayout;
+}
+
+template <>
+const SerialLayout& serialLayout<sensor_msgs::Imu>() {
+  // orientation, turn rate and acceleration, each with a covariance
+  static const SerialLayout kLayout{false, {{kStart, 1}, {(4 + 3 + 3 + 3 * 9) * 8, 0}}};
+  return kLayout;
+}
+
+template <>
+const SerialLayout& serialLayout<geometry_msgs::Twist>() {
+  static const SerialLayout kLayout{false, {{kTwist, 0}}};
   return kLayout;
 }
 

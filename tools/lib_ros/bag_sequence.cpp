@@ -44,7 +44,9 @@ class BagFile : public BagSequence {
     const ChosenTopics topics = chooseTopics(path, topicTypes(bag_), options);
     BagCameras cameras(bag_, topics.camera_info, options, warnings_);
     images_ = std::make_unique<BagImages>(bag_, topics, cameras, warnings_);
-    BagOdometry odometry = readOdometry(bag_, topics.odometry, warnings_);
+    BagOdometry odometry = options.drone_filter
+                               ? readNavdata(bag_, topics, *options.drone_filter, warnings_)
+                               : readOdometry(bag_, topics.odometry, warnings_);
     ranges_ = readRanges(bag_, topics.range);
     truth_ = readTruth(bag_, topics.truth, warnings_);
     const std::string base = options.base_frame.empty() ? odometry.base_frame : options.base_frame;
@@ -62,6 +64,7 @@ class BagFile : public BagSequence {
                                                            : Eigen::Isometry3d::Identity()});
     }
     observer_ = std::move(odometry.states);
+    observer_faults_ = odometry.faults;
     note_ = readObserverNote(bag_);
   }
 
@@ -79,6 +82,7 @@ class BagFile : public BagSequence {
   SequenceCamera cameraAt(std::size_t which) const override { return cameras_.at(which); }
   const Trajectory& truth() const override { return truth_; }
   const std::vector<ObserverState>& observer() const override { return observer_; }
+  OdometryFaultCounts observerFaults() const override { return observer_faults_; }
   std::vector<RangeReading> ranges() const override { return ranges_; }
   ObserverNote observerNote() const override { return note_; }
   const std::vector<std::string>& warnings() const override { return warnings_; }
@@ -92,6 +96,7 @@ class BagFile : public BagSequence {
   std::unique_ptr<BagImages> images_;
   Trajectory truth_;
   std::vector<ObserverState> observer_;
+  OdometryFaultCounts observer_faults_{};
   std::vector<RangeReading> ranges_;
   ObserverNote note_;
   std::vector<std::string> warnings_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ardrone_vslam/drone_filter.hpp"
 #include "sequence.hpp"
 
 namespace ardrone_vslam {
@@ -15,8 +16,13 @@ struct BagReadOptions {
   std::string image_topic;  ///< sensor_msgs/Image or CompressedImage
   std::string camera_info_topic;
   std::string odometry_topic;  ///< nav_msgs/Odometry
-  std::string truth_topic;     ///< PoseStamped, PoseWithCovarianceStamped or Odometry, of base
-  std::string range_topic;     ///< sensor_msgs/Range; read only with use_range
+  /// observer_mode navdata: instead of odometry, the package's own observer of these.
+  std::optional<DroneFilterConfig> drone_filter;
+  std::string navdata_topic;  ///< ardrone_autonomy/Navdata
+  std::string imu_topic;      ///< sensor_msgs/Imu; there may be none
+  std::string command_topic;  ///< geometry_msgs/Twist; there may be none
+  std::string truth_topic;    ///< PoseStamped, PoseWithCovarianceStamped or Odometry, of base
+  std::string range_topic;    ///< sensor_msgs/Range; read only with use_range
   bool use_range = false;
   std::string camera_frame;  ///< empty: the images' frame_id
   /// Empty: the odometry's child_frame_id; in a bag without odometry the camera's tf parent.

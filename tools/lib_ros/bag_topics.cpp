@@ -16,6 +16,8 @@ const char* const kCompressed = "sensor_msgs/CompressedImage";
 const char* const kCameraInfo = "sensor_msgs/CameraInfo";
 const char* const kOdometry = "nav_msgs/Odometry";
 const char* const kRange = "sensor_msgs/Range";
+const char* const kImu = "sensor_msgs/Imu";
+const char* const kTwist = "geometry_msgs/Twist";
 
 /// One role that a topic of the bag can play.
 struct Role {
@@ -115,6 +117,21 @@ std::string chooseCameraInfo(const TopicChooser& chooser, const TopicTypes& type
   return chosen;
 }
 
+/// The driver's own type and this package's differ in their name only.
+void chooseNavdata(const TopicChooser& chooser, const BagReadOptions& options,
+                   ChosenTopics& topics) {
+  const auto any = [](const std::string&) { return true; };
+  const Role navdata{
+      "navdata", "--navdata-topic", {"ardrone_autonomy/Navdata", "ardrone_vslam/Navdata"}};
+  topics.navdata = chooser.choose(navdata, options.navdata_topic, any);
+  if (topics.navdata.empty()) {
+    chooser.refuseMissing(navdata, "record the driver's, or set observer_mode to twist or pose");
+  }
+  topics.imu = chooser.choose({"IMU", "--imu-topic", {kImu}}, options.imu_topic, any);
+  topics.command =
+      chooser.choose({"commands", "--command-topic", {kTwist}}, options.command_topic, any);
+}
+
 }  // namespace
 
 TopicTypes topicTypes(const rosbag::Bag& bag) {
@@ -147,12 +164,14 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
   topics.truth = chooser.choose(truth, options.truth_topic, [](const std::string& topic) {
     return topic.find("truth") != std::string::npos;
   });
+  if (options.drone_filter) chooseNavdata(chooser, options, topics);
   const Role odometry{"odometry", "--odometry-topic", {kOdometry}};
-  topics.odometry =
-      chooser.choose(odometry, options.odometry_topic, [&topics](const std::string& topic) {
-        // What the mapper publishes is no observer.
-        return topic != topics.truth && !endsWith(topic, "odometry_fused");
-      });
+  if (!options.drone_filter)
+    topics.odometry =
+        chooser.choose(odometry, options.odometry_topic, [&topics](const std::string& topic) {
+          // What the mapper publishes is no observer.
+          return topic != topics.truth && !endsWith(topic, "odometry_fused");
+        });
   if (options.use_range) {
     topics.range = chooser.choose({"range", "--range-topic", {kRange}}, options.range_topic,
                                   [](const std::string&) { return true; });

@@ -20,6 +20,9 @@ struct ChosenTopics {
   bool is_compressed = false;
   std::string camera_info;
   std::string odometry;
+  std::string navdata;
+  std::string imu;
+  std::string command;
   std::string truth;
   std::string range;
 };
