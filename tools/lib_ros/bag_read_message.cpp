@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bag_read_message.hpp"
 
+#include <ardrone_vslam/Navdata.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
@@ -109,6 +110,22 @@ const SerialLayout& serialLayout<geometry_msgs::PoseWithCovarianceStamped>() {
 template <>
 const SerialLayout& serialLayout<tf2_msgs::TFMessage>() {
   static const SerialLayout kLayout{true, {{kStart, 1}, {0, 1}, {kPose, 0}}};
+  return kLayout;
+}
+
+template <>
+const SerialLayout& serialLayout<Navdata>() {
+  // Up to the motors; then the tags' arrays and the clock.
+  static const SerialLayout kLayout{false,
+                                    {{kStart, 1},
+                                     {20 * kNumber + 4 + kNumber, 4},
+                                     {0, 4},
+                                     {0, 4},
+                                     {0, 4},
+                                     {0, 4},
+                                     {0, 4},
+                                     {0, 4},
+                                     {kNumber, 0}}};
   return kLayout;
 }
 

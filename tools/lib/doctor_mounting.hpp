@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the camera is mounted, by how the images move when the odometry does.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "ardrone_vslam/observer_buffer.hpp"
+#include "doctor_tracks.hpp"
+
+namespace ardrone_vslam {
+
+/// Two images, and how base moved between them by the odometry.
+struct SeenMotion {
+  Eigen::Matrix3d R_before_now = Eigen::Matrix3d::Identity();  ///< of base
+  Eigen::Vector3d way_before_m = Eigen::Vector3d::Zero();      ///< of the camera, axes of base
+  double focal_length_px = 0;
+  struct Track {
+    Eigen::Vector3d before;  ///< bearings
+    Eigen::Vector3d now;
+  };
+  std::vector<Track> tracks;
+};
+
+/// Pairs of images about a quarter of a second apart that have tracks in common and odometry
+/// around both. @param odometry  stamps ascending
+/// @param lever_base_m  the camera's place on base
+/// @param offset_s  what to add to an image's stamp to be on the odometry's clock
+std::vector<SeenMotion> seenMotions(const std::vector<ImageFeatures>& images,
+                                    const std::vector<ObserverState>& odometry,
+                                    const Eigen::Vector3d& lever_base_m, double offset_s = 0);
+
+/// How far the tracks are from where the odometry would have taken them, at any depth beyond 0.3 m:
+/// mean over the motions of the mean over the tracks, each cut at `cut_px`.
+double misfit_px(const std::vector<SeenMotion>& motions, const Eigen::Matrix3d& R_base_cam,
+                 double cut_px);
+
+enum class MountingState {
+  kTooLittleMotion,  ///< too few pairs of images that move
+  kAmbiguous,        ///< other mountings explain the images nearly as well
+  kNoAgreement,      ///< none does
+  kFound
+};
+
+struct MountingEstimate {
+  MountingState state = MountingState::kTooLittleMotion;
+  Eigen::Matrix3d R_base_cam = Eigen::Matrix3d::Identity();  ///< the best one
+  double misfit_px = 0;                                      ///< of that
+  double misfit_told_px = 0;                                 ///< of what tf says
+  double misfit_rival_px = 0;  ///< of the next best that is another one
+  double off_rad = 0;          ///< between the best one and what tf says
+  double unsure_rad = 0;       ///< between what both halves of the motions say
+  std::size_t motions = 0;
+};
+
+/// Looks among the 24 turns of what tf says by quarter turns, and finer about the best of them.
+MountingEstimate estimateMounting(const std::vector<SeenMotion>& motions,
+                                  const Eigen::Matrix3d& R_base_cam_told);
+
+}  // namespace ardrone_vslam
