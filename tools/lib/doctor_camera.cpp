@@ -29,12 +29,16 @@ std::map<std::int64_t, std::size_t> byStamp(const DoctorRecording& recording) {
   return calibrations;
 }
 
-Finding judgeCentre(const CameraIntrinsics& c, const std::string& which) {
-  Finding finding{"calibration", Verdict::kOk, {}, {}};
-  // How far the principal point is from the middle, in image sizes.
+/// How far the principal point is from the middle, in image sizes.
+double offCentre(const CameraIntrinsics& c) {
   const double off_x = (c.cx_px + 0.5) / c.width_px - 0.5;
   const double off_y = (c.cy_px + 0.5) / c.height_px - 0.5;
-  const double off = std::max(std::abs(off_x), std::abs(off_y));
+  return std::max(std::abs(off_x), std::abs(off_y));
+}
+
+Finding judgeCentre(const CameraIntrinsics& c, const std::string& which) {
+  Finding finding{"calibration", Verdict::kOk, {}, {}};
+  const double off = offCentre(c);
   finding.text = text(which, c.width_px, "x", c.height_px, ", f = ", c.fx_px, " px, centre (",
                       c.cx_px, ", ", c.cy_px, ")");
   if (off > kFarOffCentre) {
@@ -110,6 +114,10 @@ std::optional<std::size_t> calibrationOf(const DoctorRecording& recording, std::
   return at->calibration;
 }
 
+bool isPlausible(const CameraIntrinsics& camera) {
+  return offCentre(camera) <= kFarOffCentre;
+}
+
 Finding checkPairing(const DoctorRecording& recording) {
   Finding finding{"camera_info", Verdict::kOk, {}, {}};
   if (recording.images.empty() || recording.camera_info_topic.empty()) {
@@ -146,7 +154,7 @@ Findings checkCalibrations(const DoctorRecording& recording) {
     }
     const Finding size = judgeSize(recording, i, which);
     findings.push_back(size.check.empty() ? judgeCentre(calibration.camera, which) : size);
-    findings.push_back(judgeLens(calibration.camera, which));
+    if (isPlausible(calibration.camera)) findings.push_back(judgeLens(calibration.camera, which));
   }
   return findings;
 }

@@ -15,6 +15,9 @@ Finding checkPairing(const DoctorRecording& recording);
 /// image (`lens`).
 Findings checkCalibrations(const DoctorRecording& recording);
 
+/// Whether it may be right for its size: a principal point near the middle.
+bool isPlausible(const CameraIntrinsics& camera);
+
 /// Whether frame, size or calibration change in the recording (`camera_switch`).
 Finding checkCameraSwitch(const DoctorRecording& recording);
 

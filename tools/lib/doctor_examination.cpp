@@ -54,6 +54,11 @@ void nameVehicle(const DoctorRecording& recording, const std::vector<ObserverSta
   } else if (meanSpeed_m_s(odometry) > kCar_m_s) {
     report.vehicle = "a car";
     report.config_file = "kitti.yaml";
+    // That file has a car's noise.
+    const auto isNoise = [](const SuggestedParameter& p) { return p.key.rfind("walk_", 0) == 0; };
+    report.parameters.erase(
+        std::remove_if(report.parameters.begin(), report.parameters.end(), isNoise),
+        report.parameters.end());
   }
 }
 
@@ -101,7 +106,9 @@ DoctorReport examine(const DoctorRecording& recording,
   const AdaptedOdometry odometry =
       adapt(recording, is_mirrored ? ObserverMode::kTwist : ObserverMode::kPose);
   findings.push_back(checkMoves(recording, tracks, odometry.states));
-  append(findings, checkDirections(recording, tracks, odometry.states, 0, report.static_transform));
+  const auto mountings = estimateMountings(recording, tracks, odometry.states);
+  append(findings, checkDirections(mountings, recording.base_frame, report.static_transform));
+  findings.push_back(checkTimeOffset(mountings, parameters));
   nameVehicle(recording, odometry.states, report);
   if (isCompressed(recording)) {
     parameters.push_back({"tracker", "image_transport", "compressed", "there are no raw images"});

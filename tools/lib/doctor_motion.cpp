@@ -17,6 +17,8 @@ constexpr double kDegPerRad = 180 / M_PI;
 constexpr double kWrong_rad = 30 / kDegPerRad;  // another mounting than tf says
 constexpr double kOff_rad = 6 / kDegPerRad;     // more than mountings are known to
 constexpr double kSure = 3;                     // times the difference of both halves
+constexpr double kSameTime_s = 0.03;            // offsets that do no harm
+constexpr double kSureOffset_s = 0.04;          // by both halves
 constexpr double kWorse = 1.1;  // so much worse must tf's mounting explain the images
 
 std::string rounded(double value, int digits) {
@@ -140,20 +142,30 @@ Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
   return finding;
 }
 
-Findings checkDirections(const DoctorRecording& recording, const Tracks& tracks,
-                         const std::vector<ObserverState>& odometry, double offset_s,
-                         std::string& static_transform) {
-  Findings findings;
+std::vector<CameraMounting> estimateMountings(const DoctorRecording& recording,
+                                              const Tracks& tracks,
+                                              const std::vector<ObserverState>& odometry) {
+  std::vector<CameraMounting> mountings;
   for (const CameraTracks& camera : tracks.cameras) {
     const auto T_base_cam = lookUp(recording, recording.base_frame, camera.frame);
     if (!T_base_cam) continue;
-    const auto motions = seenMotions(camera.images, odometry, T_base_cam->translation(), offset_s);
-    const MountingEstimate estimate = estimateMounting(motions, T_base_cam->linear());
-    Finding finding = judge(camera.frame, estimate);
-    if (estimate.state == MountingState::kFound && finding.verdict != Verdict::kOk) {
-      Eigen::Isometry3d T_corrected = *T_base_cam;
-      T_corrected.linear() = tidied(estimate, T_base_cam->linear());
-      const std::string line = staticTransformLine(T_corrected, recording.base_frame, camera.frame);
+    const std::vector<ImagePair> pairs = movingPairs(camera.images);
+    const OdometryWitness witness{odometry, T_base_cam->translation()};
+    mountings.push_back(
+        {camera.frame, *T_base_cam, estimateMounting(pairs, witness, T_base_cam->linear())});
+  }
+  return mountings;
+}
+
+Findings checkDirections(const std::vector<CameraMounting>& mountings,
+                         const std::string& base_frame, std::string& static_transform) {
+  Findings findings;
+  for (const CameraMounting& mounting : mountings) {
+    Finding finding = judge(mounting.frame, mounting.estimate);
+    if (mounting.estimate.state == MountingState::kFound && finding.verdict != Verdict::kOk) {
+      Eigen::Isometry3d T_corrected = mounting.T_base_cam;
+      T_corrected.linear() = tidied(mounting.estimate, mounting.T_base_cam.linear());
+      const std::string line = staticTransformLine(T_corrected, base_frame, mounting.frame);
       static_transform += (static_transform.empty() ? "" : "\n") + line;
       finding.remedy = "correct the mounting: " + line;
     }
@@ -166,6 +178,34 @@ Findings checkDirections(const DoctorRecording& recording, const Tracks& tracks,
                         {}});
   }
   return findings;
+}
+
+Finding checkTimeOffset(const std::vector<CameraMounting>& mountings,
+                        std::vector<SuggestedParameter>& parameters) {
+  Finding finding{"image_time_offset", Verdict::kNotChecked, "needs camera_direction", {}};
+  const MountingEstimate* best = nullptr;
+  for (const CameraMounting& mounting : mountings) {
+    const MountingEstimate& estimate = mounting.estimate;
+    if (estimate.state != MountingState::kFound) continue;
+    if (best == nullptr || estimate.motions > best->motions) best = &estimate;
+  }
+  if (best == nullptr) return finding;
+  if (!best->is_offset_known || best->unsure_s > kSureOffset_s) {
+    finding.text = "because it does not turn to and fro enough to tell";
+    return finding;
+  }
+  finding.verdict = Verdict::kOk;
+  const std::string offset_ms = rounded(std::abs(best->offset_s) * 1000, 0) + " ms";
+  finding.text = text("images ", best->offset_s < 0 ? "late" : "early", " by ", offset_ms);
+  if (std::abs(best->offset_s) < kSameTime_s) return finding;
+  finding.verdict = Verdict::kWarning;
+  finding.text = text("images are stamped ", offset_ms, best->offset_s < 0 ? " late" : " early",
+                      " against the odometry (", rounded(best->misfit_px, 1), " px, without ",
+                      rounded(best->misfit_unmoved_px, 1), ")");
+  finding.remedy = "set image_time_offset_s";
+  parameters.push_back({"mapper", "image_time_offset_s", rounded(best->offset_s, 3),
+                        "images are stamped by another clock, or late"});
+  return finding;
 }
 
 }  // namespace ardrone_vslam

@@ -15,10 +15,23 @@ namespace ardrone_vslam {
 Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
                    const std::vector<ObserverState>& odometry);
 
+/// Of each camera whose place tf tells.
+struct CameraMounting {
+  std::string frame;
+  Eigen::Isometry3d T_base_cam;  ///< by tf
+  MountingEstimate estimate;
+};
+std::vector<CameraMounting> estimateMountings(const DoctorRecording& recording,
+                                              const Tracks& tracks,
+                                              const std::vector<ObserverState>& odometry);
+
 /// Whether each camera looks where tf says (`camera_direction`).
 /// @param static_transform  gets the command line that corrects it
-Findings checkDirections(const DoctorRecording& recording, const Tracks& tracks,
-                         const std::vector<ObserverState>& odometry, double offset_s,
-                         std::string& static_transform);
+Findings checkDirections(const std::vector<CameraMounting>& mountings,
+                         const std::string& base_frame, std::string& static_transform);
+
+/// Whether images and odometry move at the same time (`image_time_offset`).
+Finding checkTimeOffset(const std::vector<CameraMounting>& mountings,
+                        std::vector<SuggestedParameter>& parameters);
 
 }  // namespace ardrone_vslam

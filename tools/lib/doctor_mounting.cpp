@@ -23,7 +23,11 @@ constexpr double kFine_px = 8;       // and for the rest
 constexpr double kOther_rad = 0.6;   // further apart than this are two mountings, not one
 constexpr double kClearly = 1.3;     // times as bad, and
 constexpr double kClearly_px = 0.4;  // so much worse is a rival that is none
-constexpr double kAgrees = 0.6;      // share of what it is without any motion
+constexpr double kLargestOffset_s = 0.3;
+constexpr double kOffsetStep_s = 0.04;
+constexpr double kAside_s = 0.1;   // by which an offset is wrong,
+constexpr double kAside_px = 0.3;  // so much worse do the images fit then
+constexpr double kAgrees = 0.6;    // share of what it is without any motion
 
 const ObserverState* firstFrom(const std::vector<ObserverState>& odometry, std::int64_t stamp_ns) {
   const auto at = std::lower_bound(
@@ -54,8 +58,8 @@ std::vector<Ray> raysOf(const ImageFeatures& features) {
   return rays;
 }
 
-std::vector<SeenMotion::Track> common(const std::vector<Ray>& before, const std::vector<Ray>& now) {
-  std::vector<SeenMotion::Track> tracks;
+std::vector<ImagePair::Track> common(const std::vector<Ray>& before, const std::vector<Ray>& now) {
+  std::vector<ImagePair::Track> tracks;
   auto old = before.begin();
   for (const Ray& ray : now) {
     while (old != before.end() && old->first < ray.first) ++old;
@@ -65,12 +69,12 @@ std::vector<SeenMotion::Track> common(const std::vector<Ray>& before, const std:
   return tracks;
 }
 
-double medianMotion_px(const SeenMotion& motion) {
+double medianMotion_px(const ImagePair& pair) {
   std::vector<double> ways;
-  for (const auto& track : motion.tracks) ways.push_back((track.now - track.before).norm());
+  for (const auto& track : pair.tracks) ways.push_back((track.now - track.before).norm());
   const auto middle = ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2);
   std::nth_element(ways.begin(), middle, ways.end());
-  return *middle * motion.focal_length_px;
+  return *middle * pair.focal_length_px;
 }
 
 /// How far `seen` is from the way that a point at bearing `far` takes when it comes nearer, in
@@ -132,36 +136,119 @@ Eigen::Matrix3d refined(const std::vector<SeenMotion>& motions, Eigen::Matrix3d 
   return R;
 }
 
-std::vector<SeenMotion> everyOther(const std::vector<SeenMotion>& motions, std::size_t first) {
-  std::vector<SeenMotion> half;
-  for (std::size_t i = first; i < motions.size(); i += 2) half.push_back(motions[i]);
+std::vector<ImagePair> everyOther(const std::vector<ImagePair>& pairs, std::size_t first) {
+  std::vector<ImagePair> half;
+  for (std::size_t i = first; i < pairs.size(); i += 2) half.push_back(pairs[i]);
   return half;
+}
+
+/// A rotation and an offset, and how well the images fit them.
+struct Candidate {
+  double misfit_px;
+  Eigen::Matrix3d R_base_cam;
+  double offset_s;
+  bool operator<(const Candidate& other) const { return misfit_px < other.misfit_px; }
+};
+
+/// The offset about `candidate`'s that fits best, to a millisecond.
+Candidate withBestOffset(const std::vector<ImagePair>& pairs, const OdometryWitness& odometry,
+                         const Candidate& candidate) {
+  Candidate best = candidate;
+  best.misfit_px = misfit_px(odometry.motions(pairs, best.offset_s), best.R_base_cam, kFine_px);
+  for (double step_s = kOffsetStep_s / 2; step_s > 0.0005;) {
+    bool is_better = false;
+    for (const double offset_s : {best.offset_s - step_s, best.offset_s + step_s}) {
+      if (std::abs(offset_s) > kLargestOffset_s) continue;
+      const double moved_px =
+          misfit_px(odometry.motions(pairs, offset_s), best.R_base_cam, kFine_px);
+      if (moved_px >= best.misfit_px) continue;
+      best = {moved_px, best.R_base_cam, offset_s};
+      is_better = true;
+    }
+    if (!is_better) step_s /= 2;
+  }
+  return best;
+}
+
+Candidate refined(const std::vector<ImagePair>& pairs, const OdometryWitness& odometry,
+                  Candidate candidate) {
+  for (const double cut_px : {kCoarse_px, kFine_px}) {
+    const auto motions = odometry.motions(pairs, candidate.offset_s);
+    candidate.R_base_cam = refined(motions, candidate.R_base_cam, cut_px);
+    candidate = withBestOffset(pairs, odometry, candidate);
+  }
+  const auto motions = odometry.motions(pairs, candidate.offset_s);
+  candidate.R_base_cam = refined(motions, candidate.R_base_cam, kFine_px);
+  candidate.misfit_px = misfit_px(motions, candidate.R_base_cam, kFine_px);
+  return candidate;
+}
+
+/// All mountings by quarter turns, each at the offset that suits it best; best first.
+std::vector<Candidate> coarseCandidates(const std::vector<ImagePair>& pairs,
+                                        const OdometryWitness& odometry,
+                                        const Eigen::Matrix3d& R_base_cam_told) {
+  const std::vector<Eigen::Matrix3d> turns = quarterTurns();
+  std::vector<Candidate> candidates;
+  for (const Eigen::Matrix3d& turn : turns) {
+    candidates.push_back({2 * kCoarse_px, R_base_cam_told * turn, 0});
+  }
+  const auto steps = static_cast<int>(std::lround(kLargestOffset_s / kOffsetStep_s));
+  for (int i = -steps; i <= steps; ++i) {
+    const double offset_s = i * kOffsetStep_s;
+    const auto motions = odometry.motions(pairs, offset_s);
+    if (motions.size() < kFewestMotions) continue;
+    for (Candidate& candidate : candidates) {
+      const double moved_px = misfit_px(motions, candidate.R_base_cam, kCoarse_px);
+      if (moved_px >= candidate.misfit_px) continue;
+      candidate.misfit_px = moved_px;
+      candidate.offset_s = offset_s;
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  return candidates;
+}
+
+/// Whether the images fit distinctly worse at offsets to both sides of the best one.
+bool isDistinct(const std::vector<ImagePair>& pairs, const OdometryWitness& odometry,
+                const Candidate& best) {
+  for (const double side_s : {-kAside_s, kAside_s}) {
+    const auto motions = odometry.motions(pairs, best.offset_s + side_s);
+    const double aside_px = misfit_px(motions, best.R_base_cam, kFine_px);
+    if (aside_px < best.misfit_px + kAside_px) return false;
+  }
+  return true;
 }
 
 }  // namespace
 
-std::vector<SeenMotion> seenMotions(const std::vector<ImageFeatures>& images,
-                                    const std::vector<ObserverState>& odometry,
-                                    const Eigen::Vector3d& lever_base_m, double offset_s) {
-  std::vector<SeenMotion> motions;
-  const auto offset_ns = static_cast<std::int64_t>(std::llround(offset_s * 1e9));
+std::vector<ImagePair> movingPairs(const std::vector<ImageFeatures>& images) {
+  std::vector<ImagePair> pairs;
   std::size_t before = 0;
   for (std::size_t now = 1; now < images.size(); ++now) {
     const std::int64_t passed_ns = images[now].stamp_ns - images[before].stamp_ns;
     if (passed_ns < kApart_ns) continue;
-    const auto T_odom_before = poseAt(odometry, images[before].stamp_ns + offset_ns);
-    const auto T_odom_now = poseAt(odometry, images[now].stamp_ns + offset_ns);
-    SeenMotion motion;
-    if (passed_ns <= kTooFar_ns && T_odom_before && T_odom_now) {
-      const Eigen::Isometry3d T_before_now = T_odom_before->inverse() * *T_odom_now;
-      motion.R_before_now = T_before_now.linear();
-      motion.way_before_m = T_before_now * lever_base_m - lever_base_m;
-      motion.focal_length_px = images[now].focal_length_px;
-      motion.tracks = common(raysOf(images[before]), raysOf(images[now]));
+    if (passed_ns <= kTooFar_ns) {
+      ImagePair pair{images[before].stamp_ns, images[now].stamp_ns, images[now].focal_length_px,
+                     common(raysOf(images[before]), raysOf(images[now]))};
+      const bool is_telling =
+          pair.tracks.size() >= kFewestTracks && medianMotion_px(pair) >= kFewestMoving_px;
+      if (is_telling) pairs.push_back(std::move(pair));
     }
     before = now;
-    if (motion.tracks.size() < kFewestTracks) continue;
-    if (medianMotion_px(motion) >= kFewestMoving_px) motions.push_back(std::move(motion));
+  }
+  return pairs;
+}
+
+std::vector<SeenMotion> OdometryWitness::motions(const std::vector<ImagePair>& pairs,
+                                                 double offset_s) const {
+  std::vector<SeenMotion> motions;
+  const auto offset_ns = static_cast<std::int64_t>(std::llround(offset_s * 1e9));
+  for (const ImagePair& pair : pairs) {
+    const auto T_odom_before = poseAt(states, pair.before_ns + offset_ns);
+    const auto T_odom_now = poseAt(states, pair.now_ns + offset_ns);
+    if (!T_odom_before || !T_odom_now) continue;
+    const Eigen::Isometry3d T_before_now = T_odom_before->inverse() * *T_odom_now;
+    motions.push_back({&pair, T_before_now.linear(), T_before_now * lever_base_m - lever_base_m});
   }
   return motions;
 }
@@ -174,55 +261,46 @@ double misfit_px(const std::vector<SeenMotion>& motions, const Eigen::Matrix3d& 
     const Eigen::Matrix3d R_now_before = R_cam_before * R_base_cam;
     const Eigen::Vector3d nearing = -(R_cam_before * motion.way_before_m);
     double tracks_px = 0;
-    for (const auto& track : motion.tracks) {
+    for (const auto& track : motion.images->tracks) {
       const double off_rad = residual_rad(R_now_before * track.before, nearing, track.now);
-      tracks_px += std::min(off_rad * motion.focal_length_px, cut_px);
+      tracks_px += std::min(off_rad * motion.images->focal_length_px, cut_px);
     }
-    sum_px += tracks_px / static_cast<double>(motion.tracks.size());
+    sum_px += tracks_px / static_cast<double>(motion.images->tracks.size());
   }
   return sum_px / static_cast<double>(std::max<std::size_t>(1, motions.size()));
 }
 
-MountingEstimate estimateMounting(const std::vector<SeenMotion>& motions,
+MountingEstimate estimateMounting(const std::vector<ImagePair>& pairs,
+                                  const OdometryWitness& odometry,
                                   const Eigen::Matrix3d& R_base_cam_told) {
   MountingEstimate estimate;
   estimate.R_base_cam = R_base_cam_told;
-  estimate.motions = motions.size();
-  if (motions.size() < kFewestMotions) return estimate;
+  estimate.motions = odometry.motions(pairs, 0).size();
+  if (estimate.motions < kFewestMotions) return estimate;
 
-  struct Candidate {
-    double misfit_px;
-    Eigen::Matrix3d R_base_cam;
-  };
-  std::vector<Candidate> candidates;
-  for (const Eigen::Matrix3d& turn : quarterTurns()) {
-    const Eigen::Matrix3d R = R_base_cam_told * turn;
-    candidates.push_back({misfit_px(motions, R, kCoarse_px), R});
-  }
-  const auto isBetter = [](const Candidate& a, const Candidate& b) {
-    return a.misfit_px < b.misfit_px;
-  };
-  std::sort(candidates.begin(), candidates.end(), isBetter);
-  constexpr std::size_t kRefined = 5;
+  std::vector<Candidate> candidates = coarseCandidates(pairs, odometry, R_base_cam_told);
+  constexpr std::size_t kRefined = 4;
   candidates.resize(kRefined);
-  for (Candidate& candidate : candidates) {
-    candidate.R_base_cam = refined(motions, candidate.R_base_cam, kCoarse_px);
-    candidate.R_base_cam = refined(motions, candidate.R_base_cam, kFine_px);
-    candidate.misfit_px = misfit_px(motions, candidate.R_base_cam, kFine_px);
-  }
-  std::sort(candidates.begin(), candidates.end(), isBetter);
+  for (Candidate& candidate : candidates) candidate = refined(pairs, odometry, candidate);
+  std::sort(candidates.begin(), candidates.end());
   const Candidate& best = candidates.front();
   estimate.R_base_cam = best.R_base_cam;
   estimate.misfit_px = best.misfit_px;
-  estimate.misfit_told_px = misfit_px(motions, R_base_cam_told, kFine_px);
+  estimate.offset_s = best.offset_s;
+  estimate.misfit_told_px =
+      misfit_px(odometry.motions(pairs, best.offset_s), R_base_cam_told, kFine_px);
+  estimate.misfit_unmoved_px = misfit_px(odometry.motions(pairs, 0), best.R_base_cam, kFine_px);
   estimate.off_rad = angleBetween(best.R_base_cam, R_base_cam_told);
   estimate.misfit_rival_px = kFine_px;
   for (const Candidate& candidate : candidates) {
     if (angleBetween(candidate.R_base_cam, best.R_base_cam) < kOther_rad) continue;
     estimate.misfit_rival_px = std::min(estimate.misfit_rival_px, candidate.misfit_px);
   }
-  estimate.unsure_rad = angleBetween(refined(everyOther(motions, 0), best.R_base_cam, kFine_px),
-                                     refined(everyOther(motions, 1), best.R_base_cam, kFine_px));
+  const Candidate even = refined(everyOther(pairs, 0), odometry, best);
+  const Candidate odd = refined(everyOther(pairs, 1), odometry, best);
+  estimate.unsure_rad = angleBetween(even.R_base_cam, odd.R_base_cam);
+  estimate.unsure_s = std::abs(even.offset_s - odd.offset_s);
+  estimate.is_offset_known = isDistinct(pairs, odometry, best);
   const bool is_clear = estimate.misfit_rival_px > kClearly * estimate.misfit_px &&
                         estimate.misfit_rival_px > estimate.misfit_px + kClearly_px;
   estimate.state = estimate.misfit_px > kAgrees * kFine_px ? MountingState::kNoAgreement

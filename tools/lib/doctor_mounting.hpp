@@ -11,10 +11,10 @@
 
 namespace ardrone_vslam {
 
-/// Two images, and how base moved between them by the odometry.
-struct SeenMotion {
-  Eigen::Matrix3d R_before_now = Eigen::Matrix3d::Identity();  ///< of base
-  Eigen::Vector3d way_before_m = Eigen::Vector3d::Zero();      ///< of the camera, axes of base
+/// Two images of a camera about a quarter of a second apart, and the tracks that both have.
+struct ImagePair {
+  std::int64_t before_ns = 0;
+  std::int64_t now_ns = 0;
   double focal_length_px = 0;
   struct Track {
     Eigen::Vector3d before;  ///< bearings
@@ -23,13 +23,25 @@ struct SeenMotion {
   std::vector<Track> tracks;
 };
 
-/// Pairs of images about a quarter of a second apart that have tracks in common and odometry
-/// around both. @param odometry  stamps ascending
-/// @param lever_base_m  the camera's place on base
-/// @param offset_s  what to add to an image's stamp to be on the odometry's clock
-std::vector<SeenMotion> seenMotions(const std::vector<ImageFeatures>& images,
-                                    const std::vector<ObserverState>& odometry,
-                                    const Eigen::Vector3d& lever_base_m, double offset_s = 0);
+/// Those in which the tracks move enough to tell anything.
+std::vector<ImagePair> movingPairs(const std::vector<ImageFeatures>& images);
+
+/// A pair of images, and how base moved between them by the odometry.
+struct SeenMotion {
+  const ImagePair* images = nullptr;
+  Eigen::Matrix3d R_before_now = Eigen::Matrix3d::Identity();  ///< of base
+  Eigen::Vector3d way_before_m = Eigen::Vector3d::Zero();      ///< of the camera, axes of base
+};
+
+/// The odometry that the images are compared with.
+struct OdometryWitness {
+  const std::vector<ObserverState>& states;  ///< stamps ascending
+  Eigen::Vector3d lever_base_m;              ///< the camera's place on base
+
+  /// Of the pairs around which there is odometry; they must outlive the answer.
+  /// @param offset_s  an image is exposed at its stamp plus this
+  std::vector<SeenMotion> motions(const std::vector<ImagePair>& pairs, double offset_s) const;
+};
 
 /// How far the tracks are from where the odometry would have taken them, at any depth beyond 0.3 m:
 /// mean over the motions of the mean over the tracks, each cut at `cut_px`.
@@ -52,10 +64,18 @@ struct MountingEstimate {
   double off_rad = 0;          ///< between the best one and what tf says
   double unsure_rad = 0;       ///< between what both halves of the motions say
   std::size_t motions = 0;
+
+  /// At which the images fit the odometry best: an image is exposed at its stamp plus this.
+  double offset_s = 0;
+  double misfit_unmoved_px = 0;  ///< with an offset of zero
+  double unsure_s = 0;           ///< between what both halves of the motions say
+  bool is_offset_known = false;  ///< the misfit has a distinct minimum in the offset
 };
 
-/// Looks among the 24 turns of what tf says by quarter turns, and finer about the best of them.
-MountingEstimate estimateMounting(const std::vector<SeenMotion>& motions,
+/// Looks among the 24 turns of what tf says by quarter turns and offsets of up to 0.3 s, and finer
+/// about the best of them.
+MountingEstimate estimateMounting(const std::vector<ImagePair>& pairs,
+                                  const OdometryWitness& odometry,
                                   const Eigen::Matrix3d& R_base_cam_told);
 
 }  // namespace ardrone_vslam

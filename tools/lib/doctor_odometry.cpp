@@ -107,7 +107,9 @@ Finding checkJumps(const DoctorRecording& recording, const AdaptedOdometry& adap
   for (std::size_t i = 1; i < states.size(); ++i) {
     const double dt_s = secondsBetween(*states[i - 1], *states[i]);
     const double way_m =
-        (states[i]->T_odom_base.translation() - states[i - 1]->T_odom_base.translation()).norm();
+        (states[i]->T_odom_base.translation() - states[i - 1]->T_odom_base.translation())
+            .head<2>()  // heights have checks of their own
+            .norm();
     if (dt_s < 0 || way_m <= kJump_m + kJump_m_s * dt_s) continue;
     ++steps;
     longest_m = std::max(longest_m, way_m);

@@ -88,7 +88,7 @@ Tracks trackImages(const DoctorRecording& recording,
     const auto calibration = calibrationOf(recording, i);
     if (!image.fault.empty() || !calibration || image.time.stamp_ns <= newest_ns) continue;
     const DoctorCalibration& c = recording.calibrations[*calibration];
-    if (!c.fault.empty() || c.camera.width_px != image.width_px ||
+    if (!c.fault.empty() || !isPlausible(c.camera) || c.camera.width_px != image.width_px ||
         c.camera.height_px != image.height_px) {
       continue;
     }
