@@ -71,15 +71,22 @@ struct Steps {
 template <class Height>
 Steps stepsOf(const std::vector<HeightSample>& samples, Height height) {
   Steps steps;
+  const auto unknown_m = [&](std::size_t from, std::size_t to) {
+    return std::abs(height(samples[to]) - height(samples[from]) -
+                    (samples[to].climbed_m - samples[from].climbed_m));
+  };
   std::size_t first = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     while (samples[i].t_s - samples[first].t_s > kWindow_s) ++first;
-    const double unknown_m = std::abs(height(samples[i]) - height(samples[first]) -
-                                      (samples[i].climbed_m - samples[first].climbed_m));
-    if (unknown_m < kStep_m) continue;
+    if (unknown_m(first, i) < kStep_m) continue;
+    // To its end, so that each counts once.
+    std::size_t last = i;
+    for (; i < samples.size() && samples[i].t_s - samples[last].t_s < kWindow_s; ++i) {
+      if (unknown_m(first, i) > unknown_m(first, last)) last = i;
+    }
     ++steps.count;
-    steps.largest_m = std::max(steps.largest_m, unknown_m);
-    first = i;  // each step once
+    steps.largest_m = std::max(steps.largest_m, unknown_m(first, last));
+    first = i = last;
   }
   return steps;
 }

@@ -208,6 +208,23 @@ std::vector<Candidate> coarseCandidates(const std::vector<ImagePair>& pairs,
   return candidates;
 }
 
+/// The best ones, refined, until some are others than the best; best first.
+std::vector<Candidate> refinedCandidates(const std::vector<ImagePair>& pairs,
+                                         const OdometryWitness& odometry,
+                                         const Eigen::Matrix3d& R_base_cam_told) {
+  constexpr int kRivals = 3;
+  std::vector<Candidate> candidates;
+  int rivals = 0;
+  for (const Candidate& coarse : coarseCandidates(pairs, odometry, R_base_cam_told)) {
+    candidates.push_back(refined(pairs, odometry, coarse));
+    const Eigen::Matrix3d& R_first = candidates.front().R_base_cam;
+    rivals += angleBetween(candidates.back().R_base_cam, R_first) < kOther_rad ? 0 : 1;
+    if (rivals == kRivals) break;
+  }
+  std::sort(candidates.begin(), candidates.end());
+  return candidates;
+}
+
 /// Whether the images fit distinctly worse at offsets to both sides of the best one.
 bool isDistinct(const std::vector<ImagePair>& pairs, const OdometryWitness& odometry,
                 const Candidate& best) {
@@ -278,11 +295,7 @@ MountingEstimate estimateMounting(const std::vector<ImagePair>& pairs,
   estimate.motions = odometry.motions(pairs, 0).size();
   if (estimate.motions < kFewestMotions) return estimate;
 
-  std::vector<Candidate> candidates = coarseCandidates(pairs, odometry, R_base_cam_told);
-  constexpr std::size_t kRefined = 4;
-  candidates.resize(kRefined);
-  for (Candidate& candidate : candidates) candidate = refined(pairs, odometry, candidate);
-  std::sort(candidates.begin(), candidates.end());
+  const std::vector<Candidate> candidates = refinedCandidates(pairs, odometry, R_base_cam_told);
   const Candidate& best = candidates.front();
   estimate.R_base_cam = best.R_base_cam;
   estimate.misfit_px = best.misfit_px;
