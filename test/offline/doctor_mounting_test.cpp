@@ -117,8 +117,8 @@ TEST(DoctorMounting, PrintsTheCorrectedTransform) {
   EXPECT_TRUE(line.empty());
 
   DoctorRecording turned = good;
-  turned.transforms["cam"].T_parent_child =
-      Eigen::Translation3d(0.1, 0.2, 0) * forwardCamera() * rotationOf({0, 0, M_PI / 2});
+  turned.transforms["cam"].T_parent_child = Eigen::Translation3d(0.1, 0.2, 0) * forwardCamera() *
+                                            Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ());
   tracks.cameras[0].images = test::doctorViews(Eigen::Translation3d(0.1, 0.2, 0) * forwardCamera());
   mountings = estimateMountings(turned, tracks, odometry());
   EXPECT_EQ(test::verdictOf(checkDirections(mountings, "base", line), "camera_direction"),
@@ -143,7 +143,7 @@ TEST(DoctorMotion, NoticesOdometryThatStandsStillWhileTheImagesMove) {
   tracks.cameras.push_back({"cam", test::doctorCamera(), test::doctorViews(forwardCamera())});
   EXPECT_EQ(checkMoves(good, tracks, odometry()).verdict, Verdict::kOk);
   std::vector<ObserverState> still = odometry();
-  for (ObserverState& state : still) state.T_odom_base.translation().setZero();
+  for (ObserverState& state : still) state.T_odom_base.setIdentity();
   EXPECT_EQ(checkMoves(good, tracks, still).verdict, Verdict::kFault);
   EXPECT_EQ(checkMoves(good, {}, still).verdict, Verdict::kWarning);
   EXPECT_EQ(checkMoves(good, tracks, {}).verdict, Verdict::kNotChecked);
