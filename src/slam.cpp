@@ -18,6 +18,9 @@ std::vector<std::string> faultsBetween(const SlamConfig& config) {
   const ConstraintFilterConfig& filter = config.constraint_filter;
   if (height.use_range && height.known_height_m > 0)
     faults.emplace_back("use_range and known_height_m exclude each other: one height is enough");
+  if (filter.height.floor_points && !height.use_range && height.known_height_m == 0)
+    faults.emplace_back(
+        "floor_points needs a height: set use_range and give the topic range, or known_height_m");
   if (config.estimator == Estimator::kConstraint) {
     if (config.planar)
       faults.emplace_back(
@@ -34,9 +37,15 @@ std::vector<std::string> faultsBetween(const SlamConfig& config) {
     };
     if (height.use_range) refuse("use_range", "use_range to false");
     if (height.known_height_m > 0) refuse("known_height_m", "known_height_m to 0");
+    if (filter.height.floor_points) refuse("floor_points", "floor_points to false");
     if (!filter.attitude_states) refuse("attitude_states false", "attitude_states to true");
   }
   return faults;
+}
+
+void refuseMounting(const Eigen::Isometry3d& T_base_cam) {
+  const std::string fault = mountingFault(T_base_cam);
+  if (!fault.empty()) throw std::invalid_argument("the camera's mounting: " + fault);
 }
 
 }  // namespace
@@ -62,12 +71,24 @@ Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
   validate(config);
   const std::vector<std::string> faults = faultsBetween(config);
   if (!faults.empty()) throw ConfigError(faults);
-  const std::string fault = mountingFault(T_base_cam);
-  if (!fault.empty()) throw std::invalid_argument("the camera's mounting: " + fault);
+  refuseMounting(T_base_cam);
   state_ = std::make_unique<State>(config, T_base_cam);
 }
 
 Slam::~Slam() = default;
+
+bool Slam::canChangeCamera() const {
+  return !state_->constraint ||
+         state_->config.constraint_filter.observer.mounting_deviation_deg == 0;
+}
+
+void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
+  assert(canChangeCamera() && "an estimated mounting error is one camera's");
+  refuseMounting(T_base_cam);
+  state_->T_base_cam = T_base_cam;
+  state_->view.changeCamera();
+  if (state_->constraint) state_->constraint->changeCamera(T_base_cam);
+}
 
 const LandmarkMap& Slam::landmarks() const {
   return state_->landmark_map;
