@@ -182,8 +182,7 @@ Finding checkCameraSwitch(const DoctorRecording& recording) {
   for (const std::string& camera : cameras) list += (list.empty() ? "" : ", ") + camera;
   return {"camera_switch", Verdict::kWarning,
           text("the camera changes ", changes, " times: ", list),
-          "do not switch the camera in flight (togglecam): what one has mapped is of no use to the "
-          "other"};
+          "map and pose go on where each camera has a calibration and a tf of its own"};
 }
 
 }  // namespace ardrone_vslam

@@ -17,8 +17,8 @@ constexpr double kDegPerRad = 180 / M_PI;
 constexpr double kWrong_rad = 30 / kDegPerRad;  // another mounting than tf says
 constexpr double kOff_rad = 6 / kDegPerRad;     // more than mountings are known to
 constexpr double kSure = 3;                     // times the difference of both halves
+constexpr double kLongest_s = 600;              // of odometry that is kept
 constexpr double kSameTime_s = 0.03;            // offsets that do no harm
-constexpr double kSureOffset_s = 0.04;          // by both halves
 constexpr double kWorse = 1.1;  // so much worse must tf's mounting explain the images
 
 std::string rounded(double value, int digits) {
@@ -105,6 +105,20 @@ Eigen::Matrix3d tidied(const MountingEstimate& estimate, const Eigen::Matrix3d& 
                                                                    : estimate.R_base_cam;
 }
 
+TimeOffset estimateOffset(const std::vector<ImageFeatures>& images,
+                          const std::vector<ObserverState>& odometry,
+                          const CameraMounting& mounting) {
+  ObserverBufferConfig all;
+  all.buffer_s = kLongest_s;
+  ObserverBuffer buffer(all);
+  for (const ObserverState& state : odometry) buffer.push(state);
+  Eigen::Isometry3d T_base_cam = mounting.T_base_cam;
+  T_base_cam.linear() = mounting.estimate.R_base_cam;
+  TimeOffsetEstimator estimator(T_base_cam, mounting.estimate.offset_s);
+  for (const ImageFeatures& features : images) estimator.see(features, buffer);
+  return estimator.estimate();
+}
+
 }  // namespace
 
 Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
@@ -151,8 +165,12 @@ std::vector<CameraMounting> estimateMountings(const DoctorRecording& recording,
     if (!T_base_cam) continue;
     const std::vector<ImagePair> pairs = movingPairs(camera.images);
     const OdometryWitness witness{odometry, T_base_cam->translation()};
-    mountings.push_back(
-        {camera.frame, *T_base_cam, estimateMounting(pairs, witness, T_base_cam->linear())});
+    CameraMounting mounting{
+        camera.frame, *T_base_cam, estimateMounting(pairs, witness, T_base_cam->linear()), {}};
+    if (mounting.estimate.state == MountingState::kFound) {
+      mounting.offset = estimateOffset(camera.images, odometry, mounting);
+    }
+    mountings.push_back(mounting);
   }
   return mountings;
 }
@@ -183,27 +201,33 @@ Findings checkDirections(const std::vector<CameraMounting>& mountings,
 Finding checkTimeOffset(const std::vector<CameraMounting>& mountings,
                         std::vector<SuggestedParameter>& parameters) {
   Finding finding{"image_time_offset", Verdict::kNotChecked, "needs camera_direction", {}};
-  const MountingEstimate* best = nullptr;
+  const CameraMounting* best = nullptr;
+  const auto isKnown = [](const CameraMounting& m) {
+    return m.offset.state == TimeOffsetState::kKnown;
+  };
   for (const CameraMounting& mounting : mountings) {
-    const MountingEstimate& estimate = mounting.estimate;
-    if (estimate.state != MountingState::kFound) continue;
-    if (best == nullptr || estimate.motions > best->motions) best = &estimate;
+    if (mounting.estimate.state != MountingState::kFound) continue;
+    const bool is_better =
+        best == nullptr || (isKnown(mounting) && (!isKnown(*best) || mounting.offset.deviation_s <
+                                                                         best->offset.deviation_s));
+    if (is_better) best = &mounting;
   }
   if (best == nullptr) return finding;
-  if (!best->is_offset_known || best->unsure_s > kSureOffset_s) {
-    finding.text = "because it does not turn to and fro enough to tell";
+  if (!isKnown(*best)) {
+    finding.text = text("because ", explain(best->offset.state));
     return finding;
   }
   finding.verdict = Verdict::kOk;
-  const std::string offset_ms = rounded(std::abs(best->offset_s) * 1000, 0) + " ms";
-  finding.text = text("images ", best->offset_s < 0 ? "late" : "early", " by ", offset_ms);
-  if (std::abs(best->offset_s) < kSameTime_s) return finding;
+  const double offset_s = best->offset.offset_s;
+  const std::string offset_ms = text(rounded(std::abs(offset_s) * 1000, 0), " ms (deviation ",
+                                     rounded(best->offset.deviation_s * 1000, 1), ")");
+  finding.text = text("images ", offset_s < 0 ? "late" : "early", " by ", offset_ms);
+  if (std::abs(offset_s) < kSameTime_s) return finding;
   finding.verdict = Verdict::kWarning;
-  finding.text = text("images are stamped ", offset_ms, best->offset_s < 0 ? " late" : " early",
-                      " against the odometry (", rounded(best->misfit_px, 1), " px, without ",
-                      rounded(best->misfit_unmoved_px, 1), ")");
+  finding.text = text("images are stamped ", offset_s < 0 ? "late" : "early", " by ", offset_ms,
+                      " against the odometry");
   finding.remedy = "set image_time_offset_s";
-  parameters.push_back({"mapper", "image_time_offset_s", rounded(best->offset_s, 3),
+  parameters.push_back({"mapper", "image_time_offset_s", rounded(offset_s, 3),
                         "images are stamped by another clock, or late"});
   return finding;
 }

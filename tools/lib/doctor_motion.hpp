@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "ardrone_vslam/time_offset.hpp"
 #include "doctor_mounting.hpp"
 #include "doctor_recording.hpp"
 #include "doctor_report.hpp"
@@ -20,6 +21,7 @@ struct CameraMounting {
   std::string frame;
   Eigen::Isometry3d T_base_cam;  ///< by tf
   MountingEstimate estimate;
+  TimeOffset offset;  ///< unless the mounting is found: not known
 };
 std::vector<CameraMounting> estimateMountings(const DoctorRecording& recording,
                                               const Tracks& tracks,

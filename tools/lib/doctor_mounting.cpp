@@ -25,9 +25,7 @@ constexpr double kClearly = 1.3;     // times as bad, and
 constexpr double kClearly_px = 0.4;  // so much worse is a rival that is none
 constexpr double kLargestOffset_s = 0.3;
 constexpr double kOffsetStep_s = 0.04;
-constexpr double kAside_s = 0.1;   // by which an offset is wrong,
-constexpr double kAside_px = 0.3;  // so much worse do the images fit then
-constexpr double kAgrees = 0.6;    // share of what it is without any motion
+constexpr double kAgrees = 0.6;  // share of what it is without any motion
 
 const ObserverState* firstFrom(const std::vector<ObserverState>& odometry, std::int64_t stamp_ns) {
   const auto at = std::lower_bound(
@@ -225,17 +223,6 @@ std::vector<Candidate> refinedCandidates(const std::vector<ImagePair>& pairs,
   return candidates;
 }
 
-/// Whether the images fit distinctly worse at offsets to both sides of the best one.
-bool isDistinct(const std::vector<ImagePair>& pairs, const OdometryWitness& odometry,
-                const Candidate& best) {
-  for (const double side_s : {-kAside_s, kAside_s}) {
-    const auto motions = odometry.motions(pairs, best.offset_s + side_s);
-    const double aside_px = misfit_px(motions, best.R_base_cam, kFine_px);
-    if (aside_px < best.misfit_px + kAside_px) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::vector<ImagePair> movingPairs(const std::vector<ImageFeatures>& images) {
@@ -312,8 +299,6 @@ MountingEstimate estimateMounting(const std::vector<ImagePair>& pairs,
   const Candidate even = refined(everyOther(pairs, 0), odometry, best);
   const Candidate odd = refined(everyOther(pairs, 1), odometry, best);
   estimate.unsure_rad = angleBetween(even.R_base_cam, odd.R_base_cam);
-  estimate.unsure_s = std::abs(even.offset_s - odd.offset_s);
-  estimate.is_offset_known = isDistinct(pairs, odometry, best);
   const bool is_clear = estimate.misfit_rival_px > kClearly * estimate.misfit_px &&
                         estimate.misfit_rival_px > estimate.misfit_px + kClearly_px;
   estimate.state = estimate.misfit_px > kAgrees * kFine_px ? MountingState::kNoAgreement

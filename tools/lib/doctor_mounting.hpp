@@ -65,11 +65,10 @@ struct MountingEstimate {
   double unsure_rad = 0;       ///< between what both halves of the motions say
   std::size_t motions = 0;
 
-  /// At which the images fit the odometry best: an image is exposed at its stamp plus this.
+  /// At which the images fit the odometry best: an image is exposed at its stamp plus this. Rough;
+  /// TimeOffsetEstimator tells it better once the mounting is known.
   double offset_s = 0;
   double misfit_unmoved_px = 0;  ///< with an offset of zero
-  double unsure_s = 0;           ///< between what both halves of the motions say
-  bool is_offset_known = false;  ///< the misfit has a distinct minimum in the offset
 };
 
 /// Looks among the 24 turns of what tf says by quarter turns and offsets of up to 0.3 s, and finer
