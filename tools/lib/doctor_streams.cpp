@@ -18,6 +18,7 @@ constexpr double kGap_s = 0.25;  // shorter ones are no gap at any rate
 constexpr std::int64_t kRestart_ns = 1'000'000'000;
 constexpr double kBurstShare = 0.01;    // of the messages
 constexpr double kSameClock_s = 0.3;    // by which two topics' latencies may differ
+constexpr double kOld_s = 60;           // older stamps are not of this time
 constexpr double kFuture_s = 0.05;      // stamps are not later than their reception
 constexpr double kFewestOverlap = 0.5;  // of the images within the odometry's time
 constexpr double kEnoughOverlap = 0.9;
@@ -257,6 +258,7 @@ Finding checkClock(const DoctorRecording& recording) {
   if (!images_s || !odometry_s) {
     return {"clock", Verdict::kNotChecked, "needs images and odometry with stamps", {}};
   }
+  const double apart_s = *images_s - *odometry_s;
   std::int64_t begin_ns = 0, end_ns = 0;
   for (const DoctorOdometry& odometry : recording.odometry) {
     const std::int64_t stamp_ns = odometry.time.stamp_ns;
@@ -268,10 +270,13 @@ Finding checkClock(const DoctorRecording& recording) {
   for (const DoctorImage& image : recording.images) {
     if (image.time.stamp_ns >= begin_ns && image.time.stamp_ns <= end_ns) ++within;
   }
-  const double apart_s = *images_s - *odometry_s;
   const double share = static_cast<double>(within) / static_cast<double>(recording.images.size());
-  finding.text = text("received after the stamp: images ", rounded(*images_s * 1000, 0),
-                      " ms, odometry ", rounded(*odometry_s * 1000, 0), " ms in the median");
+  finding.text = text("received after the stamp: images ", rounded(*images_s, 3), " s, odometry ",
+                      rounded(*odometry_s, 3), " s in the median");
+  if (std::min(*images_s, *odometry_s) > kOld_s) {
+    finding.text = text("of a bag that is played or was recorded anew; images come ",
+                        rounded(apart_s, 3), " s later after their stamp than odometry");
+  }
   if (share < kEnoughOverlap) {
     finding.verdict = share < kFewestOverlap ? Verdict::kFault : Verdict::kWarning;
     finding.text = text("only ", percent(within, recording.images.size()),
