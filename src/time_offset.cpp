@@ -5,6 +5,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "ardrone_vslam/rotation.hpp"
 
@@ -80,12 +82,18 @@ TimeOffsetEstimator::TimeOffsetEstimator(const Eigen::Isometry3d& T_base_cam, do
       constants_(priorOfConstants()),
       solver_(constants_) {}
 
-void TimeOffsetEstimator::restart() {
+void TimeOffsetEstimator::useCamera(const Eigen::Isometry3d& T_base_cam) {
+  T_base_cam_ = T_base_cam;
+  forgetImages();
+}
+
+void TimeOffsetEstimator::forgetImages() {
   used_ = taken_ = 0;
   added_ns_ = 0;
 }
 
 void TimeOffsetEstimator::see(const ImageFeatures& features, const ObserverBuffer& odometry) {
+  if (taken_ > 0 && features.stamp_ns < image(taken_ - 1).stamp_ns) forgetImages();
   if (taken_ == 0 || features.stamp_ns - image(taken_ - 1).stamp_ns >= kStep_ns) take(features);
   constexpr auto kAround_ns = static_cast<std::int64_t>(kSmoothing) * kGrid_ns + kReach_ns;
   for (; used_ < taken_ && image(used_).stamp_ns + kAround_ns <= features.stamp_ns; ++used_) {
@@ -257,6 +265,21 @@ const char* explain(TimeOffsetState state) {
       return "";
   }
   return "";
+}
+
+std::string adviceOn(const TimeOffset& found, double used_s) {
+  constexpr double kDeviations = 3;
+  constexpr double kSmallest_s = 0.015;
+  const double off_s = std::abs(found.offset_s - used_s);
+  if (found.state != TimeOffsetState::kKnown || off_s < kSmallest_s ||
+      off_s < kDeviations * found.deviation_s)
+    return {};
+  std::ostringstream advice;
+  advice << std::fixed << std::setprecision(3) << "camera and odometry turn alike when images are "
+         << "taken as exposed at their stamps " << (found.offset_s < 0 ? "- " : "+ ")
+         << std::abs(found.offset_s) << " s (deviation " << found.deviation_s << " s), not "
+         << used_s << " s: set image_time_offset_s: " << found.offset_s;
+  return advice.str();
 }
 
 }  // namespace ardrone_vslam

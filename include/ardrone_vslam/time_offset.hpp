@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
@@ -53,16 +54,17 @@ class TimeOffsetEstimator {
   /// @param centre_s  the offset that is used so far: the grid lies about it
   explicit TimeOffsetEstimator(const Eigen::Isometry3d& T_base_cam, double centre_s = 0);
 
-  /// One image, stamps ascending; it is used once the images are kReach_ns further, so `odometry`
+  /// One image; it is used once the images are kReach_ns further, so `odometry`
   /// need only reach to the image's stamp plus the centre. O(tracks log tracks) for every image
-  /// that is kStep_ns after the last one used, else O(1).
+  /// that is kStep_ns after the last one used, else O(1). Stamps that go back are a new run: images
+  /// that wait are forgotten, what was found stays, as the clocks are the same.
   void see(const ImageFeatures& features, const ObserverBuffer& odometry);
 
   /// By the images seen so far.
   const TimeOffset& estimate() const { return estimate_; }
 
-  /// Time began again: forgets the images that wait, not what was found (clocks stay the same).
-  void restart();
+  /// Another camera of the same clock takes over: what was found stays.
+  void useCamera(const Eigen::Isometry3d& T_base_cam);
 
  private:
   static constexpr std::size_t kHalf = kReach_ns / kGrid_ns;
@@ -87,6 +89,7 @@ class TimeOffsetEstimator {
   };
 
   Image& image(std::size_t number) { return images_[number % kImages]; }
+  void forgetImages();
   void take(const ImageFeatures& features);
   bool findOdometry(Image& image, const ObserverBuffer& odometry) const;
   void compare(std::size_t number);
@@ -117,5 +120,9 @@ class TimeOffsetEstimator {
 
 /// A sentence for users; empty for kKnown.
 const char* explain(TimeOffsetState state);
+
+/// A sentence for users when another image_time_offset_s would be clearly better than the one in
+/// use: by more than three deviations and 15 ms; else empty.
+std::string adviceOn(const TimeOffset& found, double used_s);
 
 }  // namespace ardrone_vslam

@@ -117,11 +117,18 @@ TEST(TimeOffset, IsKeptWhenTimeBeginsAgain) {
   film(estimator, flight, odometry, 0.1, 20, 5, [](double) {});
   const double found_s = estimator.estimate().offset_s;
   ASSERT_EQ(estimator.estimate().state, TimeOffsetState::kKnown);
-  estimator.restart();
   film(estimator, flight, odometry, 0.1, 20, 6, [&](double) {
     ASSERT_EQ(estimator.estimate().state, TimeOffsetState::kKnown);
     ASSERT_NEAR(estimator.estimate().offset_s, found_s, 0.006);
   });
+}
+
+TEST(TimeOffset, AdviceNeedsAClearDifference) {
+  const TimeOffset found{TimeOffsetState::kKnown, -0.08, 0.003};
+  EXPECT_NE(adviceOn(found, 0).find("set image_time_offset_s: -0.080"), std::string::npos);
+  EXPECT_EQ(adviceOn(found, -0.07), "");  // less than 15 ms
+  EXPECT_EQ(adviceOn({TimeOffsetState::kKnown, -0.08, 0.03}, 0), "");
+  EXPECT_EQ(adviceOn({TimeOffsetState::kTooLittleTurn, 0, 0}, 1), "");
 }
 
 TEST(TimeOffset, FollowsAChange) {
