@@ -2,13 +2,17 @@
 #include "frame_matcher.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "conversions.hpp"
 
 namespace ardrone_vslam {
 
-FrameMatcher::FrameMatcher(const ObserverBufferConfig& config, double wait_s)
-    : buffer_(config), wait_s_(wait_s) {}
+FrameMatcher::FrameMatcher(const ObserverBufferConfig& config, double wait_s,
+                           double image_time_offset_s)
+    : buffer_(config),
+      wait_s_(wait_s),
+      image_time_offset_ns_(std::llround(image_time_offset_s * 1e9)) {}
 
 void FrameMatcher::addFeatures(const FeaturesConstPtr& features, double now_s) {
   waiting_.push_back({features, now_s});
@@ -20,7 +24,8 @@ std::optional<FrameMatcher::Frame> FrameMatcher::next(
   while (!waiting_.empty()) {
     const bool is_late = now_s - waiting_.front().since_s > wait_s_;
     Frame frame{waiting_.front().features, {}};
-    const Lookup answer = buffer_.at(toNanoseconds(frame.features->header.stamp), frame.observer);
+    const Lookup answer = buffer_.at(
+        toNanoseconds(frame.features->header.stamp) + image_time_offset_ns_, frame.observer);
     if (answer == Lookup::kFound) {
       const bool is_usable = can_use(*frame.features);
       if (!is_usable && !is_late) return std::nullopt;

@@ -18,11 +18,11 @@ class FrameMatcher {
  public:
   struct Frame {
     FeaturesConstPtr features;
-    ObserverState observer;  ///< interpolated at the image's stamp
+    ObserverState observer;  ///< interpolated at the exposure: the image's stamp plus its offset
   };
 
   /// @throws ConfigError when the buffer's parameters are invalid
-  FrameMatcher(const ObserverBufferConfig& config, double wait_s);
+  FrameMatcher(const ObserverBufferConfig& config, double wait_s, double image_time_offset_s = 0);
 
   void addFeatures(const FeaturesConstPtr& features, double now_s);
   ObserverBuffer::Push addObserver(const ObserverState& state) { return buffer_.push(state); }
@@ -41,6 +41,7 @@ class FrameMatcher {
   std::uint64_t droppedHeld() const { return dropped_held_; }
   /// Why the latest frame without odometry had none.
   ObserverBuffer::Lookup lastMiss() const { return last_miss_; }
+  const ObserverBuffer& observers() const { return buffer_; }
   std::int64_t newestObserver_ns() const { return buffer_.newestStamp_ns(); }
 
  private:
@@ -51,6 +52,7 @@ class FrameMatcher {
 
   ObserverBuffer buffer_;
   double wait_s_;
+  std::int64_t image_time_offset_ns_;
   std::deque<Waiting> waiting_;
   std::uint64_t dropped_no_odometry_ = 0;
   std::uint64_t dropped_held_ = 0;

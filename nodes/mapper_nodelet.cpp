@@ -80,7 +80,8 @@ void MapperNodelet::readParameters() {
     // Some faults lie between parameters: tell them now, not in mid-air.
     Slam(config_, Eigen::Isometry3d::Identity());
     adapter_ = std::make_unique<ObserverAdapter>(config_.observer_adapter);
-    matcher_ = std::make_unique<FrameMatcher>(config_.observer, node_config_.odometry_wait_s);
+    matcher_ = std::make_unique<FrameMatcher>(config_.observer, node_config_.odometry_wait_s,
+                                              config_.image_time_offset_s);
     heights_ = std::make_unique<HeightInput>(config_.height_input, config_.observer.buffer_s);
   } catch (const ConfigError& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
@@ -232,6 +233,11 @@ void MapperNodelet::useCamera(const CameraIdentity& camera, const Eigen::Isometr
     }
   }
   if (!slam_) slam_ = std::make_unique<Slam>(config_, T_base_cam);
+  if (time_offset_) {
+    time_offset_->useCamera(T_base_cam);
+  } else {
+    time_offset_ = std::make_unique<TimeOffsetEstimator>(T_base_cam, config_.image_time_offset_s);
+  }
   camera_ = camera;
   T_base_cam_ = T_base_cam;
 }
@@ -242,6 +248,9 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   observer.height_m = heights_->at(observer);
   has_range_ = has_range_ || heights_->missing() == totals_.heights_missing;
   totals_.heights_missing = heights_->missing();
+  observer.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
+  time_offset_->see(features_, matcher_->observers());
+  noteTimeOffset();
   const FrameResult& result = slam_->process(features_, observer, stage_clock_.hook());
   totals_.heights_tilted = heights_->tilted();
   if (result.height == HeightOutcome::kRejected) ++totals_.heights_rejected;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "ardrone_vslam/slam.hpp"
+#include "ardrone_vslam/time_offset.hpp"
 #include "camera_identity.hpp"
 #include "conversions.hpp"
 #include "frame_matcher.hpp"
@@ -45,6 +46,8 @@ class MapperNodelet : public nodelet::Nodelet {
   void noteStep(double step_m);
   /// Says that the camera is left out.
   void noteDistrust(SlamState state);
+  /// Says that another image_time_offset_s would be better.
+  void noteTimeOffset();
   /// What is wrong with the ranges once images have been without for seconds; else empty.
   std::string missingRange() const;
   /// Every second.
@@ -97,6 +100,7 @@ class MapperNodelet : public nodelet::Nodelet {
   std::unique_ptr<FrameMatcher> matcher_;
   std::unique_ptr<HeightInput> heights_;
   std::unique_ptr<Slam> slam_;
+  std::unique_ptr<TimeOffsetEstimator> time_offset_;
   Eigen::Isometry3d T_base_cam_ = Eigen::Isometry3d::Identity();  // as slam_ has it
   StandstillWatch standstill_;
   SpeedWatch speed_;
@@ -114,6 +118,7 @@ class MapperNodelet : public nodelet::Nodelet {
   WarningLimiter limiter_;
   std::string covariance_fault_;  // of the odometry, since the first such message
   int seconds_waiting_ = 0;
+  bool is_time_offset_told_ = false;
   bool has_features_ = false;  // within this second
   bool has_answer_ = false;
   bool has_range_ = false;  // near an image's stamp

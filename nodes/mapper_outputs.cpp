@@ -24,7 +24,9 @@ void MapperOutputs::publishFrame(const FrameResult& result, const Eigen::Isometr
   newest_ns_ = result.stamp_ns;
   pose_pub_.publish(toPoseMessage(result, frames));
   odometry_pub_.publish(toOdometryMessage(result, frames, observer));
-  correction_pub_.publish(toCorrectionMessage(result, T_map_odom, frames));
+  PoseCorrection correction = toCorrectionMessage(result, T_map_odom, frames);
+  correction.header.stamp = toRosTime(observer.stamp_ns);  // of the odometry it corrects
+  correction_pub_.publish(correction);
   // At the first image map equals odom, so in map the observer's own poses show its drift.
   remember(fused_poses_, result.T_map_base, frames);
   remember(observer_poses_, result.T_odom_base, frames);

@@ -42,6 +42,13 @@ void MapperNodelet::noteDistrust(SlamState state) {
   if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
 }
 
+void MapperNodelet::noteTimeOffset() {
+  const std::string advice = adviceOn(time_offset_->estimate(), config_.image_time_offset_s);
+  if (advice.empty() || is_time_offset_told_) return;
+  is_time_offset_told_ = true;
+  NODELET_WARN_STREAM(advice);
+}
+
 void MapperNodelet::noteOdometryFaults() {
   const OdometryFaultCounts faults = odometryFaults();
   for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
@@ -127,6 +134,11 @@ void MapperNodelet::fillTotals(Status& status) const {
   status.heights_rejected = totals_.heights_rejected;
   status.odometry_steps = totals_.odometry_steps;
   toStatus(odometryFaults(), status);
+  status.image_time_offset = config_.image_time_offset_s;
+  if (time_offset_) {
+    status.image_time_offset_estimate = time_offset_->estimate().offset_s;
+    status.image_time_offset_deviation = time_offset_->estimate().deviation_s;
+  }
   status.results_not_finite = totals_.results_not_finite;
   status.restarts = totals_.restarts;
   status.camera_changes = totals_.camera_changes;
@@ -205,6 +217,17 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
     wrapper.add("heights rejected", totals_.heights_rejected);
     wrapper.add("scale error", latest_.scale_error);
     wrapper.add("scale deviation", latest_.scale_deviation);
+  }
+  if (time_offset_) {
+    const TimeOffset& offset = time_offset_->estimate();
+    const std::string advice = adviceOn(offset, config_.image_time_offset_s);
+    if (offset.state == TimeOffsetState::kKnown) {
+      wrapper.add("image time offset [s], estimated", offset.offset_s);
+      wrapper.add("its deviation [s]", offset.deviation_s);
+    } else {
+      wrapper.add("image time offset [s], estimated", explain(offset.state));
+    }
+    if (!advice.empty()) wrapper.add("image time offset", advice);
   }
   wrapper.add("results not finite", totals_.results_not_finite);
   wrapper.add("camera changes", totals_.camera_changes);

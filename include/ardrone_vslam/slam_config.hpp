@@ -27,6 +27,7 @@ struct EnumNames<Estimator> {
 struct SlamConfig {
   Estimator estimator = Estimator::kConstraint;
   bool planar = false;
+  double image_time_offset_s = 0;
   ObserverBufferConfig observer;
   ObserverAdapterConfig observer_adapter;
   DroneFilterConfig drone_filter;
@@ -52,6 +53,11 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
           "planar", "switch", 0, 0,
           "2-D mode: all z are zero, for a front camera when height and tilt are unknown"},
       c.planar);
+  visit(ParameterInfo{"image_time_offset_s", "s", -5, 5,
+                      "an image is exposed at its stamp plus this on the odometry's clock; "
+                      "negative where the driver stamps images late (`status` and `replay` tell "
+                      "what it seems to be)"},
+        c.image_time_offset_s);
   visitParameters(c.observer, visit);
   visitParameters(c.observer_adapter, visit);
   visitParameters(c.drone_filter, visit);

@@ -3,9 +3,11 @@
 
 #include "pave.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 #include "pave_sequence.hpp"
+#include "random_source.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {
@@ -189,6 +191,71 @@ TEST(Pave, OtherSizeAndCodecAreLeftOut) {
   EXPECT_EQ(stream.statistics.other_size_frames, 1u);
   EXPECT_EQ(stream.statistics.waiting_frames, 1u);
   EXPECT_EQ(stream.statistics.broken_packets, 1u);
+}
+
+TEST(Pave, ADamagedSizeOfTheFirstPacketCostsItsGroupOnly) {
+  Packet first = idr(1);
+  first.width_px = 641;
+  const auto stream = parse(join({toBytes(first), toBytes(dependent(2)), toBytes(idr(3)),
+                                  toBytes(dependent(4)), toBytes(dependent(5))}));
+  EXPECT_EQ(numbersOf(stream), (Numbers{3, 4, 5}));
+  EXPECT_EQ(stream.statistics.other_size_frames, 1u);
+  EXPECT_EQ(stream.statistics.waiting_frames, 1u);
+}
+
+TEST(Pave, AnAbsurdNumberIsNoHole) {
+  const auto stream = parse(join({toBytes(idr(1)), toBytes(dependent(2 + (1u << 30))),
+                                  toBytes(dependent(3)), toBytes(idr(4)), toBytes(dependent(5))}));
+  EXPECT_EQ(numbersOf(stream), (Numbers{1, 4, 5}));
+  EXPECT_EQ(stream.statistics.broken_packets, 1u);
+  EXPECT_EQ(stream.statistics.lost_frames, 1u);
+  const auto in_idr = parse(join({toBytes(idr(1)), toBytes(idr(2 + (1u << 30))),
+                                  toBytes(dependent(3)), toBytes(idr(4)), toBytes(dependent(5))}));
+  EXPECT_EQ(numbersOf(in_idr).size(), 4u);
+  EXPECT_EQ(in_idr.statistics.lost_frames, 0u);
+}
+
+TEST(Pave, ReorderedGroupsLeaveSoundOnes) {
+  // The group of 3 and 4 comes after that of 5 and 6.
+  const auto stream = parse(join({toBytes(idr(1)), toBytes(dependent(2)), toBytes(idr(5)),
+                                  toBytes(dependent(6)), toBytes(dependent(4)), toBytes(idr(7))}));
+  EXPECT_EQ(numbersOf(stream), (Numbers{1, 2, 5, 6, 7}));
+  EXPECT_EQ(stream.statistics.misordered_frames, 1u);
+}
+
+TEST(Pave, RandomDamageNeverCrashesAndKeepsGroupsWhole) {
+  std::vector<Bytes> packets;
+  for (std::uint32_t i = 1; i <= 150; ++i)
+    packets.push_back(toBytes(i % 15 == 1 ? idr(i) : dependent(i)));
+  const Bytes whole = join(packets);
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    RandomSource random(seed);
+    Bytes damaged = whole;
+    const auto at = [&](int length) {
+      return damaged.begin() + random.integer(0, static_cast<int>(damaged.size()) - length - 1);
+    };
+    for (int i = 0; i < 3; ++i) {
+      *at(1) ^= static_cast<std::uint8_t>(1 << random.integer(0, 7));
+      const int cut = random.integer(1, 200);
+      const auto begin = at(cut);
+      damaged.erase(begin, begin + cut);
+      const Bytes garbage(static_cast<std::size_t>(random.integer(1, 200)),
+                          static_cast<std::uint8_t>(random.integer(0, 255)));
+      damaged.insert(at(1), garbage.begin(), garbage.end());
+      const int swapped = random.integer(1, 300);
+      std::rotate(damaged.begin(), damaged.begin() + swapped, damaged.end());
+    }
+    const auto stream = parse(damaged);
+    // A frame is an IDR picture, or what the one before it is followed by.
+    for (std::size_t i = 0; i < stream.frames.size(); ++i) {
+      const PaveHeader& header = stream.frames[i].header;
+      if (header.frame_type == PaveHeader::kIdr) continue;
+      ASSERT_GT(i, 0u) << "seed " << seed;
+      ASSERT_EQ(header.frame_number, stream.frames[i - 1].header.frame_number + 1)
+          << "seed " << seed;
+    }
+    EXPECT_GT(stream.frames.size(), 30u) << "seed " << seed;
+  }
 }
 
 TEST(Pave, EveryCutOfAStreamGivesItsWholePackets) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -65,6 +66,23 @@ std::vector<std::string> cellsOf(const std::string& line) {
   std::stringstream stream(line + ",");
   for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
   return cells;
+}
+
+TEST(RunReport, PosesAreOfTheImagesExposures) {
+  RunResult run = someRun();
+  run.image_time_offset_s = 0.25;
+  const RunEvaluation e = evaluate(run, straightTruth());
+  EXPECT_EQ(e.fused.poses()[1].stamp_ns, 1'250'000'000);
+  EXPECT_EQ(e.truth.poses()[1].stamp_ns, 1'250'000'000);
+  EXPECT_NEAR(e.fused_error_m[1], std::hypot(0.25, 0.1), 1e-9);
+  EXPECT_EQ(e.frames_without_truth, 1);  // the last one's exposure is behind its end
+  Json summary = summaryOf(run, e, {});
+  EXPECT_EQ(summary["image_time_offset_s"], 0.25);
+  EXPECT_TRUE(summary["image_time_offset_estimate_s"].is_null());
+  run.time_offset = {TimeOffsetState::kKnown, 0.3, 0.002};
+  summary = summaryOf(run, e, {});
+  EXPECT_EQ(summary["image_time_offset_estimate_s"], 0.3);
+  EXPECT_EQ(summary["image_time_offset_deviation_s"], 0.002);
 }
 
 TEST(RunReport, SummaryHasAllThatIsAskedFor) {

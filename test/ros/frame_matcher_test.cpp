@@ -53,6 +53,23 @@ TEST_F(FrameMatcherTest, WaitsForTheOdometryAfterTheImage) {
   EXPECT_EQ(matcher_.droppedNoOdometry(), 0U);
 }
 
+TEST_F(FrameMatcherTest, TheOdometryIsThatOfTheExposure) {
+  for (const double offset_s : {-0.1, 0.1}) {
+    FrameMatcher matcher({}, 0.5, offset_s);
+    const std::int64_t exposed_ns = 10 * kSecond_ns + (offset_s > 0 ? 1 : -1) * kSecond_ns / 10;
+    matcher.addFeatures(featuresAt(10 * kSecond_ns), 0);
+    matcher.addObserver(observerAt(exposed_ns - kSecond_ns / 20, 1));
+    // With a positive offset this is after the image's stamp, and still too early.
+    EXPECT_FALSE(matcher.next(0.1, usable));
+    matcher.addObserver(observerAt(exposed_ns + kSecond_ns / 20, 3));
+    const auto frame = matcher.next(0.2, usable);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->observer.stamp_ns, exposed_ns);
+    EXPECT_NEAR(frame->observer.T_odom_base.translation().x(), 2, 1e-9);
+    EXPECT_EQ(matcher.droppedNoOdometry(), 0U);
+  }
+}
+
 TEST_F(FrameMatcherTest, FramesComeInOrder) {
   for (int i = 1; i <= 3; ++i) matcher_.addFeatures(featuresAt(i * kSecond_ns), 0);
   for (int i = 0; i <= 30; ++i) matcher_.addObserver(observerAt(i * kSecond_ns / 10 + 1, i));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <stdexcept>
 #include <utility>
@@ -96,11 +97,15 @@ BackEnd::BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
                  const std::vector<ObserverState>& observer, std::vector<RangeReading> ranges)
     : slam_(config, T_base_cam),
       T_base_cam_(T_base_cam),
+      image_time_offset_ns_(std::llround(config.image_time_offset_s * 1e9)),
+      time_offset_(T_base_cam, config.image_time_offset_s),
       adapter_(config.observer_adapter),
       buffer_(config.observer),
       observer_(observer),
       heights_(config.height_input, config.observer.buffer_s),
-      ranges_(std::move(ranges)) {}
+      ranges_(std::move(ranges)) {
+  run_.image_time_offset_s = config.image_time_offset_s;
+}
 
 bool BackEnd::observerAt(std::int64_t stamp_ns, ObserverState& state) {
   auto lookup = buffer_.at(stamp_ns, state);
@@ -139,6 +144,7 @@ void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
         "the images are of several cameras, and mounting_deviation_deg is of one: set it to 0");
   slam_.changeCamera(T_base_cam);
   T_base_cam_ = T_base_cam;
+  time_offset_.useCamera(T_base_cam);
   watch_.reset();
   standstill_.reset();
   ++run_.camera_changes;
@@ -147,7 +153,7 @@ void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 void BackEnd::process(const TrackedFrame& frame) {
   if (frame.other_camera) changeCamera(*frame.other_camera);
   ObserverState state;
-  if (!observerAt(frame.features.stamp_ns, state)) {
+  if (!observerAt(frame.features.stamp_ns + image_time_offset_ns_, state)) {
     ++run_.frames_without_observer;
     return;
   }
@@ -155,6 +161,8 @@ void BackEnd::process(const TrackedFrame& frame) {
   standstill_.see(frame.features, state.T_odom_base * T_base_cam_);
   run_.odometry_froze = run_.odometry_froze || standstill_.isStuck();
   state.height_m = heightAt(state);
+  state.stamp_ns = frame.features.stamp_ns;  // the pose keeps the image's stamp
+  time_offset_.see(frame.features, buffer_);
   RunFrame run_frame;
   run_frame.times_ms = frame.times_ms;
   StageTimer timer(run_frame.times_ms);
@@ -163,6 +171,7 @@ void BackEnd::process(const TrackedFrame& frame) {
 }
 
 RunResult BackEnd::finish() {
+  run_.time_offset = time_offset_.estimate();
   run_.images_travel = watch_.isStuck();
   run_.absurd_speed_m_s = speed_.absurd_m_s();
   run_.odometry_faults = adapter_.faults();

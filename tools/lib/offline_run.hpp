@@ -15,6 +15,7 @@
 #include "ardrone_vslam/observer_adapter.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/stages.hpp"
+#include "ardrone_vslam/time_offset.hpp"
 #include "config_file.hpp"
 #include "observer_model.hpp"
 #include "sequence.hpp"
@@ -53,7 +54,9 @@ struct RunResult {
   bool odometry_froze = false;  ///< for a while, although the images travelled
   double absurd_speed_m_s = 0;  ///< of the observer, when it is too fast to be in metres
   int camera_changes = 0;
-  double scale_error = 0;  ///< the one drawn for the observer
+  double image_time_offset_s = 0;  ///< the parameter
+  TimeOffset time_offset;          ///< what it seems to be
+  double scale_error = 0;          ///< the one drawn for the observer
 };
 
 /// Images at which the watchdog left the camera out.
@@ -89,6 +92,8 @@ class BackEnd {
 
   Slam slam_;
   Eigen::Isometry3d T_base_cam_;
+  std::int64_t image_time_offset_ns_;
+  TimeOffsetEstimator time_offset_;
   StandstillWatch watch_;       ///< sees an observer that only turns: what moves then is the images
   StandstillWatch standstill_;  ///< the same with its positions
   SpeedWatch speed_;

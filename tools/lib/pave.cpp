@@ -2,6 +2,7 @@
 #include "pave.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace ardrone_vslam {
@@ -11,6 +12,7 @@ constexpr std::size_t kMinHeaderSize_bytes = 64;
 constexpr std::size_t kMaxHeaderSize_bytes = 512;
 constexpr std::size_t kMaxPayloadSize_bytes = 4 << 20;  // a raw 1280x720 picture is below it
 constexpr int kMaxWidth_px = 4096;
+constexpr std::uint32_t kMostLost = 3000;  // frames; 100 s
 constexpr std::uint8_t kH264 = 4;
 constexpr std::uint8_t kSignature[4] = {'P', 'a', 'V', 'E'};
 
@@ -20,10 +22,16 @@ std::uint32_t littleEndian(const std::uint8_t* data, std::size_t byte_count) {
   return value;
 }
 
+using Size = std::pair<int, int>;  // width and height
+
+Size sizeOf(const PaveHeader& header) {
+  return {header.width_px, header.height_px};
+}
+
 /// Puts packets together to frames and drops what cannot be decoded.
 class FrameAssembler {
  public:
-  explicit FrameAssembler(PaveStream& stream) : stream_(stream) {}
+  FrameAssembler(PaveStream& stream, const Size& size) : stream_(stream), size_(size) {}
 
   /// A hole in the bytes: the next picture's predecessor may be missing.
   void hole() { awaits_idr_ = true; }
@@ -66,14 +74,20 @@ class FrameAssembler {
         ++statistics.misordered_frames;
         return false;
       }
+    } else if (has_number_ && !is_idr && header.frame_number - last_number_ > kMostLost) {
+      // No such hole: the number itself is damaged, and must not make all that follow look old.
+      ++statistics.broken_packets;
+      awaits_idr_ = true;
+      return false;
+    } else if (has_number_ && header.frame_number - last_number_ > kMostLost) {
+      awaits_idr_ = true;  // a damaged number, or a stream that goes on: an IDR picture is sound
     } else if (has_number_ && header.frame_number > last_number_ + 1) {
       statistics.lost_frames += header.frame_number - last_number_ - 1;
       awaits_idr_ = true;
     }
     has_number_ = true;
     last_number_ = header.frame_number;
-    if (!stream_.frames.empty() && (header.width_px != stream_.frames.front().header.width_px ||
-                                    header.height_px != stream_.frames.front().header.height_px)) {
+    if (sizeOf(header) != size_) {
       ++statistics.other_size_frames;
       awaits_idr_ = true;
       return false;
@@ -87,6 +101,7 @@ class FrameAssembler {
   }
 
   PaveStream& stream_;
+  Size size_;
   std::vector<std::uint8_t> parameter_sets_;
   bool awaits_idr_ = true;
   bool has_number_ = false;
@@ -112,6 +127,20 @@ std::size_t findHeader(const std::uint8_t* data, std::size_t size, std::size_t b
     }
     ++position;
   }
+}
+
+/// That of most packets: the first one's may be damaged.
+Size commonSize(const std::uint8_t* data, std::size_t size) {
+  std::map<Size, std::size_t> packets;
+  Size common;
+  std::size_t most = 0;
+  for (std::size_t i = findHeader(data, size, 0); i < size; i = findHeader(data, size, i + 4)) {
+    const Size one = sizeOf(*parsePaveHeader(data + i, size - i));
+    if (++packets[one] <= most) continue;
+    most = packets[one];
+    common = one;
+  }
+  return common;
 }
 
 }  // namespace
@@ -144,7 +173,7 @@ std::optional<PaveHeader> parsePaveHeader(const std::uint8_t* data, std::size_t 
 
 PaveStream parsePave(const std::uint8_t* data, std::size_t size) {
   PaveStream stream;
-  FrameAssembler assembler(stream);
+  FrameAssembler assembler(stream, commonSize(data, size));
   std::size_t position = findHeader(data, size, 0);
   stream.statistics.garbage_bytes += position;
   while (position < size) {

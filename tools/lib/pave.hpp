@@ -35,12 +35,13 @@ struct PaveFrame {
 };
 
 struct PaveStatistics {
-  std::size_t packets = 0;            ///< headers found
-  std::size_t broken_packets = 0;     ///< cut short, grown, or of an unknown codec
-  std::size_t garbage_bytes = 0;      ///< bytes passed over outside of any packet
-  std::size_t lost_frames = 0;        ///< holes in the frame numbers
+  std::size_t packets = 0;  ///< headers found
+  std::size_t broken_packets =
+      0;                          ///< cut short, grown, of an unknown codec, or their number absurd
+  std::size_t garbage_bytes = 0;  ///< bytes passed over outside of any packet
+  std::size_t lost_frames = 0;    ///< holes in the frame numbers
   std::size_t misordered_frames = 0;  ///< repeated or older frame numbers, dropped
-  std::size_t other_size_frames = 0;  ///< of another size than the first, dropped
+  std::size_t other_size_frames = 0;  ///< of another size than most, dropped
   std::size_t waiting_frames = 0;     ///< dropped for want of the picture they build on
 };
 

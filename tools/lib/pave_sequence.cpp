@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pave_sequence.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -47,13 +48,37 @@ std::vector<std::string> damageOf(const PaveStatistics& statistics) {
       {statistics.garbage_bytes, "bytes belong to no packet"},
       {statistics.lost_frames, "frames are missing"},
       {statistics.misordered_frames, "frames are repeated or out of order"},
-      {statistics.other_size_frames, "frames are of another size than the first"},
+      {statistics.other_size_frames,
+       "frames are of another size than most (another camera or setting)"},
       {statistics.waiting_frames, "frames build on a missing one"}};
   std::vector<std::string> damage;
   for (const auto& kind : kinds) {
     if (kind.first > 0) damage.push_back(std::to_string(kind.first) + " " + kind.second);
   }
   return damage;
+}
+
+/// The indices of the longest strictly ascending sub-sequence (patience sorting), O(n log n).
+std::vector<std::size_t> longestAscent(const std::vector<std::int64_t>& values) {
+  constexpr auto kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> ends;  // of the ascents of each length: the one that ends lowest
+  std::vector<std::size_t> before(values.size(), kNone);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto end = std::lower_bound(
+        ends.begin(), ends.end(), values[i],
+        [&values](std::size_t index, std::int64_t value) { return values[index] < value; });
+    if (end != ends.begin()) before[i] = *std::prev(end);
+    if (end == ends.end()) {
+      ends.push_back(i);
+    } else {
+      *end = i;
+    }
+  }
+  std::vector<std::size_t> ascent;
+  for (std::size_t i = ends.empty() ? kNone : ends.back(); i != kNone; i = before[i])
+    ascent.push_back(i);
+  std::reverse(ascent.begin(), ascent.end());
+  return ascent;
 }
 
 class PaveFile : public PaveSequence {
@@ -90,15 +115,14 @@ class PaveFile : public PaveSequence {
   const std::vector<std::string>& warnings() const override { return warnings_; }
 
  private:
-  /// Frames whose clock stands still or goes back are decoded (others build on them) but not
-  /// handed on.
+  /// As many frames as possible whose stamps ascend: where the clock stands still, goes back or is
+  /// damaged, frames are decoded (others build on them) but not handed on.
   void takeStamps() {
-    for (std::size_t i = 0; i < decoder_.size(); ++i) {
-      const std::int64_t stamp_ns = std::int64_t{1'000'000} * decoder_.header(i).timestamp_ms;
-      if (!stamps_ns_.empty() && stamp_ns <= stamps_ns_.back()) continue;
-      frames_.push_back(i);
-      stamps_ns_.push_back(stamp_ns);
-    }
+    std::vector<std::int64_t> stamps_ns;
+    for (std::size_t i = 0; i < decoder_.size(); ++i)
+      stamps_ns.push_back(std::int64_t{1'000'000} * decoder_.header(i).timestamp_ms);
+    frames_ = longestAscent(stamps_ns);
+    for (const std::size_t frame : frames_) stamps_ns_.push_back(stamps_ns[frame]);
     if (decoder_.droppedFrames() > 0) {
       warnings_.push_back(std::to_string(decoder_.droppedFrames()) +
                           " frames are in groups that cannot be decoded whole");

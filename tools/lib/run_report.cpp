@@ -209,17 +209,18 @@ RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
   RunEvaluation e;
   for (const RunFrame& frame : run.frames) {
     const FrameResult& r = frame.result;
-    const StampedPose fused{r.stamp_ns, r.T_map_base};
-    const StampedPose observer{r.stamp_ns, r.T_odom_base};
+    const std::int64_t exposed_ns = r.stamp_ns + std::llround(run.image_time_offset_s * 1e9);
+    const StampedPose fused{exposed_ns, r.T_map_base};
+    const StampedPose observer{exposed_ns, r.T_odom_base};
     e.fused.append(fused);
     e.observer.append(observer);
     double camera_error = kNone;
     double fused_nees = kNone;
     double fused_error = kNone;
     double observer_error = kNone;
-    if (truth.covers(r.stamp_ns, kLongestTruthGap_ns)) {
-      const Eigen::Isometry3d T_map_base = truth.at(r.stamp_ns);
-      e.truth.append({r.stamp_ns, T_map_base});
+    if (truth.covers(exposed_ns, kLongestTruthGap_ns)) {
+      const Eigen::Isometry3d T_map_base = truth.at(exposed_ns);
+      e.truth.append({exposed_ns, T_map_base});
       e.fused_at_truth.append(fused);
       e.observer_at_truth.append(observer);
       const Eigen::Vector3d position = T_map_base.translation();
@@ -247,6 +248,12 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["camera_changes"] = run.camera_changes;
   summary["frames_without_observer"] = run.frames_without_observer;
   summary["observer_states_refused"] = run.observer_states_refused;
+  const bool is_offset_known = run.time_offset.state == TimeOffsetState::kKnown;
+  summary["image_time_offset_s"] = run.image_time_offset_s;
+  summary["image_time_offset_estimate_s"] =
+      is_offset_known ? Json(run.time_offset.offset_s) : Json(nullptr);
+  summary["image_time_offset_deviation_s"] =
+      is_offset_known ? Json(run.time_offset.deviation_s) : Json(nullptr);
   summary["odometry_steps"] =
       std::count_if(run.frames.begin(), run.frames.end(),
                     [](const RunFrame& f) { return f.result.odometry_step_m > 0; });
@@ -271,8 +278,9 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
 namespace {
 
 bool isWorseWhenLarger(const std::string& key) {
-  for (const char* name : {"seed", "landmark_matches_median", "landmarks", "camera_frames",
-                           "frames_per_second", "observer_scale_error"}) {
+  for (const char* name :
+       {"seed", "landmark_matches_median", "landmarks", "camera_frames", "frames_per_second",
+        "observer_scale_error", "image_time_offset_s", "image_time_offset_estimate_s"}) {
     if (key == name) return false;
   }
   return true;

@@ -21,8 +21,8 @@ struct RunLabel {
   std::string estimator;
 };
 
-/// A run's trajectories at the images' stamps and its errors; these have an entry for each frame,
-/// NaN where there is no truth.
+/// A run's trajectories at the images' exposures (stamps plus image_time_offset_s) and its errors;
+/// these have an entry for each frame, NaN where there is no truth.
 struct RunEvaluation {
   Trajectory fused;
   Trajectory observer;        ///< T_odom_base; map equals odom at the start

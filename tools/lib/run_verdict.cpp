@@ -98,6 +98,8 @@ RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEval
   if (run.absurd_speed_m_s > 0) {
     verdict.warnings.push_back(name + ": " + explainSpeed("the odometry", run.absurd_speed_m_s));
   }
+  const std::string offset_advice = adviceOn(run.time_offset, run.image_time_offset_s);
+  if (!offset_advice.empty()) verdict.warnings.push_back(name + ": " + offset_advice);
   if (run.odometry_froze && verdict.faults.empty()) {
     verdict.warnings.push_back(
         name +

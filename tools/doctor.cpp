@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// doctor: what a bag, or a running system, has that keeps the SLAM from working, and what to do.
+
+#include <ros/ros.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <iostream>
+
+#include "doctor_bag.hpp"
+#include "doctor_examination.hpp"
+#include "doctor_live.hpp"
+#include "doctor_tracks.hpp"
+#include "progress_line.hpp"
+#include "run_report.hpp"
+#include "tool_main.hpp"
+
+namespace {
+
+using namespace ardrone_vslam;
+
+struct Options {
+  std::string input;
+  bool live = false;
+  double seconds = 20;
+  const CLI::Option* seconds_option = nullptr;
+  std::string json;
+  DoctorTopicNames topics;
+};
+
+void addOptions(CLI::App& app, Options& o) {
+  app.set_version_flag("--version", std::string("doctor (ardrone_vslam) " ARDRONE_VSLAM_VERSION));
+  app.add_option("bag", o.input, "the bag to look at");
+  app.add_flag("--live", o.live, "look at the running system's topics instead of a bag");
+  o.seconds_option =
+      app.add_option("--seconds", o.seconds, "with --live: for how long; fly and turn meanwhile")
+          ->capture_default_str()
+          ->check(CLI::Range(1.0, 600.0));
+  app.add_option("--json", o.json,
+                 "also write what was found as JSON to this file; -: to stdout, "
+                 "in place of the text");
+  app.add_option("--image", o.topics.image, "topic; default: the one with the most messages");
+  app.add_option("--camera-info", o.topics.camera_info, "topic; default: beside the images");
+  app.add_option("--odometry", o.topics.odometry, "topic; default: the one with the most messages");
+  app.footer(
+      "Exit code: 0 when it can work (warnings allowed), 1 when it cannot or cannot be read, 2 for "
+      "wrong usage.");
+}
+
+DoctorRecording record(const Options& o) {
+  if (o.live) {
+    ProgressLine progress("doctor: listening, tenths of a second",
+                          static_cast<std::size_t>(std::lround(o.seconds * 10)));
+    return listen(o.topics, o.seconds, [&progress](std::size_t done) { progress.update(done); });
+  }
+  std::unique_ptr<ProgressLine> progress;
+  return readForDoctor(o.input, o.topics, [&progress](std::size_t done, std::size_t all) {
+    if (!progress) progress = std::make_unique<ProgressLine>("doctor: messages", all);
+    progress->update(done);
+  });
+}
+
+int run(const Options& o) {
+  if (o.live == !o.input.empty()) throw UsageError("give either a bag or --live");
+  if (!o.live && o.seconds_option->count() > 0) throw UsageError("--seconds is for --live only");
+  const DoctorRecording recording = record(o);
+  DoctorReport report;
+  {
+    ProgressLine progress("doctor: images tracked", imagesToTrack(recording.images.size()).size());
+    report = examine(recording, [&progress](std::size_t done) { progress.update(done); });
+  }
+  if (o.json != "-") std::cout << textOf(report);
+  if (!o.json.empty()) {
+    const std::string json = jsonOf(report).dump(2) + "\n";
+    o.json == "-" ? static_cast<void>(std::cout << json) : writeText(o.json, json);
+  }
+  return report.canWork() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // Takes ROS's own arguments (topic:=other) out; without them there is no name to look up.
+  ros::init(argc, argv, "doctor", ros::init_options::AnonymousName);
+  CLI::App app{
+      "Looks at a bag (or with --live at the running topics): stamps, rates, calibration, tf, the "
+      "odometry's and the AR.Drone driver's known faults, and whether the camera looks where tf "
+      "says; says what to do.",
+      "doctor"};
+  Options options;
+  addOptions(app, options);
+  return runTool(app, argc, argv, [&options] { return run(options); });
+}

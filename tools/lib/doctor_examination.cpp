@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor_examination.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "../../nodes/checked.hpp"  // no ROS
+#include "doctor_camera.hpp"
+#include "doctor_frames.hpp"
+#include "doctor_height.hpp"
+#include "doctor_motion.hpp"
+#include "doctor_odometry.hpp"
+#include "doctor_streams.hpp"
+#include "doctor_topics.hpp"
+#include "doctor_tracks.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr double kCar_m_s = 4;  // in the mean: a car
+
+void append(Findings& findings, Findings more) {
+  for (Finding& finding : more) findings.push_back(std::move(finding));
+}
+
+/// The first reason for a parameter stays.
+void removeRepeated(std::vector<SuggestedParameter>& parameters) {
+  std::vector<SuggestedParameter> kept;
+  for (const SuggestedParameter& parameter : parameters) {
+    const bool is_there = std::any_of(kept.begin(), kept.end(), [&](const auto& other) {
+      return other.section == parameter.section && other.key == parameter.key;
+    });
+    if (!is_there) kept.push_back(parameter);
+  }
+  parameters = std::move(kept);
+}
+
+double meanSpeed_m_s(const std::vector<ObserverState>& odometry) {
+  double way_m = 0;
+  for (std::size_t i = 1; i < odometry.size(); ++i) {
+    way_m +=
+        (odometry[i].T_odom_base.translation() - odometry[i - 1].T_odom_base.translation()).norm();
+  }
+  if (odometry.size() < 2) return 0;
+  return way_m / (static_cast<double>(odometry.back().stamp_ns - odometry.front().stamp_ns) * 1e-9);
+}
+
+void nameVehicle(const DoctorRecording& recording, const std::vector<ObserverState>& odometry,
+                 DoctorReport& report) {
+  if (!navdataTopic(recording).empty() ||
+      recording.base_frame.find("ardrone_base_link") != std::string::npos) {
+    report.vehicle = "an AR.Drone";
+    report.config_file = "ardrone_front.yaml";
+  } else if (meanSpeed_m_s(odometry) > kCar_m_s) {
+    report.vehicle = "a car";
+    report.config_file = "kitti.yaml";
+    // That file has a car's noise.
+    const auto isNoise = [](const SuggestedParameter& p) { return p.key.rfind("walk_", 0) == 0; };
+    report.parameters.erase(
+        std::remove_if(report.parameters.begin(), report.parameters.end(), isNoise),
+        report.parameters.end());
+  }
+}
+
+Finding aboutTracks(const DoctorRecording& recording, const Tracks& tracks) {
+  Finding finding{"images_tracked", Verdict::kOk, {}, {}};
+  finding.text = text(tracks.looked_at, " of ", recording.images.size(), " images");
+  if (tracks.looked_at == 0) {
+    return {"images_tracked",
+            Verdict::kNotChecked,
+            "because no image has a calibration that can be used",
+            {}};
+  }
+  if (tracks.undecodable == 0) return finding;
+  finding.verdict = Verdict::kWarning;
+  finding.text += text(", ", tracks.undecodable, " cannot be decoded");
+  finding.remedy = "record them again";
+  return finding;
+}
+
+}  // namespace
+
+DoctorReport examine(const DoctorRecording& recording,
+                     const std::function<void(std::size_t done)>& progress) {
+  DoctorReport report;
+  report.name = recording.name;
+  Findings& findings = report.findings;
+  std::vector<SuggestedParameter>& parameters = report.parameters;
+  findings.push_back(checkTopics(recording));
+  append(findings, checkImageStream(recording));
+  append(findings, checkOdometryStream(recording));
+  findings.push_back(checkClock(recording));
+  findings.push_back(checkPairing(recording));
+  append(findings, checkCalibrations(recording));
+  findings.push_back(checkCameraSwitch(recording));
+  findings.push_back(checkOdometryFrames(recording, parameters));
+  append(findings, checkCameraTf(recording, report.static_transform));
+  append(findings, checkOdometryValues(recording));
+  append(findings, checkOdometryFields(recording, parameters));
+  findings.push_back(checkOdometryYaw(recording, parameters));
+  const bool is_mirrored = !parameters.empty() && parameters.back().key == "observer_mode";
+  append(findings, checkHeight(recording, parameters));
+
+  const Tracks tracks = trackImages(recording, progress);
+  findings.push_back(aboutTracks(recording, tracks));
+  const AdaptedOdometry odometry =
+      adapt(recording, is_mirrored ? ObserverMode::kTwist : ObserverMode::kPose);
+  findings.push_back(checkMoves(recording, tracks, odometry.states));
+  const auto mountings = estimateMountings(recording, tracks, odometry.states);
+  append(findings, checkDirections(mountings, recording.base_frame, report.static_transform));
+  findings.push_back(checkTimeOffset(mountings, parameters));
+  nameVehicle(recording, odometry.states, report);
+  if (isCompressed(recording)) {
+    parameters.push_back({"tracker", "image_transport", "compressed", "there are no raw images"});
+  }
+  removeRepeated(parameters);
+  return report;
+}
+
+}  // namespace ardrone_vslam

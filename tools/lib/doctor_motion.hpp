@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The images against the odometry.
+#pragma once
+
+#include <string>
+
+#include "ardrone_vslam/time_offset.hpp"
+#include "doctor_mounting.hpp"
+#include "doctor_recording.hpp"
+#include "doctor_report.hpp"
+#include "doctor_tracks.hpp"
+
+namespace ardrone_vslam {
+
+/// Whether the odometry moves, at least where the images do (`odometry_moves`).
+Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
+                   const std::vector<ObserverState>& odometry);
+
+/// Of each camera whose place tf tells.
+struct CameraMounting {
+  std::string frame;
+  Eigen::Isometry3d T_base_cam;  ///< by tf
+  MountingEstimate estimate;
+  TimeOffset offset;  ///< unless the mounting is found: not known
+};
+std::vector<CameraMounting> estimateMountings(const DoctorRecording& recording,
+                                              const Tracks& tracks,
+                                              const std::vector<ObserverState>& odometry);
+
+/// Whether each camera looks where tf says (`camera_direction`).
+/// @param static_transform  gets the command line that corrects it
+Findings checkDirections(const std::vector<CameraMounting>& mountings,
+                         const std::string& base_frame, std::string& static_transform);
+
+/// Whether images and odometry move at the same time (`image_time_offset`).
+Finding checkTimeOffset(const std::vector<CameraMounting>& mountings,
+                        std::vector<SuggestedParameter>& parameters);
+
+}  // namespace ardrone_vslam

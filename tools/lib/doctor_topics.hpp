@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "doctor_recording.hpp"
+
+namespace ardrone_vslam {
+
+/// Topics that the user named; empty: found by type.
+struct DoctorTopicNames {
+  std::string image;
+  std::string camera_info;
+  std::string odometry;
+};
+
+/// Sets the recording's topics and `choices` by its `topics`. Of several that fit the one with the
+/// most messages is taken, of these the shortest name, so that doctor has something to look at
+/// where replay asks.
+/// @throws std::runtime_error when a named topic is not there or of another type
+void chooseTopics(const DoctorTopicNames& names, DoctorRecording& recording);
+
+bool isCompressed(const DoctorRecording& recording);
+
+/// The driver's navdata; empty: there is none.
+std::string navdataTopic(const DoctorRecording& recording);
+
+}  // namespace ardrone_vslam
