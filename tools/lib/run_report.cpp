@@ -254,6 +254,8 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
       is_offset_known ? Json(run.time_offset.offset_s) : Json(nullptr);
   summary["image_time_offset_deviation_s"] =
       is_offset_known ? Json(run.time_offset.deviation_s) : Json(nullptr);
+  summary["image_time_offset_unknown"] =
+      is_offset_known ? Json(nullptr) : Json(explain(run.time_offset.state));
   summary["odometry_steps"] =
       std::count_if(run.frames.begin(), run.frames.end(),
                     [](const RunFrame& f) { return f.result.odometry_step_m > 0; });
