@@ -9,7 +9,7 @@
 
 namespace ardrone_vslam {
 
-/// What the features tell of their camera. A map made with one camera is of no use to another.
+/// What the features tell of their camera.
 struct CameraIdentity {
   std::string frame;  ///< optical frame; empty before the first features
   std::uint32_t width_px = 0;

@@ -14,16 +14,18 @@ void FrameMatcher::addFeatures(const FeaturesConstPtr& features, double now_s) {
   waiting_.push_back({features, now_s});
 }
 
-std::optional<FrameMatcher::Frame> FrameMatcher::next(double now_s, bool hold) {
+std::optional<FrameMatcher::Frame> FrameMatcher::next(
+    double now_s, const std::function<bool(const Features&)>& can_use) {
   using Lookup = ObserverBuffer::Lookup;
   while (!waiting_.empty()) {
     const bool is_late = now_s - waiting_.front().since_s > wait_s_;
     Frame frame{waiting_.front().features, {}};
     const Lookup answer = buffer_.at(toNanoseconds(frame.features->header.stamp), frame.observer);
     if (answer == Lookup::kFound) {
-      if (hold && !is_late) return std::nullopt;
+      const bool is_usable = can_use(*frame.features);
+      if (!is_usable && !is_late) return std::nullopt;
       waiting_.pop_front();
-      if (!hold) return frame;
+      if (is_usable) return frame;
       ++dropped_held_;
       continue;
     }
@@ -47,11 +49,6 @@ bool FrameMatcher::forgetAfter(std::int64_t stamp_ns) {
                  waiting_.end());
   dropped_no_odometry_ += count - waiting_.size();
   return is_old_odometry || waiting_.size() < count;
-}
-
-void FrameMatcher::dropWaiting() {
-  dropped_no_odometry_ += waiting_.size();
-  waiting_.clear();
 }
 
 std::string explain(ObserverBuffer::Lookup miss, const std::string& odometry_topic) {

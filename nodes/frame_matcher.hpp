@@ -4,6 +4,7 @@
 #include <ardrone_vslam/Features.h>
 
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -28,15 +29,13 @@ class FrameMatcher {
 
   /// Takes out the oldest waiting frame if its odometry is there. Drops before it those that waited
   /// too long or whose odometry can never come.
-  /// @param hold  do not take frames out yet (the mounting is unknown), only drop the late ones
-  std::optional<Frame> next(double now_s, bool hold);
+  /// @param can_use  asked once the odometry is there: false holds the frame (its camera's mounting
+  /// is unknown) until it is late
+  std::optional<Frame> next(double now_s, const std::function<bool(const Features&)>& can_use);
 
   /// Time began again: forgets what belongs to the run before, that is odometry and waiting frames
   /// with stamps after this one. @return whether there was any
   bool forgetAfter(std::int64_t stamp_ns);
-
-  /// Drops all waiting frames.
-  void dropWaiting();
 
   std::uint64_t droppedNoOdometry() const { return dropped_no_odometry_; }
   std::uint64_t droppedHeld() const { return dropped_held_; }

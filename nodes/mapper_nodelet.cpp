@@ -99,14 +99,6 @@ void MapperNodelet::onFeatures(const FeaturesConstPtr& features) {
   gaps_.see(features->header.seq);
   totals_.dropped_queue = gaps_.lost();
   if (!acceptFeatures(*features)) return;
-  const CameraIdentity camera = cameraOf(*features);
-  if (camera != camera_) {
-    matcher_->dropWaiting();
-    if (slam_) {
-      beginMapAnew("the camera changed from " + camera_.text() + " to " + camera.text());
-    }
-    camera_ = camera;
-  }
   matcher_->addFeatures(features, now_s());
   processReady();
 }
@@ -197,30 +189,47 @@ void MapperNodelet::takeFrameNames(const nav_msgs::Odometry& odometry) {
 }
 
 void MapperNodelet::processReady() {
-  while (const auto frame = matcher_->next(now_s(), !prepareSlam())) processFrame(*frame);
+  const auto can_use = [this](const Features& features) { return prepareSlam(features); };
+  while (const auto frame = matcher_->next(now_s(), can_use)) processFrame(*frame);
   totals_.dropped_no_odometry = matcher_->droppedNoOdometry();
   totals_.dropped_no_extrinsics = matcher_->droppedHeld();
 }
 
-bool MapperNodelet::prepareSlam() {
-  if (slam_) return true;
-  if (camera_.frame.empty() || matcher_->newestObserver_ns() == 0) return false;
+bool MapperNodelet::prepareSlam(const Features& features) {
+  const CameraIdentity camera = cameraOf(features);
+  if (slam_ && camera == camera_) return true;
   if (frames_.odom.empty() || frames_.base.empty()) {
     extrinsics_fault_ = odometry_sub_.getTopic() + " names no " +
                         (frames_.odom.empty() ? "frame_id; set the parameter odom_frame"
                                               : "child_frame_id; set the parameter base_frame");
     return false;
   }
-  const std::string camera = withTfPrefix(tf_prefix_, camera_.frame);
-  const auto T_base_cam = mounting_->find(frames_.base, camera, extrinsics_fault_);
+  const std::string frame = withTfPrefix(tf_prefix_, camera.frame);
+  const auto T_base_cam = mounting_->find(frames_.base, frame, extrinsics_fault_);
   if (!T_base_cam) return false;
   extrinsics_fault_.clear();
-  slam_ = std::make_unique<Slam>(config_, *T_base_cam);
-  T_base_cam_ = *T_base_cam;
+  useCamera(camera, *T_base_cam);
   NODELET_INFO_STREAM("frames: " << frames_.map << " -> " << frames_.odom << " -> " << frames_.base
-                                 << " -> " << camera << ", camera at ("
+                                 << " -> " << frame << ", camera at ("
                                  << T_base_cam->translation().transpose() << ") m");
   return true;
+}
+
+void MapperNodelet::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam) {
+  if (slam_) {
+    const std::string change = "the camera changed from " + camera_.text() + " to " + camera.text();
+    ++totals_.camera_changes;
+    if (slam_->canChangeCamera()) {
+      NODELET_INFO_STREAM(change << ": the map goes on");
+      slam_->changeCamera(T_base_cam);
+      standstill_.reset();
+    } else {
+      beginMapAnew(change + ", and mounting_deviation_deg is of one camera");
+    }
+  }
+  if (!slam_) slam_ = std::make_unique<Slam>(config_, T_base_cam);
+  camera_ = camera;
+  T_base_cam_ = T_base_cam;
 }
 
 void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {

@@ -55,8 +55,10 @@ class MapperNodelet : public nodelet::Nodelet {
   void processFrame(const FrameMatcher::Frame& frame);
   /// Answers an image whose pose is not finite: by its status alone.
   void refuseResult(const FrameResult& result, const Features& features);
-  /// Makes the Slam once the camera's mounting is known. @return false while it is not
-  bool prepareSlam();
+  /// Makes the Slam, or has it change the camera, once the mounting of these features' camera is
+  /// known. @return false while it is not
+  bool prepareSlam(const Features& features);
+  void useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam);
   /// Time began again at this stamp: forgets what belongs to the run before.
   void restartAt(std::int64_t stamp_ns, const std::string& topic);
   void beginMapAnew(const std::string& why);
@@ -98,7 +100,7 @@ class MapperNodelet : public nodelet::Nodelet {
   std::int64_t answered_ns_ = 0;  // stamp of the newest image in the map
   ImageFeatures features_;        // of the image at work; kept for its memory
   Frames frames_;                 // odom and base are empty until the first odometry
-  CameraIdentity camera_;         // of the newest features
+  CameraIdentity camera_;         // as slam_ has it
   std::string extrinsics_fault_;  // what tf says while the mounting is unknown
 
   Status totals_;  // its counters only

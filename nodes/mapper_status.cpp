@@ -124,6 +124,7 @@ void MapperNodelet::fillTotals(Status& status) const {
   toStatus(adapter_->faults(), status);
   status.results_not_finite = totals_.results_not_finite;
   status.restarts = totals_.restarts;
+  status.camera_changes = totals_.camera_changes;
 }
 
 std::string MapperNodelet::missingRange() const {
@@ -200,6 +201,7 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
     wrapper.add("scale deviation", latest_.scale_deviation);
   }
   wrapper.add("results not finite", totals_.results_not_finite);
+  wrapper.add("camera changes", totals_.camera_changes);
   wrapper.add("landmarks", latest_.landmarks);
   wrapper.add("landmark matches", latest_.landmark_matches);
   wrapper.add("deviation [m]", latest_.deviation);

@@ -26,27 +26,23 @@ Mounting::Mounting(ros::NodeHandle& nh) : buffer_(kCache, false), listener_(buff
 std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
                                                 const std::string& camera_frame,
                                                 std::string& fault) {
-  const bool is_known = base_frame == base_frame_ && camera_frame == camera_frame_;
-  if (is_known && T_base_cam_) return T_base_cam_;
+  if (base_frame != base_frame_) T_base_cam_.clear();
   base_frame_ = base_frame;
-  camera_frame_ = camera_frame;
-  T_base_cam_.reset();
+  const auto known = T_base_cam_.find(camera_frame);
+  if (known != T_base_cam_.end()) return known->second;
   try {
     const Eigen::Isometry3d T_base_cam =
         toIsometry(buffer_.lookupTransform(base_frame, camera_frame, ros::Time(0)).transform);
     const std::string wrong = mountingFault(T_base_cam);
-    if (wrong.empty()) {
-      T_base_cam_ = T_base_cam;
-    } else {
-      fault = "transform from " + base_frame + " to " + camera_frame + ": " + wrong;
-    }
+    if (wrong.empty()) return T_base_cam_[camera_frame] = T_base_cam;
+    fault = "transform from " + base_frame + " to " + camera_frame + ": " + wrong;
   } catch (const tf2::TransformException& e) {
     fault = "no transform from " + base_frame + " to " + camera_frame + " (" + e.what() +
             "): publish the camera's mounting, for example by `rosrun tf2_ros "
             "static_transform_publisher x y z yaw pitch roll " +
             base_frame + " " + camera_frame + "`";
   }
-  return T_base_cam_;
+  return std::nullopt;
 }
 
 }  // namespace ardrone_vslam

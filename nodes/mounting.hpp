@@ -5,12 +5,13 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <Eigen/Geometry>
+#include <map>
 #include <optional>
 #include <string>
 
 namespace ardrone_vslam {
 
-/// Where the camera sits on the drone, from tf. Taken as rigid: once found it is kept.
+/// Where the cameras sit on the drone, from tf. Taken as rigid: once found they are kept.
 class Mounting {
  public:
   explicit Mounting(ros::NodeHandle& nh);
@@ -25,8 +26,7 @@ class Mounting {
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
   std::string base_frame_;
-  std::string camera_frame_;
-  std::optional<Eigen::Isometry3d> T_base_cam_;
+  std::map<std::string, Eigen::Isometry3d> T_base_cam_;  // by camera frame
 };
 
 }  // namespace ardrone_vslam

@@ -164,14 +164,14 @@ bool TrackerNodelet::prepareTracker(const sensor_msgs::CameraInfo& info, const s
                                     const GreyImage& image) {
   const auto checked = toIntrinsics(info, node_config_.rectified);
   if (!checked.value) {
-    drop(info_topic_, checked.fault);
+    drop(info_topic_, "camera " + frame + ": " + checked.fault);
     return false;
   }
   const CameraIntrinsics& camera = *checked.value;
   if (camera.width_px != image.pixels.cols || camera.height_px != image.pixels.rows) {
-    drop(image_topic_, "its image is " + std::to_string(image.pixels.cols) + "x" +
-                           std::to_string(image.pixels.rows) + " but " + info_topic_ + " is for " +
-                           std::to_string(camera.width_px) + "x" +
+    drop(image_topic_, "camera " + frame + ": its image is " + std::to_string(image.pixels.cols) +
+                           "x" + std::to_string(image.pixels.rows) + " but " + info_topic_ +
+                           " is for " + std::to_string(camera.width_px) + "x" +
                            std::to_string(camera.height_px) +
                            "; calibrate the camera at the size it streams");
     return false;

@@ -85,6 +85,15 @@ void ConstraintFilter::start(const ObserverState& observer) {
   height_m_ = observer.height_m;
 }
 
+void ConstraintFilter::changeCamera(const Eigen::Isometry3d& T_base_cam) {
+  // With no keyframe since the last change the tracks are still those of the camera before.
+  if (!earlier_camera_) earlier_camera_ = TrackCamera{camera_base_, sigma_a_};
+  camera_base_ = T_base_cam.translation();
+  R_base_cam_ = T_base_cam.linear();
+  tracks_.changeCamera(R_base_cam_);
+  forgetReference();
+}
+
 void ConstraintFilter::predict(const ObserverState& observer,
                                const std::optional<OdometryStep>& step) {
   const bool is_kept = newest_is_keyframe_ || newest().id == reference_id_;
@@ -166,10 +175,15 @@ const std::vector<UsedTrack>& ConstraintFilter::track(const ImageFeatures& featu
   if (reference_id_ == keyframe_id_) reference_is_keyframe_ = true;
   tracks_.add(newest().id, features, order_);
   chooseAnchor();
+  sigma_a_ = config_.track_deviation_px / features.focal_length_px;
   const int others = reference_is_keyframe_ || !frameOf(reference_id_) ? 0 : 1;
   const bool is_full = static_cast<int>(state_.frames().size()) - others > config_.window_frames;
   useTracks(tracks_.takeFinished(state_.frames(), is_full),
-            config_.track_deviation_px / features.focal_length_px);
+            earlier_camera_.value_or(TrackCamera{camera_base_, sigma_a_}));
+  if (earlier_camera_) {  // all its tracks have ended, and this one sees something else
+    earlier_camera_.reset();
+    point_distance_m_ = 0;
+  }
   if (is_full) dropOldest();
   return used_;
 }
@@ -188,15 +202,16 @@ bool ConstraintFilter::hasKnownBaseline(TrackViews views) const {
   return across_m2 < squared(config_.baseline_uncertainty) * length_m2;
 }
 
-void ConstraintFilter::useTracks(const std::vector<FinishedTrack>& finished, double sigma_a) {
+void ConstraintFilter::useTracks(const std::vector<FinishedTrack>& finished,
+                                 const TrackCamera& camera) {
   std::vector<Candidate> candidates;
   for (const FinishedTrack& track : finished) {
     if (static_cast<int>(track.views.size()) < config_.min_track_views ||
         !hasKnownBaseline(track.views))
       continue;
-    const auto point = triangulateTrack(state_.frames(), camera_base_, track.views, sigma_a);
-    if (!point || point->parallax_rad < config_.track_parallax_deviations * sigma_a) continue;
-    auto constraint = constraintOf(state_, camera_base_, track.views, *point, sigma_a);
+    const auto point = triangulateTrack(state_.frames(), camera.camera_base, track.views, camera.sigma_a);
+    if (!point || point->parallax_rad < config_.track_parallax_deviations * camera.sigma_a) continue;
+    auto constraint = constraintOf(state_, camera.camera_base, track.views, *point, camera.sigma_a);
     if (!constraint) continue;
     ++candidates_;
     const double distance = constraint->distance(state_);
@@ -222,9 +237,9 @@ void ConstraintFilter::useTracks(const std::vector<FinishedTrack>& finished, dou
   for (const Candidate& c : candidates) {
     if (c.weight == 0) continue;
     tracks_.keepNewestView(c.track->track_id);
-    const auto point = triangulateTrack(state_.frames(), camera_base_, c.track->views, sigma_a);
+    const auto point = triangulateTrack(state_.frames(), camera.camera_base, c.track->views, camera.sigma_a);
     if (!point) continue;
-    const Eigen::Matrix3d by_frames = covarianceByFrames(state_, camera_base_, c.track->views,
+    const Eigen::Matrix3d by_frames = covarianceByFrames(state_, camera.camera_base, c.track->views,
                                                          point->position_map, *frameOf(anchor_id_));
     used_.push_back({*c.track, *point, anchor_id_, point->covariance_m2 + by_frames});
     distances_m.push_back((point->position_map - newest().position_map).norm());

@@ -55,4 +55,13 @@ void ConstraintFilter::makeReference() {
   reference_is_keyframe_ = false;
 }
 
+void ConstraintFilter::forgetReference() {
+  rest_ = RestDetector(config_.rest);
+  const auto old = frameOf(reference_id_);
+  if (old && !reference_is_keyframe_ && reference_id_ != newest().id) state_.removeFrame(*old);
+  reference_id_ = 0;
+  reference_is_keyframe_ = false;
+  odometry_way_.setZero();
+}
+
 }  // namespace ardrone_vslam

@@ -18,6 +18,7 @@ void ConstraintFilter::watchForContradiction() {
 
 void ConstraintFilter::forgetCamera() {
   tracks_ = TrackWindow(R_base_cam_);
+  earlier_camera_.reset();
   consistency_ = {};
   rest_ = RestDetector(config_.rest);
   reference_id_ = 0;

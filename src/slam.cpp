@@ -39,6 +39,11 @@ std::vector<std::string> faultsBetween(const SlamConfig& config) {
   return faults;
 }
 
+void refuseMounting(const Eigen::Isometry3d& T_base_cam) {
+  const std::string fault = mountingFault(T_base_cam);
+  if (!fault.empty()) throw std::invalid_argument("the camera's mounting: " + fault);
+}
+
 }  // namespace
 
 bool isFinite(const FrameResult& r) {
@@ -62,12 +67,24 @@ Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
   validate(config);
   const std::vector<std::string> faults = faultsBetween(config);
   if (!faults.empty()) throw ConfigError(faults);
-  const std::string fault = mountingFault(T_base_cam);
-  if (!fault.empty()) throw std::invalid_argument("the camera's mounting: " + fault);
+  refuseMounting(T_base_cam);
   state_ = std::make_unique<State>(config, T_base_cam);
 }
 
 Slam::~Slam() = default;
+
+bool Slam::canChangeCamera() const {
+  return !state_->constraint ||
+         state_->config.constraint_filter.observer.mounting_deviation_deg == 0;
+}
+
+void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
+  assert(canChangeCamera() && "an estimated mounting error is one camera's");
+  refuseMounting(T_base_cam);
+  state_->T_base_cam = T_base_cam;
+  state_->view.changeCamera();
+  if (state_->constraint) state_->constraint->changeCamera(T_base_cam);
+}
 
 const LandmarkMap& Slam::landmarks() const {
   return state_->landmark_map;

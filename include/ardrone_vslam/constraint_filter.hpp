@@ -175,6 +175,8 @@ class ConstraintFilter {
   ConstraintFilter(const ConstraintFilterConfig& config, const Eigen::Isometry3d& T_base_cam);
 
   void start(const ObserverState& observer);
+  /// The next frame is another camera's, on the same base: tracks end, all else goes on.
+  void changeCamera(const Eigen::Isometry3d& T_base_cam);
   void predict(const ObserverState& observer,
                const std::optional<OdometryStep>& step = std::nullopt);
   FixOutcome fix(const std::vector<LandmarkSighting>& sightings, double focal_length_px);
@@ -218,6 +220,12 @@ class ConstraintFilter {
   CameraMotion motion() const { return motion_; }
 
  private:
+  /// What the rays of tracks need of the camera that saw them.
+  struct TrackCamera {
+    Eigen::Vector3d camera_base;
+    double sigma_a;  // deviation of a ray [rad]
+  };
+
   FixOutcome fixBySightings(const std::vector<LandmarkSighting>& sightings, double sigma_a);
   FixOutcome fixByFew(const std::vector<MapSighting>& sightings, double sigma_a);
   FixOutcome fixByMost(const std::vector<MapSighting>& sightings, double sigma_a);
@@ -231,11 +239,12 @@ class ConstraintFilter {
   void watchForRest(const ImageFeatures& features);
   bool holdStill(std::size_t reference);
   void makeReference();
+  void forgetReference();
   std::optional<std::size_t> frameOf(std::uint32_t id) const;
   bool isKeyframe(const ImageFeatures& features);
   bool hasKnownBaseline(TrackViews views) const;
   void chooseAnchor();
-  void useTracks(const std::vector<FinishedTrack>& finished, double sigma_a);
+  void useTracks(const std::vector<FinishedTrack>& finished, const TrackCamera& camera);
   void dropOldest();
   void joinAnchors();
   std::optional<std::size_t> anchorOf(std::uint32_t anchor_id) const;
@@ -246,6 +255,8 @@ class ConstraintFilter {
   WindowState state_;
   TrackOrder order_;  // of the newest frame's features
   TrackWindow tracks_;
+  std::optional<TrackCamera> earlier_camera_;  // whose tracks are left in the window
+  double sigma_a_ = 0;                         // of the tracks seen last [rad]
   RestDetector rest_;
   CameraMotion motion_ = CameraMotion::kUnknown;
   FixOutcome fix_outcome_ = FixOutcome::kNone;  // of the newest frame

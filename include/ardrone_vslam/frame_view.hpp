@@ -33,6 +33,12 @@ class FrameView {
   /// @pre features outlives the view; its bearings are finite unit vectors
   void reset(const ImageFeatures& features, const Eigen::Isometry3d& T_map_cam, bool planar);
 
+  /// What the camera has shown so far is forgotten: the next features are another one's.
+  void changeCamera() {
+    lower_px_.setZero();
+    upper_px_.setZero();
+  }
+
   /// How well the position is known: its variance per axis, and whether drift is shared
   /// (common drift, docs/data_path.md).
   void setPositionVariance(double variance_m2, bool common_drift) {

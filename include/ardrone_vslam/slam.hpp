@@ -94,6 +94,15 @@ class Slam {
   const FrameResult& process(const ImageFeatures& features, const ObserverState& observer,
                              const StageHook& hook = {});
 
+  /// The next frame is another camera's, on the same base (or the camera's calibration is another
+  /// one): the map goes on, and pose and odometry with it. Its features must have new tracks.
+  /// @throws std::invalid_argument with the mountingFault
+  /// @pre canChangeCamera() (asserted)
+  void changeCamera(const Eigen::Isometry3d& T_base_cam);
+
+  /// False with `mounting_deviation_deg`, which is the error of one camera's mounting.
+  bool canChangeCamera() const;
+
   const LandmarkMap& landmarks() const;
   /// REP-105: corrects the odometry's drift. Identity until the first correction.
   Eigen::Isometry3d T_map_odom() const;

@@ -26,6 +26,8 @@ class TrackWindow {
  public:
   /// @param R_base_cam  the camera's mounting
   explicit TrackWindow(const Eigen::Matrix3d& R_base_cam) : R_base_cam_(R_base_cam) {}
+  /// Of the features from now on. None of them may have the track of an earlier one.
+  void changeCamera(const Eigen::Matrix3d& R_base_cam) { R_base_cam_ = R_base_cam; }
 
   /// How far the image has moved since a frame, once its turning is taken out.
   struct Motion {

@@ -53,6 +53,7 @@ class DriverRecording {
     bag_.open(path(), rosbag::bagmode::Read);
   }
 
+  std::string path() const { return folder_.file("driver.bag"); }
   std::map<std::string, std::string> types() const { return topicTypes(bag_); }
   std::string bytes() const { return readWhole(path()); }
 
@@ -115,8 +116,6 @@ class DriverRecording {
     }();
     return sequence;
   }
-  std::string path() const { return folder_.file("driver.bag"); }
-
   TemporaryFolder folder_;
   rosbag::Bag bag_;
 };

@@ -96,6 +96,7 @@ class Drone:
         self.direction = direction
         self.steps = 0
         self.time_s = 1000.0
+        self.camera, self.camera_left_px = "camera_optical", 0  # the one that sees, and how far left it is
         self._wall = paint_wall(np.random.default_rng(seed))
         self._image = self.compressed_image if compressed else self.image
         self._images = rospy.Publisher(
@@ -103,6 +104,7 @@ class Drone:
             CompressedImage if compressed else Image, queue_size=queue_size)
         self._infos = rospy.Publisher(camera + "/camera_info", CameraInfo, queue_size=queue_size)
         self._odometry = rospy.Publisher(odometry, Odometry, queue_size=100)
+        self._mountings = []
         self._tf = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
         self.pose = Recorder(vslam + "/pose", PoseWithCovarianceStamped)
         self.status = Recorder(vslam + "/status", Status)
@@ -121,15 +123,17 @@ class Drone:
                     p.name for p in publishers if p.get_num_connections() == 0))
             time.sleep(0.05)
 
-    def mount_camera(self, forward_m=0.21):
-        """base_link -> camera_optical: looks forward (REP-103)."""
+    def mount_camera(self, forward_m=0.21, camera="camera_optical", left_px=0):
+        """base_link -> camera: looks forward (REP-103)."""
         mounting = TransformStamped()
         mounting.header.frame_id = self.frame("base_link")
-        mounting.child_frame_id = self.frame("camera_optical")
+        mounting.child_frame_id = self.frame(camera)
         rotation = mounting.transform.rotation
         rotation.x, rotation.y, rotation.z, rotation.w = -0.5, 0.5, -0.5, 0.5
         mounting.transform.translation.x = forward_m
-        self._tf.publish(TFMessage([mounting]))
+        mounting.transform.translation.y = left_px * WALL_M / FOCAL_PX
+        self._mountings.append(mounting)  # a latched topic keeps its last message only
+        self._tf.publish(TFMessage(self._mountings))
 
     def position_m(self):
         return self.steps * STEP_M * self.direction
@@ -146,11 +150,11 @@ class Drone:
     def image(self):
         message = Image()
         message.header.stamp = self.stamp()
-        message.header.frame_id = self.frame("camera_optical")
+        message.header.frame_id = self.frame(self.camera)
         message.width, message.height, message.step = WIDTH, HEIGHT, WIDTH
         message.encoding = "mono8"
         # To the left the wall's pixels move to the right.
-        left_px = 1500 - self.direction * self.steps * STEP_PX
+        left_px = 1500 - self.direction * self.steps * STEP_PX - self.camera_left_px
         message.data = self._wall[:, left_px:left_px + WIDTH].tobytes()
         return message
 
@@ -165,7 +169,7 @@ class Drone:
     def info(self):
         message = CameraInfo()
         message.header.stamp = self.stamp()
-        message.header.frame_id = self.frame("camera_optical")
+        message.header.frame_id = self.frame(self.camera)
         message.width, message.height = WIDTH, HEIGHT
         message.distortion_model = "plumb_bob"
         message.D = [0.0] * 5

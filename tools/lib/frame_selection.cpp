@@ -69,7 +69,9 @@ class SelectedSequence : public Sequence {
  public:
   SelectedSequence(std::unique_ptr<Sequence> sequence, const std::vector<std::size_t>& frames,
                    bool ping_pong)
-      : sequence_(std::move(sequence)), order_(ping_pong ? pingPong(frames) : frames) {
+      : sequence_(std::move(sequence)),
+        order_(ping_pong ? pingPong(frames) : frames),
+        camera_(sequence_->cameraAt(sequence_->cameraOf(order_.front()))) {
     if (ping_pong) {
       restamp(frames);
     } else {
@@ -81,8 +83,12 @@ class SelectedSequence : public Sequence {
   std::size_t size() const override { return order_.size(); }
   std::int64_t stamp_ns(std::size_t index) const override { return stamps_ns_.at(index); }
   cv::Mat image(std::size_t index) override { return sequence_->image(order_.at(index)); }
-  const CameraIntrinsics& camera() const override { return sequence_->camera(); }
-  Eigen::Isometry3d T_base_cam() const override { return sequence_->T_base_cam(); }
+  const CameraIntrinsics& camera() const override { return camera_.intrinsics; }
+  Eigen::Isometry3d T_base_cam() const override { return camera_.T_base_cam; }
+  std::size_t cameraOf(std::size_t index) const override {
+    return sequence_->cameraOf(order_.at(index));
+  }
+  SequenceCamera cameraAt(std::size_t which) const override { return sequence_->cameraAt(which); }
   const Trajectory& truth() const override { return truth_; }
   const std::vector<ObserverState>& observer() const override { return observer_; }
   std::vector<RangeReading> ranges() const override { return ranges_; }
@@ -117,6 +123,7 @@ class SelectedSequence : public Sequence {
 
   std::unique_ptr<Sequence> sequence_;
   std::vector<std::size_t> order_;  // frames of sequence_
+  SequenceCamera camera_;           // of the first image
   std::vector<std::int64_t> stamps_ns_;
   Trajectory truth_;
   std::vector<ObserverState> observer_;

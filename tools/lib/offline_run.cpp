@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <stdexcept>
 #include <utility>
 
 #include "ardrone_vslam/scene_turn.hpp"
@@ -24,10 +25,9 @@ ImageView viewOf(const cv::Mat& image) {
 /// The image's turn at ascending stamps, from odometry.
 class SceneTurns {
  public:
-  SceneTurns(const std::vector<ObserverState>& attitude, const Eigen::Matrix3d& R_base_cam)
-      : attitude_(attitude), R_base_cam_(R_base_cam) {}
+  explicit SceneTurns(const std::vector<ObserverState>& attitude) : attitude_(attitude) {}
 
-  std::optional<float> at(std::int64_t stamp_ns) {
+  std::optional<float> at(std::int64_t stamp_ns, const Eigen::Matrix3d& R_base_cam) {
     while (next_ < attitude_.size() && attitude_[next_].stamp_ns < stamp_ns) ++next_;
     if (next_ == attitude_.size()) return std::nullopt;
     const ObserverState& after = attitude_[next_];
@@ -35,12 +35,11 @@ class SceneTurns {
     const ObserverState& before = attitude_[next_ == 0 ? 0 : next_ - 1];
     const ObserverState state =
         after.stamp_ns == stamp_ns ? after : interpolate(before, after, stamp_ns);
-    return sceneTurn_rad(state.T_odom_base.linear() * R_base_cam_);
+    return sceneTurn_rad(state.T_odom_base.linear() * R_base_cam);
   }
 
  private:
   const std::vector<ObserverState>& attitude_;
-  Eigen::Matrix3d R_base_cam_;
   std::size_t next_ = 0;
 };
 
@@ -63,22 +62,32 @@ void StageTimer::enter(Stage stage) {
 void runFrontEnd(Sequence& sequence, const TrackerConfig& config,
                  const std::vector<ObserverState>& attitude, int threads,
                  const std::function<void(const TrackedFrame& frame)>& consume) {
-  Tracker tracker(config, sequence.camera());
+  std::optional<Tracker> tracker;
+  std::size_t which = 0;
+  SequenceCamera camera;
   const auto policy = threads >= 2 ? std::launch::async : std::launch::deferred;
   const auto load = [&sequence, policy](std::size_t index) {
     return std::async(policy, [&sequence, index] { return sequence.image(index); });
   };
-  SceneTurns turns(attitude, sequence.T_base_cam().linear());
+  SceneTurns turns(attitude);
   TrackedFrame frame;
   std::future<cv::Mat> next;
   if (sequence.size() > 0) next = load(0);
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     const cv::Mat image = next.get();
     if (i + 1 < sequence.size()) next = load(i + 1);
+    frame.other_camera.reset();
+    if (!tracker || sequence.cameraOf(i) != which) {
+      which = sequence.cameraOf(i);
+      camera = sequence.cameraAt(which);
+      if (tracker) frame.other_camera = camera.T_base_cam;
+      const std::uint32_t first_track_id = tracker ? tracker->nextTrackId() : 1;
+      tracker.emplace(config, camera.intrinsics, first_track_id);
+    }
     frame.times_ms = {};
     StageTimer timer(frame.times_ms);
-    tracker.process(viewOf(image), sequence.stamp_ns(i), frame.features, timer.hook(),
-                    turns.at(sequence.stamp_ns(i)));
+    tracker->process(viewOf(image), sequence.stamp_ns(i), frame.features, timer.hook(),
+                     turns.at(sequence.stamp_ns(i), camera.T_base_cam.linear()));
     consume(frame);
   }
 }
@@ -124,7 +133,19 @@ std::optional<double> BackEnd::heightAt(const ObserverState& state) {
   return heights_.at(state);
 }
 
+void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
+  if (!slam_.canChangeCamera())
+    throw std::runtime_error(
+        "the images are of several cameras, and mounting_deviation_deg is of one: set it to 0");
+  slam_.changeCamera(T_base_cam);
+  T_base_cam_ = T_base_cam;
+  watch_.reset();
+  standstill_.reset();
+  ++run_.camera_changes;
+}
+
 void BackEnd::process(const TrackedFrame& frame) {
+  if (frame.other_camera) changeCamera(*frame.other_camera);
   ObserverState state;
   if (!observerAt(frame.features.stamp_ns, state)) {
     ++run_.frames_without_observer;

@@ -27,6 +27,8 @@ using StageTimes_ms = std::array<double, kStageCount>;
 struct TrackedFrame {
   ImageFeatures features;
   StageTimes_ms times_ms{};
+  /// T_base_cam of another camera than the frame's before.
+  std::optional<Eigen::Isometry3d> other_camera;
 };
 
 /// One image's answer.
@@ -50,7 +52,8 @@ struct RunResult {
   bool images_travel = false;
   bool odometry_froze = false;  ///< for a while, although the images travelled
   double absurd_speed_m_s = 0;  ///< of the observer, when it is too fast to be in metres
-  double scale_error = 0;       ///< the one drawn for the observer
+  int camera_changes = 0;
+  double scale_error = 0;  ///< the one drawn for the observer
 };
 
 /// Images at which the watchdog left the camera out.
@@ -74,10 +77,12 @@ class BackEnd {
  public:
   BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
           const std::vector<ObserverState>& observer, std::vector<RangeReading> ranges = {});
+  /// @throws std::runtime_error when the camera changes and mounting_deviation_deg forbids it
   void process(const TrackedFrame& frame);
   RunResult finish();
 
  private:
+  void changeCamera(const Eigen::Isometry3d& T_base_cam);
   bool observerAt(std::int64_t stamp_ns, ObserverState& state);
   void takeNextObserver();
   std::optional<double> heightAt(const ObserverState& state);

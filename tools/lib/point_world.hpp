@@ -48,6 +48,7 @@ class PointWorld {
       : random_(seed),
         faults_(faults),
         camera_(camera),
+        tracker_config_(tracker),
         tracker_(std::make_unique<FrameTracker>(tracker)) {}
 
   void addPoint(const Eigen::Vector3d& position_map) {
@@ -107,6 +108,11 @@ class PointWorld {
     }
     tracker_->assign(features);
     return features;
+  }
+
+  /// Another camera looks from now on: no track goes on.
+  void changeCamera() {
+    tracker_ = std::make_unique<FrameTracker>(tracker_config_, tracker_->nextTrackId());
   }
 
   /// A view without any corner, as of a dark image.
@@ -175,6 +181,7 @@ class PointWorld {
   RandomSource random_;
   ViewFaults faults_;
   PointCamera camera_;
+  FrameTrackerConfig tracker_config_;
   std::vector<WorldPoint> points_;
   std::unique_ptr<FrameTracker> tracker_;
 };

@@ -244,6 +244,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   Json summary;
   summary["sequence"] = label.sequence;
   summary["frames"] = run.frames.size();
+  summary["camera_changes"] = run.camera_changes;
   summary["frames_without_observer"] = run.frames_without_observer;
   summary["observer_states_refused"] = run.observer_states_refused;
   summary["odometry_steps"] =

@@ -23,6 +23,12 @@ struct ObserverNote {
   double scale_error = 0;  ///< the one that was drawn
 };
 
+/// One of a sequence's cameras.
+struct SequenceCamera {
+  CameraIntrinsics intrinsics;
+  Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
+};
+
 /// A recorded or rendered sequence of images: what replay runs on and what make_bag and make_world
 /// write. Images are asked for in ascending order, each once; `image` may be slow (decoding,
 /// rendering).
@@ -33,11 +39,15 @@ class Sequence {
   virtual std::string name() const = 0;  ///< for messages: the folder, file or flight
   virtual std::size_t size() const = 0;
   virtual std::int64_t stamp_ns(std::size_t index) const = 0;
-  /// 8-bit grey, camera().width_px x height_px. @throws std::runtime_error naming the file and the
+  /// 8-bit grey, of the size of its camera. @throws std::runtime_error naming the file and the
   /// fault
   virtual cv::Mat image(std::size_t index) = 0;
+  /// Of the first image.
   virtual const CameraIntrinsics& camera() const = 0;
   virtual Eigen::Isometry3d T_base_cam() const = 0;
+  /// Which camera took an image, where they take turns.
+  virtual std::size_t cameraOf(std::size_t /*index*/) const { return 0; }
+  virtual SequenceCamera cameraAt(std::size_t /*which*/) const { return {camera(), T_base_cam()}; }
   /// True poses of base, world = map of the first frame's convention; empty when unknown.
   virtual const Trajectory& truth() const = 0;
   /// The recorded observer; empty when there is none.

@@ -16,7 +16,9 @@ struct BagImages::Counts {
   std::size_t stamps = 0;
   std::size_t incomplete = 0;
   std::size_t sizes = 0;
-  std::string other_size;  // an example
+  std::string other_size;  // an example, and the calibration's
+  std::size_t uncalibrated = 0;
+  std::string uncalibrated_frame;  // an example
 };
 
 struct BagImages::Candidate {
@@ -33,13 +35,13 @@ std::string text(const cv::Size& size_px) {
 
 }  // namespace
 
-BagImages::BagImages(const rosbag::Bag& bag, const ChosenTopics& topics,
-                     const CameraIntrinsics& camera, std::vector<std::string>& warnings)
+BagImages::BagImages(const rosbag::Bag& bag, const ChosenTopics& topics, BagCameras& cameras,
+                     std::vector<std::string>& warnings)
     : place_(bag.getFileName() + ", " + topics.image), is_compressed_(topics.is_compressed) {
   Counts dropped;
   rosbag::View view(bag, rosbag::TopicQuery(topics.image));
-  for (const rosbag::MessageInstance& instance : view) add(instance, camera, dropped);
-  report(dropped, camera, warnings);
+  for (const rosbag::MessageInstance& instance : view) add(instance, cameras, dropped);
+  report(dropped, warnings);
 }
 
 BagImages::Candidate BagImages::inspect(const rosbag::MessageInstance& instance) const {
@@ -63,26 +65,36 @@ BagImages::Candidate BagImages::inspect(const rosbag::MessageInstance& instance)
   return candidate;
 }
 
-void BagImages::add(const rosbag::MessageInstance& instance, const CameraIntrinsics& camera,
-                    Counts& dropped) {
+void BagImages::add(const rosbag::MessageInstance& instance, BagCameras& cameras, Counts& dropped) {
   const Candidate candidate = inspect(instance);
   const std::int64_t stamp_ns = toNanoseconds(candidate.header.stamp);
   if (!candidate.is_whole) {
     ++dropped.incomplete;
-  } else if (candidate.size_px != cv::Size(camera.width_px, camera.height_px)) {
+    return;
+  }
+  const std::string frame = withoutSlash(candidate.header.frame_id);
+  const auto which = cameras.find(frame);
+  if (!which) {
+    ++dropped.uncalibrated;
+    dropped.uncalibrated_frame = frame;
+    return;
+  }
+  const CameraIntrinsics& camera = cameras.intrinsics(*which);
+  const cv::Size calibrated_px(camera.width_px, camera.height_px);
+  if (candidate.size_px != calibrated_px) {
     ++dropped.sizes;
-    dropped.other_size = text(candidate.size_px);
+    dropped.other_size =
+        text(candidate.size_px) + ", the calibration is for " + text(calibrated_px);
   } else if (stamp_ns <= 0 || (!stamps_ns_.empty() && stamp_ns <= stamps_ns_.back())) {
     ++dropped.stamps;
   } else {
-    if (stamps_ns_.empty()) frame_ = withoutSlash(candidate.header.frame_id);
     stamps_ns_.push_back(stamp_ns);
+    camera_of_.push_back(*which);
     instances_.push_back(instance);
   }
 }
 
-void BagImages::report(const Counts& dropped, const CameraIntrinsics& camera,
-                       std::vector<std::string>& warnings) const {
+void BagImages::report(const Counts& dropped, std::vector<std::string>& warnings) const {
   std::vector<std::string> faults;
   if (dropped.incomplete > 0) {
     faults.push_back(std::to_string(dropped.incomplete) +
@@ -90,9 +102,12 @@ void BagImages::report(const Counts& dropped, const CameraIntrinsics& camera,
   }
   if (dropped.sizes > 0) {
     faults.push_back(std::to_string(dropped.sizes) + " images are unlike the calibration (" +
-                     dropped.other_size + ", the calibration is for " +
-                     text({camera.width_px, camera.height_px}) +
-                     "); use the calibration made at the size of the images");
+                     dropped.other_size + "); use the calibration made at the size of the images");
+  }
+  if (dropped.uncalibrated > 0) {
+    faults.push_back(std::to_string(dropped.uncalibrated) + " images of the camera " +
+                     dropped.uncalibrated_frame +
+                     " have no calibration; record the camera_info of that frame, too");
   }
   if (dropped.stamps > 0) {
     faults.push_back(std::to_string(dropped.stamps) +

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "ardrone_vslam/camera_model.hpp"
+#include "bag_cameras.hpp"
 #include "bag_topics.hpp"
 
 namespace ardrone_vslam {
@@ -17,15 +17,17 @@ namespace ardrone_vslam {
 /// The images of a topic that can be used. The pixels stay in the bag until they are asked for.
 class BagImages {
  public:
-  /// Images whose stamps do not ascend, that are incomplete, or of another size than `camera` are
-  /// left out; `warnings` says how many. @pre the bag outlives the object
+  /// Images whose stamps do not ascend, that are incomplete, of another size than their camera's
+  /// calibration, or without one are left out; `warnings` says how many. @pre the bag outlives the
+  /// object
   /// @throws std::runtime_error when the encoding is not supported or no image is left
-  BagImages(const rosbag::Bag& bag, const ChosenTopics& topics, const CameraIntrinsics& camera,
+  BagImages(const rosbag::Bag& bag, const ChosenTopics& topics, BagCameras& cameras,
             std::vector<std::string>& warnings);
 
   std::size_t size() const { return stamps_ns_.size(); }
   std::int64_t stamp_ns(std::size_t index) const { return stamps_ns_.at(index); }
-  const std::string& frame() const { return frame_; }
+  /// Which of the cameras took an image.
+  std::size_t cameraOf(std::size_t index) const { return camera_of_.at(index); }
   /// 8-bit grey. @throws std::runtime_error naming topic and stamp
   cv::Mat image(std::size_t index) const;
 
@@ -33,16 +35,14 @@ class BagImages {
   struct Counts;
   struct Candidate;
   Candidate inspect(const rosbag::MessageInstance& instance) const;
-  void add(const rosbag::MessageInstance& instance, const CameraIntrinsics& camera,
-           Counts& dropped);
-  void report(const Counts& dropped, const CameraIntrinsics& camera,
-              std::vector<std::string>& warnings) const;
+  void add(const rosbag::MessageInstance& instance, BagCameras& cameras, Counts& dropped);
+  void report(const Counts& dropped, std::vector<std::string>& warnings) const;
 
   std::string place_;  // bag and topic, for messages
   bool is_compressed_;
-  std::string frame_;  // of the first image
   std::vector<rosbag::MessageInstance> instances_;
   std::vector<std::int64_t> stamps_ns_;
+  std::vector<std::size_t> camera_of_;
 };
 
 }  // namespace ardrone_vslam

@@ -3,13 +3,13 @@
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
-#include <sensor_msgs/CameraInfo.h>
 #include <std_msgs/String.h>
 #include <yaml-cpp/yaml.h>
 
 #include <stdexcept>
 #include <utility>
 
+#include "bag_cameras.hpp"
 #include "bag_images.hpp"
 #include "bag_messages.hpp"
 #include "bag_open.hpp"
@@ -17,33 +17,9 @@
 #include "bag_read_message.hpp"
 #include "bag_topics.hpp"
 #include "bag_writer.hpp"
-#include "camera_info.hpp"
 
 namespace ardrone_vslam {
 namespace {
-
-CameraIntrinsics readCameraInfo(const rosbag::Bag& bag, const std::string& topic, bool rectified,
-                                std::vector<std::string>& warnings) {
-  rosbag::View view(bag, rosbag::TopicQuery(topic));
-  std::optional<CameraIntrinsics> camera;
-  for (const rosbag::MessageInstance& instance : view) {
-    const auto message = readMessage<sensor_msgs::CameraInfo>(instance);
-    if (!message) continue;
-    const CameraIntrinsics intrinsics =
-        intrinsicsFromCameraInfo(*message, bag.getFileName() + ", " + topic, rectified);
-    if (!camera) {
-      camera = intrinsics;
-    } else if (!(*camera == intrinsics)) {
-      warnings.push_back(topic + ": the calibration changes; only the first one is used");
-      break;
-    }
-  }
-  if (!camera) {
-    throw std::runtime_error(bag.getFileName() + ", " + topic +
-                             ": holds no message; give the calibration as a file by --camera");
-  }
-  return *camera;
-}
 
 /// From the note that make_bag and make_world leave; empty without one.
 ObserverNote readObserverNote(const rosbag::Bag& bag) {
@@ -66,10 +42,8 @@ class BagFile : public BagSequence {
   BagFile(const std::string& path, const BagReadOptions& options) : name_(path) {
     openForReading(bag_, path);
     const ChosenTopics topics = chooseTopics(path, topicTypes(bag_), options);
-    camera_ = options.camera
-                  ? *options.camera
-                  : readCameraInfo(bag_, topics.camera_info, options.rectified, warnings_);
-    images_ = std::make_unique<BagImages>(bag_, topics, camera_, warnings_);
+    BagCameras cameras(bag_, topics.camera_info, options, warnings_);
+    images_ = std::make_unique<BagImages>(bag_, topics, cameras, warnings_);
     BagOdometry odometry = readOdometry(bag_, topics.odometry, warnings_);
     ranges_ = readRanges(bag_, topics.range);
     truth_ = readTruth(bag_, topics.truth, warnings_);
@@ -79,10 +53,14 @@ class BagFile : public BagSequence {
                                ": names no child_frame_id; name the base frame by --base-frame or "
                                "the parameter mapper/base_frame");
     }
-    const std::string camera =
-        options.camera_frame.empty() ? images_->frame() : options.camera_frame;
-    T_base_cam_ =
-        options.T_base_cam ? *options.T_base_cam : readExtrinsics(bag_, base, withoutSlash(camera));
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      const std::string frame =
+          options.camera_frame.empty() ? cameras.frame(i) : withoutSlash(options.camera_frame);
+      const bool is_used = !cameras.frame(i).empty();
+      cameras_.push_back({cameras.intrinsics(i), options.T_base_cam ? *options.T_base_cam
+                                                 : is_used ? readExtrinsics(bag_, base, frame)
+                                                           : Eigen::Isometry3d::Identity()});
+    }
     observer_ = std::move(odometry.states);
     note_ = readObserverNote(bag_);
   }
@@ -95,8 +73,10 @@ class BagFile : public BagSequence {
     namingTheBag(name_, [&] { image = images_->image(index); });
     return image;
   }
-  const CameraIntrinsics& camera() const override { return camera_; }
-  Eigen::Isometry3d T_base_cam() const override { return T_base_cam_; }
+  const CameraIntrinsics& camera() const override { return first().intrinsics; }
+  Eigen::Isometry3d T_base_cam() const override { return first().T_base_cam; }
+  std::size_t cameraOf(std::size_t index) const override { return images_->cameraOf(index); }
+  SequenceCamera cameraAt(std::size_t which) const override { return cameras_.at(which); }
   const Trajectory& truth() const override { return truth_; }
   const std::vector<ObserverState>& observer() const override { return observer_; }
   std::vector<RangeReading> ranges() const override { return ranges_; }
@@ -104,11 +84,12 @@ class BagFile : public BagSequence {
   const std::vector<std::string>& warnings() const override { return warnings_; }
 
  private:
+  const SequenceCamera& first() const { return cameras_.at(images_->cameraOf(0)); }
+
   std::string name_;
   rosbag::Bag bag_;
-  CameraIntrinsics camera_;
+  std::vector<SequenceCamera> cameras_;
   std::unique_ptr<BagImages> images_;
-  Eigen::Isometry3d T_base_cam_;
   Trajectory truth_;
   std::vector<ObserverState> observer_;
   std::vector<RangeReading> ranges_;

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Two cameras on one drone, of which one sees at a time: errors against the truth.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <functional>
+
+#include "support/point_flight.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using test::Flight;
+using test::FlightRun;
+using test::PointWorld;
+
+constexpr int kLapFrames = 200;
+constexpr int kLaps = 3;
+
+/// As on the AR.Drone: one ahead, at the nose, one that looks down.
+Eigen::Isometry3d frontMounting() {
+  return Eigen::Translation3d(0.21, 0, 0) * test::forwardMounting();
+}
+Eigen::Isometry3d bottomMounting() {
+  Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
+  T_base_cam.linear() << 0, -1, 0, -1, 0, 0, 0, 0, -1;
+  return Eigen::Translation3d(0, -0.02, 0) * T_base_cam;
+}
+
+/// Walls and floor.
+PointWorld room(std::uint64_t seed) {
+  PointWorld world(seed);
+  world.addRoom({10, 8, 3}, 1200);
+  RandomSource random(seed, 5);
+  for (int i = 0; i < 3000; ++i) world.addPoint({random.uniform(-5, 5), random.uniform(-4, 4), 0});
+  return world;
+}
+
+using WhichCamera = std::function<bool(std::size_t)>;  // of a frame: whether it is the bottom one
+
+struct SwitchedRun : FlightRun {
+  std::vector<bool> is_bottom;
+};
+
+SwitchedRun fly(std::uint64_t seed, const Flight& flight,
+                const std::vector<ObserverState>& observer, const SlamConfig& config,
+                const WhichCamera& is_bottom) {
+  PointWorld world = room(seed);
+  bool was_bottom = is_bottom(0);
+  Slam slam(config, was_bottom ? bottomMounting() : frontMounting());
+  SwitchedRun run;
+  for (std::size_t i = 0; i < flight.size(); ++i) {
+    const bool bottom = is_bottom(i);
+    const Eigen::Isometry3d T_base_cam = bottom ? bottomMounting() : frontMounting();
+    if (bottom != was_bottom) {
+      slam.changeCamera(T_base_cam);
+      world.changeCamera();
+    }
+    was_bottom = bottom;
+    run.is_bottom.push_back(bottom);
+    run.results.push_back(slam.process(
+        world.look(flight[i].T_map_base * T_base_cam, flight[i].stamp_ns), observer[i]));
+  }
+  run.landmarks = slam.landmarks().all();
+  return run;
+}
+
+/// Of the frames from `first` on.
+double rmse_m(const Flight& flight, const SwitchedRun& run, std::size_t first) {
+  double sum = 0;
+  for (std::size_t i = first; i < flight.size(); ++i)
+    sum += (run.results[i].T_map_base.translation() - flight[i].T_map_base.translation())
+               .squaredNorm();
+  return std::sqrt(sum / static_cast<double>(flight.size() - first));
+}
+
+double observerRmse_m(const Flight& flight, const std::vector<ObserverState>& observer,
+                      std::size_t first) {
+  double sum = 0;
+  for (std::size_t i = first; i < flight.size(); ++i)
+    sum +=
+        (observer[i].T_odom_base.translation() - flight[i].T_map_base.translation()).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(flight.size() - first));
+}
+
+bool inSecondLap(std::size_t frame) {
+  return frame >= kLapFrames && frame < 2 * kLapFrames;
+}
+
+SlamConfig constraintConfig() {
+  SlamConfig config;
+  config.constraint_filter.observer.walk_m_per_sqrt_s = 0.03;  // what test::observe draws
+  return config;
+}
+
+TEST(CameraSwitch, OneMapHasWhatBothCamerasSaw) {
+  const Flight flight = test::lapsFlight(kLapFrames, kLaps, 10);
+  for (const bool thesis : {false, true}) {
+    SlamConfig config = constraintConfig();
+    if (thesis) config.estimator = Estimator::kThesis;
+    const SwitchedRun run = fly(1, flight, test::observeExactly(flight), config, inSecondLap);
+    int floor = 0;
+    int walls = 0;
+    for (const Landmark& landmark : run.landmarks) {
+      const Eigen::Vector3d p = landmark.position_map;
+      const double to_wall_m =
+          std::min(std::abs(std::abs(p.x()) - 5), std::abs(std::abs(p.y()) - 4));
+      if (std::abs(p.z()) < 0.1) ++floor;
+      if (p.z() > 0.3 && to_wall_m < 0.3) ++walls;
+    }
+    EXPECT_GT(floor, 500) << thesis;
+    EXPECT_GT(walls, 300) << thesis;
+    EXPECT_GT(floor + walls, static_cast<int>(run.landmarks.size()) * 8 / 10) << thesis;
+  }
+}
+
+TEST(CameraSwitch, WhatTheFirstCameraSawCorrectsThePoseWhenItIsBack) {
+  const Flight flight = test::lapsFlight(kLapFrames, kLaps, 10);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const auto observer = test::observe(flight, {}, seed);
+    const SwitchedRun run = fly(seed, flight, observer, constraintConfig(), inSecondLap);
+    // The third lap finds the first one's landmarks.
+    int localised = 0;
+    for (std::size_t i = 2 * kLapFrames; i < flight.size(); ++i)
+      localised += run.results[i].state == SlamState::kLocalised ? 1 : 0;
+    EXPECT_GT(localised, kLapFrames / 2) << seed;
+    EXPECT_LT(rmse_m(flight, run, 2 * kLapFrames),
+              0.4 * observerRmse_m(flight, observer, 2 * kLapFrames))
+        << seed;
+  }
+}
+
+TEST(CameraSwitch, ThePoseDoesNotJumpWithTheCamera) {
+  const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
+  const auto every_2_s = [](std::size_t frame) { return frame / 20 % 2 == 1; };
+  const auto observer = test::observeExactly(flight);
+  const SwitchedRun run = fly(1, flight, observer, constraintConfig(), every_2_s);
+  for (std::size_t i = 1; i < flight.size(); ++i) {
+    const Eigen::Vector3d step =
+        run.results[i].T_map_base.translation() - run.results[i - 1].T_map_base.translation();
+    const Eigen::Vector3d truth =
+        flight[i].T_map_base.translation() - flight[i - 1].T_map_base.translation();
+    EXPECT_LT((step - truth).norm(), 0.06) << "frame " << i;
+    EXPECT_GT(run.results[i].covariance.llt().matrixLLT().diagonal().minCoeff(), 0) << i;
+  }
+  EXPECT_LT(rmse_m(flight, run, 0), 0.08);
+}
+
+TEST(CameraSwitch, TheLeverOfEachCameraIsItsOwn) {
+  // Turning on the spot moves the camera at the nose, and the one below hardly.
+  Flight flight;
+  for (int i = 0; i < 240; ++i) {
+    test::FlightPose pose;
+    pose.stamp_ns = test::stampOf(i, 10);
+    pose.T_map_base.linear() =
+        Eigen::AngleAxisd(0.05 * i, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    pose.T_map_base.translation().z() = 1.2;
+    flight.push_back(pose);
+  }
+  const auto every_2_s = [](std::size_t frame) { return frame / 20 % 2 == 1; };
+  const SwitchedRun run =
+      fly(1, flight, test::observeExactly(flight), constraintConfig(), every_2_s);
+  EXPECT_LT(rmse_m(flight, run, 0), 0.03);
+}
+
+TEST(CameraSwitch, AnAbsurdMountingIsRefusedAndNothingChanges) {
+  Slam slam(constraintConfig(), frontMounting());
+  EXPECT_THROW(slam.changeCamera(Eigen::Translation3d(1000, 0, 0) * bottomMounting()),
+               std::invalid_argument);
+  SlamConfig with_mounting = constraintConfig();
+  with_mounting.constraint_filter.observer.mounting_deviation_deg = 0.3;
+  EXPECT_FALSE(Slam(with_mounting, frontMounting()).canChangeCamera());
+  EXPECT_TRUE(slam.canChangeCamera());
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
