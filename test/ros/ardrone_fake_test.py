@@ -10,6 +10,7 @@ import unittest
 import numpy as np
 import rospy
 import rostest
+import tf2_ros
 from ardrone_vslam.msg import PoseCorrection
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import Path
@@ -22,6 +23,20 @@ FLIGHT_S = 45.0  # two laps and a half
 
 
 class ArdroneFake(unittest.TestCase):
+    def tf_error_m(self, buffer, poses):
+        """Median distance of tf's map -> base, although the driver's odom -> base is metres off and
+        the newest map -> odom is that of the image 0.2 s before (transform_tolerance_s)."""
+        errors = []
+        for m in poses:
+            try:
+                t = buffer.lookup_transform("map", "ardrone_base_link", m.header.stamp).transform.translation
+            except tf2_ros.TransformException:
+                continue
+            p = m.pose.pose.position
+            errors.append(np.linalg.norm([p.x - t.x, p.y - t.y, p.z - t.z]))
+        self.assertGreater(len(errors), 20)
+        return np.median(errors)
+
     def test_every_image_has_its_pose_and_they_are_better_than_the_odometry(self):
         rospy.init_node("ardrone_fake_test")
         infos = Recorder("/ardrone/front/camera_info", CameraInfo)
@@ -29,6 +44,9 @@ class ArdroneFake(unittest.TestCase):
         corrections = Recorder("/vslam/correction", PoseCorrection)
         truth = Recorder("/truth/pose", PoseStamped)
         path = Recorder("/vslam/truth_path", Path)
+        buffer = tf2_ros.Buffer()
+        listener = tf2_ros.TransformListener(buffer)
+        self.addCleanup(listener.unregister)
         first = poses.wait(lambda m: True, 60)
         self.assertIsNotNone(first, "no pose came")
         time.sleep(FLIGHT_S)
@@ -38,6 +56,8 @@ class ArdroneFake(unittest.TestCase):
         answered = [m.header.stamp for m in poses.all() if m.header.stamp <= last]
         self.assertEqual(answered, images)
         self.assertGreater(len(images), 8 * FLIGHT_S)
+
+        self.assertLess(self.tf_error_m(buffer, poses.all()[-60:]), 0.5)
 
         times_s, places = [], []
         for m in truth.all():
