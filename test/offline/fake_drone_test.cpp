@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "fake_driver_config.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -110,6 +112,20 @@ TEST(FakeDrone, WindIsOfItsSeed) {
   EXPECT_EQ(place[0], place[1]);
   EXPECT_GT((place[0] - place[2]).norm(), 0.02);
   EXPECT_LT((place[0] - place[2]).norm(), 3);
+}
+
+TEST(FakeDrone, NoneIsNoAutopilotAndNoFault) {
+  FakeDriverConfig config;
+  for (const std::string none : {"", "none"}) {
+    config.autopilot = config.faults = none;
+    EXPECT_FALSE(hasAutopilot(config));
+    EXPECT_EQ(droneOf(config).autopilot, "");
+    EXPECT_EQ(nameList(faultsOf(config)), "none");
+  }
+  config.autopilot = "hover";
+  config.faults = "bursts, mirrored_yaw";
+  EXPECT_EQ(droneOf(config).autopilot, "hover");
+  EXPECT_EQ(nameList(faultsOf(config)), "mirrored_yaw, bursts");
 }
 
 TEST(FakeDrone, RefusesWhatCannotBe) {

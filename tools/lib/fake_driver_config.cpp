@@ -33,25 +33,31 @@ std::optional<T> unlessEmpty(const std::string& text, const T& value) {
 
 }  // namespace
 
+// roslaunch takes no empty argument.
+bool hasAutopilot(const FakeDriverConfig& config) {
+  return !config.autopilot.empty() && config.autopilot != "none";
+}
+
 DriverFaults faultsOf(const FakeDriverConfig& config) {
+  if (config.faults == "none") return {};
   return driverFaultsNamed(splitAtCommas(config.faults));
 }
 
 World worldOf(const FakeDriverConfig& config) {
-  const FlightInfo& flight = flightInfo(config.autopilot.empty() ? "laps" : config.autopilot);
+  const FlightInfo& flight = flightInfo(hasAutopilot(config) ? config.autopilot : "laps");
   WorldOptions options;
   options.flight = flight.name;
   options.world_seed = static_cast<std::uint64_t>(config.world_seed);
   options.world = unlessEmpty(config.world, config.world);
   options.light = unlessEmpty(config.light, config.light);
-  if (!config.autopilot.empty()) return makeWorldFor(options);
+  if (hasAutopilot(config)) return makeWorldFor(options);
   return makeWorld(options.world.value_or(flight.world), options.light.value_or(flight.light),
                    options.world_seed);
 }
 
 FakeDroneOptions droneOf(const FakeDriverConfig& config) {
   FakeDroneOptions options;
-  options.autopilot = config.autopilot;
+  if (hasAutopilot(config)) options.autopilot = config.autopilot;
   if (!config.start.empty()) options.start = parseStart("start", config.start);
   options.profile =
       loadObserverProfile(config.observer_profile, findConfigFile("observer_profiles.yaml"));

@@ -13,12 +13,12 @@ namespace ardrone_vslam {
 
 /// What the node fake_driver reads; make_world's options of these names mean the same.
 struct FakeDriverConfig {
-  std::string autopilot;
+  std::string autopilot = "none";
   std::string world;
   std::string light;
   std::string start;
   std::string camera = "front";
-  std::string faults;
+  std::string faults = "none";
   std::string observer_profile = "drone";
   std::string tf_prefix;
   double rate = 20;
@@ -36,7 +36,7 @@ struct FakeDriverConfig {
 template <class Visitor>
 void visitParameters(FakeDriverConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"autopilot", "name", 0, 0,
-                      "a flight of make_world --list that it flies by itself; empty: on the floor, "
+                      "a flight of make_world --list that it flies by itself; none: on the floor, "
                       "obeying takeoff, land, reset and cmd_vel"},
         c.autopilot);
   visit(ParameterInfo{"world", "name", 0, 0,
@@ -51,10 +51,11 @@ void visitParameters(FakeDriverConfig& c, Visitor&& visit) {
                       "which streams first: front, front_wide, bottom; togglecam changes to the "
                       "other side's"},
         c.camera);
-  visit(ParameterInfo{"faults", "names", 0, 0,
-                      "of the driver, with commas between them: docs/make_world.md lists them; "
-                      "released: those of every flight with ardrone_autonomy 1.4.1"},
-        c.faults);
+  visit(
+      ParameterInfo{"faults", "names", 0, 0,
+                    "of the driver, with commas between them: docs/make_world.md lists them; none; "
+                    "released: those of every flight with ardrone_autonomy 1.4.1"},
+      c.faults);
   visit(ParameterInfo{"observer_profile", "name", 0, 0,
                       "how the drone's measurements drift (config/observer_profiles.yaml)"},
         c.observer_profile);
@@ -82,6 +83,7 @@ void visitParameters(FakeDriverConfig& c, Visitor&& visit) {
 
 /// What the texts mean. @throws std::invalid_argument, UsageError or std::runtime_error naming what
 /// is not known and what is
+bool hasAutopilot(const FakeDriverConfig& config);
 DriverFaults faultsOf(const FakeDriverConfig& config);
 World worldOf(const FakeDriverConfig& config);
 FakeDroneOptions droneOf(const FakeDriverConfig& config);

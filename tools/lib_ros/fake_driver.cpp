@@ -44,7 +44,7 @@ FakeDriver::FakeDriver(ros::NodeHandle nh, const FakeDriverConfig& config)
       is_bottom_(config.camera == kBottom),
       link_(!has(DriverFault::kBursts), static_cast<std::uint64_t>(config.seed)),
       camera_(drone_.world(), effectsOf(config), {front_, kBottom}),
-      flight_s_(config.autopilot.empty() ? 0 : flightInfo(config.autopilot).duration_s),
+      flight_s_(hasAutopilot(config) ? flightInfo(config.autopilot).duration_s : 0),
       transport_(nh) {
   cv::setNumThreads(config.render_threads);
   advertise();
