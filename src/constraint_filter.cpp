@@ -202,6 +202,15 @@ bool ConstraintFilter::hasKnownBaseline(TrackViews views) const {
   return across_m2 < squared(config_.baseline_uncertainty) * length_m2;
 }
 
+std::optional<FloorHeight> ConstraintFilter::floorOf(TrackViews views) const {
+  if (!config_.height.floor_points) return std::nullopt;
+  constexpr double kDown = 0.7;  // cosine: 45 degrees
+  const WindowPose& frame = state_.frames()[views.back().frame];
+  const double down = -(frame.R_map_base * views.back().bearing_base).z();
+  if (!frame.height_m || down < kDown) return std::nullopt;
+  return FloorHeight{*frame.height_m, config_.height.floor_point_deviation_m};
+}
+
 void ConstraintFilter::useTracks(const std::vector<FinishedTrack>& finished,
                                  const TrackCamera& camera) {
   std::vector<Candidate> candidates;
@@ -209,14 +218,27 @@ void ConstraintFilter::useTracks(const std::vector<FinishedTrack>& finished,
     if (static_cast<int>(track.views.size()) < config_.min_track_views ||
         !hasKnownBaseline(track.views))
       continue;
-    const auto point = triangulateTrack(state_.frames(), camera.camera_base, track.views, camera.sigma_a);
-    if (!point || point->parallax_rad < config_.track_parallax_deviations * camera.sigma_a) continue;
+    const auto point =
+        triangulateTrack(state_.frames(), camera.camera_base, track.views, camera.sigma_a);
+    if (!point || point->parallax_rad < config_.track_parallax_deviations * camera.sigma_a)
+      continue;
     auto constraint = constraintOf(state_, camera.camera_base, track.views, *point, camera.sigma_a);
     if (!constraint) continue;
     ++candidates_;
-    const double distance = constraint->distance(state_);
-    const int dof = constraint->degreesOfFreedom();
+    double distance = constraint->distance(state_);
+    int dof = constraint->degreesOfFreedom();
     if (!(distance < 2 * chiSquare95(dof))) continue;
+    if (const auto floor = floorOf(track.views)) {
+      auto on_floor =
+          constraintOf(state_, camera.camera_base, track.views, *point, camera.sigma_a, floor);
+      const double with_floor = on_floor->distance(state_);
+      // Else it is on a table, or the height is that of one.
+      if (with_floor - distance < chiSquare95(1)) {
+        *constraint = *std::move(on_floor);
+        distance = with_floor;
+        dof = constraint->degreesOfFreedom();
+      }
+    }
     candidates.push_back({&track, std::move(*constraint), 1 / squared(1 + distance / dof)});
   }
   if (candidates.empty()) return;
@@ -237,7 +259,8 @@ void ConstraintFilter::useTracks(const std::vector<FinishedTrack>& finished,
   for (const Candidate& c : candidates) {
     if (c.weight == 0) continue;
     tracks_.keepNewestView(c.track->track_id);
-    const auto point = triangulateTrack(state_.frames(), camera.camera_base, c.track->views, camera.sigma_a);
+    const auto point =
+        triangulateTrack(state_.frames(), camera.camera_base, c.track->views, camera.sigma_a);
     if (!point) continue;
     const Eigen::Matrix3d by_frames = covarianceByFrames(state_, camera.camera_base, c.track->views,
                                                          point->position_map, *frameOf(anchor_id_));

@@ -18,6 +18,9 @@ std::vector<std::string> faultsBetween(const SlamConfig& config) {
   const ConstraintFilterConfig& filter = config.constraint_filter;
   if (height.use_range && height.known_height_m > 0)
     faults.emplace_back("use_range and known_height_m exclude each other: one height is enough");
+  if (filter.height.floor_points && !height.use_range && height.known_height_m == 0)
+    faults.emplace_back(
+        "floor_points needs a height: set use_range and give the topic range, or known_height_m");
   if (config.estimator == Estimator::kConstraint) {
     if (config.planar)
       faults.emplace_back(
@@ -34,6 +37,7 @@ std::vector<std::string> faultsBetween(const SlamConfig& config) {
     };
     if (height.use_range) refuse("use_range", "use_range to false");
     if (height.known_height_m > 0) refuse("known_height_m", "known_height_m to 0");
+    if (filter.height.floor_points) refuse("floor_points", "floor_points to false");
     if (!filter.attitude_states) refuse("attitude_states false", "attitude_states to true");
   }
   return faults;

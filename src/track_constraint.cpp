@@ -192,17 +192,22 @@ void TrackConstraint::addTo(Information& information, double weight) const {
     const Eigen::Matrix<double, 6, 3> along = weight * left->along;
     information.vector.segment<6>(row) += pose * left->residual;
     information.matrix.block<6, 6>(row, row) += pose * left->pose;
-    for (auto right = views.begin(); right <= left; ++right)
-      information.matrix.block<6, 6>(row, right->coordinate - first) -=
-          along * right->along.transpose();
+    for (auto right = views.begin(); right <= left; ++right) {
+      const Eigen::Matrix<double, 6, 6> block = along * right->along.transpose();
+      information.matrix.block<6, 6>(row, right->coordinate - first) -= block;
+      // A height and the view of its frame: both halves lie in one block of the diagonal.
+      if (right != left && right->coordinate == left->coordinate)
+        information.matrix.block<6, 6>(row, row) -= block.transpose();
+    }
   }
 }
 
 std::optional<TrackConstraint> constraintOf(const WindowState& state,
                                             const Eigen::Vector3d& camera_base, TrackViews views,
-                                            const TrackPoint& point, double angle_deviation_rad) {
+                                            const TrackPoint& point, double angle_deviation_rad,
+                                            const std::optional<FloorHeight>& floor) {
   TrackConstraint constraint;
-  constraint.views.reserve(views.size());
+  constraint.views.reserve(views.size() + 1);
   for (const TrackView& view : views) {
     const auto ray =
         rayResidual(state.frames()[view.frame], camera_base, view.bearing_base, point.position_map);
@@ -210,8 +215,20 @@ std::optional<TrackConstraint> constraintOf(const WindowState& state,
     ViewRows& rows = constraint.views.emplace_back();
     rows.coordinate = state.frameCoordinate(view.frame);
     rows.pose = ray->pose / angle_deviation_rad;
-    rows.point = ray->point;  // the rows across it do not depend on where the point is
+    rows.point = ray->point;  // of unit noise but for the factor that all rows share
     rows.residual = ray->residual / angle_deviation_rad;
+  }
+  if (floor) {
+    const WindowPose& frame = state.frames()[views.back().frame];
+    ViewRows& rows = constraint.views.emplace_back();
+    rows.coordinate = state.frameCoordinate(views.back().frame);
+    rows.pose.setZero();
+    rows.point.setZero();
+    rows.pose(0, 2) = 1 / floor->deviation_m;
+    rows.point(0, 2) = -angle_deviation_rad / floor->deviation_m;
+    const double height_m = frame.position_map.z() - point.position_map.z();
+    rows.residual << (floor->height_m - height_m) / floor->deviation_m, 0;
+    constraint.has_height = true;
   }
   orthonormalise(constraint.views);
   Eigen::Vector3d along = Eigen::Vector3d::Zero();

@@ -46,7 +46,7 @@ void WindowState::start(const ObserverState& observer) {
   floor_map_m_ = 0;
   anchors_.clear();
   frames_.assign(1, {next_id_++, observer.stamp_ns, observer.T_odom_base.translation(),
-                     observer.T_odom_base.linear(), Eigen::Vector3d::Zero(), 1});
+                     observer.T_odom_base.linear(), Eigen::Vector3d::Zero(), observer.height_m, 1});
   covariance_.reset(kGlobals + kFrame);
   auto P = covariance_.all();
   P.diagonal().segment<3>(kBias).setConstant(squared(config_.velocity_bias_m_s));
@@ -116,6 +116,7 @@ void WindowState::propagate(const ObserverState& observer,
   WindowPose next;
   next.id = next_id_++;
   next.stamp_ns = observer.stamp_ns;
+  next.height_m = observer.height_m;
   next.stretch_by_bias_s_m =
       velocity_base_m_s / (velocity_base_m_s.squaredNorm() + squared(config_.slow_speed_m_s));
   const Eigen::Vector3d step =

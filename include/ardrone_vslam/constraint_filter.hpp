@@ -243,6 +243,8 @@ class ConstraintFilter {
   std::optional<std::size_t> frameOf(std::uint32_t id) const;
   bool isKeyframe(const ImageFeatures& features);
   bool hasKnownBaseline(TrackViews views) const;
+  /// With `floor_points`, of a track that ends below.
+  std::optional<FloorHeight> floorOf(TrackViews views) const;
   void chooseAnchor();
   void useTracks(const std::vector<FinishedTrack>& finished, const TrackCamera& camera);
   void dropOldest();

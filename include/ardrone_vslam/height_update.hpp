@@ -13,6 +13,8 @@ struct HeightConfig {
   double height_interval_s = 0.5;
   double height_gate_deviations = 3;
   double floor_step_s = 1;
+  bool floor_points = false;
+  double floor_point_deviation_m = 0.1;
 };
 
 template <class Visitor>
@@ -31,6 +33,15 @@ void visitParameters(HeightConfig& c, Visitor&& visit) {
                       "constraint filter: rejected heights that agree with each other for so long "
                       "are above another floor (a table)"},
         c.floor_step_s);
+  visit(ParameterInfo{"floor_points", "switch", 0, 0,
+                      "constraint filter: what a camera that looks down sees lies on the floor, as "
+                      "far below as the height says (known_height_m or use_range): its way tells "
+                      "the scale without any climb"},
+        c.floor_points);
+  visit(ParameterInfo{"floor_point_deviation_m", "m", 0.0001, 10,
+                      "constraint filter: deviation of such a point from the floor, the height's "
+                      "own error included"},
+        c.floor_point_deviation_m);
 }
 
 /// What became of a frame's height.

@@ -62,7 +62,13 @@ std::optional<TrackPoint> triangulateTrack(const std::vector<WindowPose>& frames
                                            const Eigen::Vector3d& camera_base, TrackViews views,
                                            double angle_deviation_rad);
 
-/// The two rows of a TrackConstraint that a view gives.
+/// The point lies so far below the base that saw it last: on the floor.
+struct FloorHeight {
+  double height_m = 0;
+  double deviation_m = 0;
+};
+
+/// The two rows of a TrackConstraint that a view gives; the second one of a FloorHeight is empty.
 struct ViewRows {
   int coordinate = 0;                 ///< of WindowState: the first of the frame's six
   Eigen::Matrix<double, 2, 6> pose;   ///< block of A
@@ -76,9 +82,12 @@ struct ViewRows {
 /// directions of the point. A has one 2 x 6 block a view, and so nothing but distance() costs more
 /// than O(views^2).
 struct TrackConstraint {
-  std::vector<ViewRows> views;
+  std::vector<ViewRows> views;  ///< ascending in the coordinate
+  bool has_height = false;      ///< the last of them is a FloorHeight
 
-  int degreesOfFreedom() const { return 2 * static_cast<int>(views.size()) - 3; }
+  int degreesOfFreedom() const {
+    return 2 * static_cast<int>(views.size()) - (has_height ? 1 : 0) - 3;
+  }
   /// |r - A e|^2, projected. @param first  coordinate that `error` begins with
   double squaredRest(const Eigen::VectorXd& error, int first) const;
   /// r' (H P H' + I)^-1 r, H the projected A, on what the projection leaves.
@@ -88,10 +97,12 @@ struct TrackConstraint {
   void addTo(Information& information, double weight) const;
 };
 
+/// @param floor  what is known of the point beside the views
 /// @return nothing when a ray is too far off its prediction
 std::optional<TrackConstraint> constraintOf(const WindowState& state,
                                             const Eigen::Vector3d& camera_base, TrackViews views,
-                                            const TrackPoint& point, double angle_deviation_rad);
+                                            const TrackPoint& point, double angle_deviation_rad,
+                                            const std::optional<FloorHeight>& floor = std::nullopt);
 
 /// What the frames' errors do to a triangulated point beside what it shares with its anchor, and so
 /// follows when that is corrected. Errors of attitude count: over a short baseline they are the

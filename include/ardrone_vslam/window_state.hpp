@@ -23,6 +23,7 @@ struct WindowPose {
   /// By what share an error of the observer's velocity, axes of base, stretches the way here: the
   /// velocity over its square. What is seen from here shares it.
   Eigen::Vector3d stretch_by_bias_s_m = Eigen::Vector3d::Zero();
+  std::optional<double> height_m;  ///< above the floor, measured
   double stretch = 1;  ///< by corrections of scale and bias, of what belongs to it
 };
 

@@ -66,5 +66,15 @@ TEST(SlamConfig, OneHeightIsEnough) {
   expectFault(config, {"use_range and known_height_m exclude each other"});
 }
 
+TEST(SlamConfig, FloorPointsNeedAHeightAndTheConstraintFilter) {
+  SlamConfig config;
+  config.constraint_filter.height.floor_points = true;
+  expectFault(config, {"floor_points needs a height", "use_range", "known_height_m"});
+  config.height_input.known_height_m = 1.2;
+  EXPECT_TRUE(faultsOf(config).empty());
+  config.estimator = Estimator::kThesis;
+  EXPECT_EQ(faultsOf(config).size(), 2U) << "the height is none of its, either";
+}
+
 }  // namespace
 }  // namespace ardrone_vslam

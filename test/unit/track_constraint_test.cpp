@@ -217,6 +217,94 @@ TEST(TrackConstraint, ItsDistanceIsAChiSquareForHonestRays) {
   EXPECT_NEAR(bare / kRuns, dof, 0.15 * dof);
 }
 
+/// Looks down from 2 m, as does the flight's ground.
+WindowState levelWindow(int frames) {
+  WindowState state((ObserverNoiseConfig()));
+  state.start(observerAt(0, {0, 0, 2}));
+  for (int i = 1; i < frames; ++i) state.propagate(observerAt(i, {0.1 * i, 0.02 * i * i, 2}));
+  return state;
+}
+
+TEST(TrackConstraint, AHeightAddsOneRowThatSeesTheScale) {
+  const WindowState state = levelWindow(5);
+  constexpr double kNoise_rad = 0.002;
+  constexpr double kDeviation_m = 0.05;
+  RandomSource random(4);
+  const auto views = viewsOf({0.3, 0.2, 0}, state, 0, random);
+  const auto point = triangulateTrack(state.frames(), kCamera_base, views, kNoise_rad);
+  ASSERT_TRUE(point);
+  const auto bare = constraintOf(state, kCamera_base, views, *point, kNoise_rad);
+  const auto floor =
+      constraintOf(state, kCamera_base, views, *point, kNoise_rad, FloorHeight{2, kDeviation_m});
+  ASSERT_TRUE(bare && floor);
+  EXPECT_EQ(floor->degreesOfFreedom(), bare->degreesOfFreedom() + 1);
+
+  const int first = state.frameCoordinate(0);
+  std::vector<int> coordinates;
+  for (int k = 0; k < 6 * 5; ++k) coordinates.push_back(first + k);
+  Eigen::VectorXd dilation = Eigen::VectorXd::Zero(6 * 5);  // about the first camera
+  const Eigen::Vector3d camera = state.frames()[0].position_map + kCamera_base;
+  for (int i = 0; i < 5; ++i)
+    dilation.segment<3>(6 * i) =
+        state.frames()[static_cast<std::size_t>(i)].position_map + kCamera_base - camera;
+  const auto seen = [&](const TrackConstraint& constraint) {
+    Information information(coordinates);
+    information.matrix.setZero();
+    information.vector.setZero();
+    constraint.addTo(information, 1);
+    information.matrix.triangularView<Eigen::StrictlyUpper>() = information.matrix.transpose();
+    return dilation.dot(information.matrix * dilation);
+  };
+  EXPECT_LT(seen(*bare), 1e-9);
+  // The point is 2 m - 0.1 m below the camera, and its rays have noise, too.
+  const double variance_m2 = kDeviation_m * kDeviation_m + point->covariance_m2(2, 2);
+  EXPECT_NEAR(seen(*floor), 1.9 * 1.9 / variance_m2, 1);
+}
+
+TEST(TrackConstraint, WithAHeightItsThreeFormsAgree) {
+  const WindowState state = levelWindow(5);
+  RandomSource random(6);
+  const auto views = viewsOf({0.3, 0.2, 0}, state, 0.002, random);
+  const auto point = triangulateTrack(state.frames(), kCamera_base, views, 0.002);
+  ASSERT_TRUE(point);
+  const auto floor =
+      constraintOf(state, kCamera_base, views, *point, 0.002, FloorHeight{2.1, 0.05});
+  ASSERT_TRUE(floor);
+  // Stacked rows, projected.
+  const int rows = 2 * static_cast<int>(floor->views.size());
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, 6 * 5);
+  Eigen::MatrixXd U(rows, 3);
+  Eigen::VectorXd r(rows);
+  const int first = state.frameCoordinate(0);
+  for (int i = 0; i < rows / 2; ++i) {
+    const ViewRows& view = floor->views[static_cast<std::size_t>(i)];
+    A.block<2, 6>(2 * i, view.coordinate - first) = view.pose;
+    U.block<2, 3>(2 * i, 0) = view.point;
+    r.segment<2>(2 * i) = view.residual;
+  }
+  EXPECT_LT((U.transpose() * U - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  EXPECT_LT((U.transpose() * r).norm(), 1e-9) << "the residual is projected";
+  const Eigen::MatrixXd H = A - U * (U.transpose() * A);
+  std::vector<int> coordinates;
+  for (int k = 0; k < 6 * 5; ++k) coordinates.push_back(first + k);
+  Information information(coordinates);
+  information.matrix.setZero();
+  information.vector.setZero();
+  floor->addTo(information, 0.5);
+  information.matrix.triangularView<Eigen::StrictlyUpper>() = information.matrix.transpose();
+  const Eigen::MatrixXd HH = 0.5 * H.transpose() * H;
+  EXPECT_LT((information.matrix - HH).norm(), 1e-9 * HH.norm());
+  EXPECT_LT((information.vector - 0.5 * H.transpose() * r).norm(), 1e-9 * HH.norm());
+  Eigen::VectorXd e(6 * 5);
+  for (Eigen::Index k = 0; k < e.size(); ++k) e(k) = 0.01 * random.normal();
+  EXPECT_NEAR(floor->squaredRest(e, first), (r - H * e).squaredNorm(),
+              1e-9 * (r - H * e).squaredNorm());
+  const Eigen::MatrixXd P = state.covariance().block(first, first, 30, 30);
+  const Eigen::MatrixXd S = H * P * H.transpose() + Eigen::MatrixXd::Identity(rows, rows);
+  const double distance = r.dot(S.ldlt().solve(r));
+  EXPECT_NEAR(floor->distance(state), distance, 1e-6 * distance);
+}
+
 TEST(ChiSquare95, IsThatOfTheTables) {
   EXPECT_NEAR(chiSquare95(1), 3.841, 0.1);
   EXPECT_NEAR(chiSquare95(3), 7.815, 0.05);
