@@ -1,6 +1,6 @@
 # Finds ROS, generates the messages and declares the catkin package. Sets ARDRONE_VSLAM_WITH_ROS.
 set(ARDRONE_VSLAM_ROS_COMPONENTS
-  roscpp nodelet pluginlib message_generation std_msgs sensor_msgs geometry_msgs nav_msgs visualization_msgs
+  roscpp nodelet pluginlib message_generation std_msgs std_srvs sensor_msgs geometry_msgs nav_msgs visualization_msgs
   cv_bridge image_transport tf2 tf2_ros tf2_msgs diagnostic_updater rosbag)
 find_package(catkin QUIET OPTIONAL_COMPONENTS ${ARDRONE_VSLAM_ROS_COMPONENTS})
 
@@ -24,6 +24,8 @@ set(ARDRONE_VSLAM_WITH_ROS TRUE)
 
 file(GLOB message_files RELATIVE ${PROJECT_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
 add_message_files(DIRECTORY msg FILES ${message_files})
+file(GLOB service_files RELATIVE ${PROJECT_SOURCE_DIR}/srv CONFIGURE_DEPENDS srv/*.srv)
+add_service_files(DIRECTORY srv FILES ${service_files})
 generate_messages(DEPENDENCIES std_msgs geometry_msgs)
 catkin_package(
   INCLUDE_DIRS include

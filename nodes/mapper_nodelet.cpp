@@ -262,7 +262,16 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   ++totals_.images;
   standstill_.see(features_, frame.observer.T_odom_base * T_base_cam_);
   outputs_->publishFrame(result, slam_->T_map_odom(), frames_, frame.observer);
+  outputs_->publishTf(result.stamp_ns, mapToOdomOfTf(result), frames_);
   publishStatus(result, *frame.features);
+}
+
+/// In tf, odom -> base is the driver's own, which is not what was integrated anew: map -> base
+/// comes out right all the same.
+Eigen::Isometry3d MapperNodelet::mapToOdomOfTf(const FrameResult& result) const {
+  if (config_.observer_adapter.mode == ObserverMode::kPose) return slam_->T_map_odom();
+  const auto T_odom_base = mounting_->T_odom_base(frames_.odom, frames_.base, result.stamp_ns);
+  return T_odom_base ? result.T_map_base * T_odom_base->inverse() : slam_->T_map_odom();
 }
 
 void MapperNodelet::refuseResult(const FrameResult& result, const Features& features) {

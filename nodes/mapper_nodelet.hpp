@@ -61,6 +61,7 @@ class MapperNodelet : public nodelet::Nodelet {
   /// Works on every image whose odometry has come.
   void processReady();
   void processFrame(const FrameMatcher::Frame& frame);
+  Eigen::Isometry3d mapToOdomOfTf(const FrameResult& result) const;
   /// Answers an image whose pose is not finite: by its status alone.
   void refuseResult(const FrameResult& result, const Features& features);
   /// Makes the Slam, or has it change the camera, once the mounting of these features' camera is

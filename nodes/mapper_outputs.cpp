@@ -30,10 +30,13 @@ void MapperOutputs::publishFrame(const FrameResult& result, const Eigen::Isometr
   // At the first image map equals odom, so in map the observer's own poses show its drift.
   remember(fused_poses_, result.T_map_base, frames);
   remember(observer_poses_, result.T_odom_base, frames);
+}
+
+void MapperOutputs::publishTf(std::int64_t stamp_ns, const Eigen::Isometry3d& T_map_odom,
+                              const Frames& frames) {
   if (!config_.publish_tf) return;
   geometry_msgs::TransformStamped transform;
-  transform.header.stamp =
-      toRosTime(result.stamp_ns) + ros::Duration(config_.transform_tolerance_s);
+  transform.header.stamp = toRosTime(stamp_ns) + ros::Duration(config_.transform_tolerance_s);
   transform.header.frame_id = frames.map;
   transform.child_frame_id = frames.odom;
   transform.transform = toTransform(T_map_odom);

@@ -17,10 +17,12 @@ class MapperOutputs {
  public:
   MapperOutputs(ros::NodeHandle& nh, const MapperNodeConfig& config);
 
-  /// Pose, odometry, correction and tf of one image; remembers the path.
+  /// Pose, odometry and correction of one image; remembers the path.
   /// @param observer  at the image's stamp
   void publishFrame(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
                     const Frames& frames, const ObserverState& observer);
+  /// @param T_map_odom  for the odom -> base that is in tf
+  void publishTf(std::int64_t stamp_ns, const Eigen::Isometry3d& T_map_odom, const Frames& frames);
 
   /// Paths, cloud and markers: large, so only to those who look, and only when there is something
   /// new. Called at a bounded rate.

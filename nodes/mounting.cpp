@@ -2,6 +2,7 @@
 #include "mounting.hpp"
 
 #include "ardrone_vslam/slam.hpp"
+#include "conversions.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -41,6 +42,19 @@ std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
             "): publish the camera's mounting, for example by `rosrun tf2_ros "
             "static_transform_publisher x y z yaw pitch roll " +
             base_frame + " " + camera_frame + "`";
+  }
+  return std::nullopt;
+}
+
+std::optional<Eigen::Isometry3d> Mounting::T_odom_base(const std::string& odom_frame,
+                                                       const std::string& base_frame,
+                                                       std::int64_t stamp_ns) const {
+  for (const ros::Time& time : {toRosTime(stamp_ns), ros::Time(0)}) {
+    if (!buffer_.canTransform(odom_frame, base_frame, time)) continue;
+    try {
+      return toIsometry(buffer_.lookupTransform(odom_frame, base_frame, time).transform);
+    } catch (const tf2::TransformException&) {  // forgotten meanwhile
+    }
   }
   return std::nullopt;
 }

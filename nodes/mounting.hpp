@@ -5,6 +5,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,6 +22,11 @@ class Mounting {
   /// @return T_base_cam
   std::optional<Eigen::Isometry3d> find(const std::string& base_frame,
                                         const std::string& camera_frame, std::string& fault);
+
+  /// Of the drone, as tf itself has it at this time, else the latest; nothing: it does not know.
+  std::optional<Eigen::Isometry3d> T_odom_base(const std::string& odom_frame,
+                                               const std::string& base_frame,
+                                               std::int64_t stamp_ns) const;
 
  private:
   tf2_ros::Buffer buffer_;

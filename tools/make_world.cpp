@@ -84,16 +84,6 @@ bool isBag(const std::string& path) {
   return std::filesystem::path(path).extension() == ".bag";
 }
 
-FlightStart parseStart(const std::string& text) {
-  FlightStart start;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &start.x_m, &start.y_m, &start.yaw_rad, &rest) !=
-      3) {
-    throw UsageError("--start: '" + text + "' must be X,Y,YAW, for example 1,-0.5,1.57");
-  }
-  return start;
-}
-
 #ifdef ARDRONE_VSLAM_WITH_ROS
 template <class WriteOptions>
 void setFormat(const Options& o, WriteOptions& write) {
@@ -195,7 +185,7 @@ int run(Options& o) {
   if (bag && o.observer_profile.empty()) o.observer_profile = "drone";
   if (const auto begin_s = hoverBegin_s(o.world.flight)) fitToHover(*begin_s, o);
   if (!o.observer_profile.empty()) o.world.observer = profileOfOption(o.observer_profile);
-  if (!o.start.empty()) o.world.start = parseStart(o.start);
+  if (!o.start.empty()) o.world.start = parseStart("--start", o.start);
   auto world_pointer = asUsage([&o] { return std::make_unique<WorldSequence>(o.world); });
   WorldSequence& world = *world_pointer;
   {

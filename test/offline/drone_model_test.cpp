@@ -83,6 +83,56 @@ TEST(DroneModel, LandsAndCanTakeOffAgain) {
   EXPECT_EQ(drone.phase(), Phase::kFlying);
 }
 
+TEST(DroneModel, WithoutAutoHoverItLevelsOutButDoesNotBrake) {
+  DroneModel braking = hovering(), gliding = hovering();
+  for (DroneModel* drone : {&braking, &gliding}) drone->advance(1.5, {0.5, 0, 0, 0});
+  braking.advance(3, {});
+  gliding.advance(3, {0, 0, 0, 0, false});
+  EXPECT_LT(braking.state().velocity_world_m_s.norm(), 0.1);
+  EXPECT_GT(gliding.state().velocity_world_m_s.norm(), 0.3);
+  EXPECT_LT(tiltOf(gliding), 0.01);
+}
+
+TEST(DroneModel, WindMovesIt) {
+  DroneModel drone = hovering();
+  drone.setWind({0.2, 0, 0});
+  drone.advance(20, {});
+  // Drag 0.3 per second against the wind balances drag and braking, 1.5 together, of its own speed.
+  EXPECT_NEAR(drone.state().velocity_world_m_s.x(), 0.04, 0.005);
+}
+
+TEST(DroneModel, WallsStopIt) {
+  DroneModel drone = hovering();
+  const Eigen::AlignedBox3d space(Eigen::Vector3d(-1, -2, 0), Eigen::Vector3d(1.5, 2, 2.5));
+  drone.keepWithin(space);
+  drone.advance(5, {1, 0, 1, 0});
+  EXPECT_EQ(drone.state().T_world_body.translation().x(), 1.5);
+  EXPECT_EQ(drone.state().T_world_body.translation().z(), 2.5);
+  EXPECT_LE(drone.state().velocity_world_m_s.x(), 0);
+  drone.advance(5, {-1, 0, 0, 0});
+  EXPECT_EQ(drone.state().T_world_body.translation().x(), -1);
+  EXPECT_EQ(drone.phase(), Phase::kFlying);
+  EXPECT_NEAR(drone.state().T_world_body.translation().z(), 2.5, 0.01);
+}
+
+TEST(DroneModel, FallsWhenItsMotorsAreCut) {
+  DroneLimits limits;
+  limits.stands_m = 0.1;
+  DroneModel drone({}, limits);
+  EXPECT_EQ(drone.state().T_world_body.translation().z(), 0.1);
+  drone.cutMotors();
+  EXPECT_EQ(drone.phase(), Phase::kLanded);
+  drone.takeOff();
+  drone.advance(6, {});
+  drone.cutMotors();
+  drone.advance(0.3, {0, 0, 1, 0});
+  EXPECT_EQ(drone.phase(), Phase::kFalling);
+  EXPECT_LT(drone.state().specificForce_body_m_s2().norm(), 1);
+  drone.advance(0.5, {});
+  EXPECT_EQ(drone.phase(), Phase::kLanded);
+  EXPECT_EQ(drone.state().T_world_body.translation().z(), 0.1);
+}
+
 /// State against its own derivatives, and the lean against the acceleration, under wild commands.
 TEST(DroneModel, ItsStateKeepsTheLawsOfMotion) {
   constexpr double kStep_s = 0.002;

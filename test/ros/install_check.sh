@@ -38,10 +38,10 @@ check_runs() {
     found=$(rospack find ardrone_vslam)
     [ "$found" = "$2" ] || fail "rospack finds $found, not $2"
     rosmsg show ardrone_vslam/Status > /dev/null || fail "rosmsg does not know the messages"
-    for program in tracker_node mapper_node observer_fusion_node replay make_bag make_world doctor; do
+    for program in tracker_node mapper_node observer_fusion_node replay make_bag make_world doctor fake_driver; do
       rosrun ardrone_vslam "$program" --version | grep -q ardrone_vslam || fail "rosrun $program --version"
     done
-    for script in plot_run record_run; do
+    for script in plot_run record_run measure_latency; do
       rosrun ardrone_vslam "$script" --help > /dev/null || fail "rosrun $script --help"
       rosrun ardrone_vslam "$script" --version | grep -q 'ardrone_vslam) [0-9]' || fail "rosrun $script --version"
     done

@@ -20,6 +20,9 @@ enum class DriverFault {
   kTogglecam
 };
 
+/// That unprefixed_frame has when none is given.
+constexpr const char* kDefaultTfPrefix = "drone1";
+
 using DriverFaults = std::set<DriverFault>;
 
 struct DriverFaultInfo {

@@ -12,8 +12,6 @@
 
 namespace ardrone_vslam {
 
-constexpr double kPacketRate_hz = 200;  ///< of the AR.Drone with navdata_demo 0
-
 /// A flight as the drone itself measures it.
 struct DroneFlight {
   Trajectory truth;                  ///< at the packets
@@ -21,11 +19,9 @@ struct DroneFlight {
   double scale_error = 0;            ///< drawn by the profile
 };
 
-/// Velocity and attitude drift as the profile says (its rate and its link are the drone's here);
-/// their integral is the profile's odometry. Accelerometer and gyroscope have white noise, unless
-/// the profile is `truth`. @param first_ns  the stamp at the flight's beginning
+/// A whole flight by DroneSensors. @param first_ns  the stamp at the flight's beginning
 /// Equal arguments give equal results.
 DroneFlight flyDrone(const Flight& flight, const World& world, double duration_s,
-                     std::int64_t first_ns, ObserverProfile profile, std::uint64_t seed);
+                     std::int64_t first_ns, const ObserverProfile& profile, std::uint64_t seed);
 
 }  // namespace ardrone_vslam

@@ -11,6 +11,10 @@ struct DroneCommand {
   double left = 0;
   double up = 0;
   double turn_left = 0;
+  /// Without a command it stops; false: it only levels out.
+  bool auto_hover = true;
+
+  bool isZero() const { return forward == 0 && left == 0 && up == 0 && turn_left == 0; }
 };
 
 /// How the AR.Drone's own controller answers; the defaults are its usual limits.
@@ -24,14 +28,15 @@ struct DroneLimits {
   double brake_per_s =
       1.2;  ///< without a command it tilts against its speed: deceleration per speed
   double take_off_m = 1.0;  ///< height at which it hovers after take-off
+  double stands_m = 0;      ///< height of its middle on the floor
 };
 
 /// A drone that flies as it is told: the same state as a Flight's, advanced in small steps. Thrust
 /// is along the body's z, air brakes by 0.3/s. It hovers when no command is given, stands on the
-/// floor until takeOff and from the end of land on.
+/// floor until takeOff and from the end of land on. Walls stop it; furniture is none.
 class DroneModel {
  public:
-  enum class Phase { kLanded, kTakingOff, kFlying, kLanding };
+  enum class Phase { kLanded, kTakingOff, kFlying, kLanding, kFalling };
 
   /// On the floor.
   explicit DroneModel(const FlightStart& start = {}, const DroneLimits& limits = {});
@@ -39,6 +44,12 @@ class DroneModel {
   /// Ignored unless landed, or unless in the air.
   void takeOff();
   void land();
+  /// It falls. Ignored when landed.
+  void cutMotors();
+  /// Where its middle can be, above the floor; without, everywhere.
+  void keepWithin(const Eigen::AlignedBox3d& space);
+  /// Of the air [m/s, world]; the drone holds its speed against it only in part.
+  void setWind(const Eigen::Vector3d& wind_m_s) { wind_m_s_ = wind_m_s; }
   /// Steps of at most 2 ms; equal steps give equal results. @pre seconds >= 0
   void advance(double seconds, const DroneCommand& command);
 
@@ -56,8 +67,13 @@ class DroneModel {
 
   void step(double dt_s, const DroneCommand& command);
   double wantedClimb(const DroneCommand& command) const;
+  Eigen::Vector3d thrust(double dt_s, const DroneCommand& command);
+  void stopAtWalls();
+  void standDown();
 
   DroneLimits limits_;
+  Eigen::AlignedBox3d space_;  // empty: unbounded
+  Eigen::Vector3d wind_m_s_ = Eigen::Vector3d::Zero();
   Phase phase_ = Phase::kLanded;
   FlightState state_;
   double yaw_rad_;

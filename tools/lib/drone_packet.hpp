@@ -6,11 +6,14 @@
 
 namespace ardrone_vslam {
 
+constexpr double kPacketRate_hz = 200;  ///< of the AR.Drone with navdata_demo 0
+
 /// What the AR.Drone measures and sends 200 times a second. Base is its middle, x forward, y left,
 /// z up; odom is the world with its origin where the drone was when it was switched on.
 struct DronePacket {
   /// As the field `state` of its messages has them.
   enum class State : std::uint32_t {
+    kUnknown = 0,  ///< motors cut
     kLanded = 2,
     kFlying = 3,
     kHovering = 4,

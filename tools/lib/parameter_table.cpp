@@ -8,6 +8,7 @@
 #include "../../nodes/node_config.hpp"  // the structs alone: no ROS
 #include "ardrone_vslam/late_fusion.hpp"
 #include "config_file.hpp"
+#include "fake_driver_config.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -83,6 +84,7 @@ std::string parameterTable() {
   writeTable<ObserverFusionNodeConfig>("observer_fusion, read by its nodelet only", out);
   writeTable<LateFusionConfig>("observer_fusion: odometry and corrections to odometry in map", out);
   writeTable<PathNodeConfig>("path nodelet", out);
+  writeTable<FakeDriverConfig>("fake_driver", out);
   return out.str();
 }
 

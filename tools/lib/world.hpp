@@ -34,6 +34,7 @@ class World {
   /// Way from base down along its -z to what is below: what an ideal sonar measures. Nothing when
   /// the beam meets nothing.
   std::optional<double> rangeBelow_m(const Eigen::Isometry3d& T_world_base, double t_s) const;
+  const Extent& extent() const { return extent_; }
 
  private:
   Lighting lightAt(double t_s) const;

@@ -29,6 +29,16 @@ std::optional<double> parseGain(const std::string& text) {
 
 }  // namespace
 
+FlightStart parseStart(const std::string& option, const std::string& text) {
+  FlightStart start;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &start.x_m, &start.y_m, &start.yaw_rad, &rest) !=
+      3) {
+    throw UsageError(option + ": '" + text + "' must be X,Y,YAW, for example 1,-0.5,1.57");
+  }
+  return start;
+}
+
 std::string flightList() {
   std::ostringstream list;
   for (const auto& flight : flights()) {

@@ -10,6 +10,9 @@
 
 namespace ardrone_vslam {
 
+/// @param text  X,Y,YAW. @throws UsageError naming the option when it is none
+FlightStart parseStart(const std::string& option, const std::string& text);
+
 /// A line for each flight: name, summary, duration, world.
 std::string flightList();
 std::vector<std::string> flightNames();

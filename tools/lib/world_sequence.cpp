@@ -26,6 +26,8 @@ bool isCorridor(const std::string& world) {
   return world == "corridor";
 }
 
+}  // namespace
+
 World makeWorldFor(const WorldOptions& options) {
   const FlightInfo& info = flightInfo(options.flight);
   const std::string name = options.world.value_or(info.world);
@@ -35,8 +37,6 @@ World makeWorldFor(const WorldOptions& options) {
   }
   return makeWorld(name, options.light.value_or(info.light), options.world_seed);
 }
-
-}  // namespace
 
 WorldSequence::WorldSequence(const WorldOptions& options)
     : options_(options),

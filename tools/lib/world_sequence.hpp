@@ -36,6 +36,10 @@ struct WorldOptions {
   CameraEffects effects;
 };
 
+/// The world that the options name, else the flight's own.
+/// @throws std::invalid_argument when the flight does not fit into it
+World makeWorldFor(const WorldOptions& options);
+
 /// A synthetic flight: rendered images, exact truth at each image, simulated observer. Stamps begin
 /// at 1 s (ROS takes 0 for "none"). Images may be asked for in any order and often.
 class WorldSequence : public Sequence {

@@ -24,7 +24,6 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr std::int64_t kCameraTfStep_ns = 100'000'000;
-constexpr const char* kDefaultPrefix = "drone1";
 
 /// Something to record, in the order of time.
 struct Event {
@@ -36,7 +35,7 @@ struct Event {
 
 std::string prefixOf(const DriverBagOptions& options) {
   const bool needs_one = options.faults.count(DriverFault::kUnprefixedFrame) > 0;
-  return options.tf_prefix.empty() && needs_one ? kDefaultPrefix : options.tf_prefix;
+  return options.tf_prefix.empty() && needs_one ? kDefaultTfPrefix : options.tf_prefix;
 }
 
 class DriverBagWriter {
