@@ -54,6 +54,7 @@ Outcome fly(std::uint64_t seed, double scale_error, bool floor_points, bool with
   config.constraint_filter.observer.walk_m_per_sqrt_s = 0.03;  // what test::observe draws
   config.constraint_filter.observer.velocity_bias_m_s = 0.01;
   config.constraint_filter.observer.scale_deviation = kScaleDeviation;
+  config.height_input.use_range = true;
   config.constraint_filter.height.floor_points = floor_points;
   PointWorld world = floorWorld(seed, with_table);
   Slam slam(config, bottomMounting());

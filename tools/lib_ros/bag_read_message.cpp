@@ -145,22 +145,6 @@ const SerialLayout& serialLayout<tf2_msgs::TFMessage>() {
 }
 
 template <>
-const SerialLayout& serialLayout<Navdata>() {
-  // Up to the motors; then the tags' arrays and the clock.
-  static const SerialLayout kLayout{false,
-                                    {{kStart, 1},
-                                     {20 * kNumber + 4 + kNumber, 4},
-                                     {0, 4},
-                                     {0, 4},
-                                     {0, 4},
-                                     {0, 4},
-                                     {0, 4},
-                                     {0, 4},
-                                     {kNumber, 0}}};
-  return kLayout;
-}
-
-template <>
 const SerialLayout& serialLayout<std_msgs::String>() {
   static const SerialLayout kLayout{false, {{0, 1}}};
   return kLayout;
