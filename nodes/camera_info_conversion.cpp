@@ -53,9 +53,28 @@ std::string faultOf(const CameraIntrinsics& c, const char* matrix) {
   if (c.cx_px < 0 || c.cx_px >= c.width_px || c.cy_px < 0 || c.cy_px >= c.height_px) {
     return text("camera_info's principal point (", c.cx_px, ", ", c.cy_px,
                 ") lies outside its image of ", c.width_px, "x", c.height_px,
-                ": the calibration is for another image size; calibrate at this one");
+                ": the calibration is for another image size; calibrate at this one, or set "
+                "rescale_calibration to true");
   }
   return {};
+}
+
+/// @return the calibration for images of width_px x height_px
+CameraIntrinsics rescaled(const CameraIntrinsics& calibration) {
+  const double size = std::round(std::log2(2 * calibration.cx_px / calibration.width_px));
+  if (!std::isfinite(size) || size == 0) return calibration;
+  const double scale = std::exp2(-size);
+  CameraIntrinsics camera = calibration;
+  camera.fx_px *= scale;
+  camera.fy_px *= scale;
+  camera.cx_px = (camera.cx_px + 0.5) * scale - 0.5;
+  camera.cy_px = (camera.cy_px + 0.5) * scale - 0.5;
+  // Images of 4:3, scaled to the width, are too high for those of 16:9.
+  const double cut_px = (0.75 * camera.width_px - camera.height_px) / 2;
+  const double middle_px = 0.5 * camera.height_px;
+  if (std::abs(camera.cy_px - cut_px - middle_px) < std::abs(camera.cy_px - middle_px))
+    camera.cy_px -= cut_px;
+  return camera;
 }
 
 /// A full roi and one of zeros both stand for the whole image (CameraInfo.msg). @return the fault
@@ -76,20 +95,22 @@ std::string croppingFault(const sensor_msgs::CameraInfo& info) {
 
 }  // namespace
 
-Checked<CameraIntrinsics> toIntrinsics(const sensor_msgs::CameraInfo& info, bool rectified) {
+Checked<CameraIntrinsics> toIntrinsics(const sensor_msgs::CameraInfo& info,
+                                       const CameraInfoUse& use) {
   CameraIntrinsics camera;
   camera.width_px = static_cast<int>(info.width);
   camera.height_px = static_cast<int>(info.height);
   const auto at = [&](std::size_t in_k, std::size_t in_p) {
-    return rectified ? info.P[in_p] : info.K[in_k];
+    return use.rectified ? info.P[in_p] : info.K[in_k];
   };
   camera.fx_px = at(0, 0);
   camera.cx_px = at(2, 2);
   camera.fy_px = at(4, 5);
   camera.cy_px = at(5, 6);
-  std::string fault = faultOf(camera, rectified ? "P" : "K");
+  if (use.rescale) camera = rescaled(camera);
+  std::string fault = faultOf(camera, use.rectified ? "P" : "K");
   if (fault.empty()) fault = croppingFault(info);
-  if (fault.empty() && !rectified) fault = readDistortion(info, camera);
+  if (fault.empty() && !use.rectified) fault = readDistortion(info, camera);
   if (fault.empty()) fault = calibrationFault(camera);
   if (!fault.empty()) return {std::nullopt, fault};
   return {camera, {}};

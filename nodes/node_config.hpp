@@ -18,6 +18,7 @@ struct EnumNames<ImageTransport> {
 struct TrackerNodeConfig {
   ImageTransport image_transport = ImageTransport::kRaw;
   bool rectified = false;
+  bool rescale_calibration = false;
   int queue_size = 5;
 };
 
@@ -29,6 +30,10 @@ void visitParameters(TrackerNodeConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"rectified", "switch", 0, 0,
                       "the images are rectified: use camera_info's P, no distortion"},
         c.rectified);
+  visit(ParameterInfo{"rescale_calibration", "switch", 0, 0,
+                      "camera_info's K may be of another size than the images (half, double), as "
+                      "ardrone_autonomy does not rescale it: its middle tells"},
+        c.rescale_calibration);
   visit(ParameterInfo{"queue_size", "images", 1, 10000,
                       "images kept while the tracker is busy; the oldest go first"},
         c.queue_size);

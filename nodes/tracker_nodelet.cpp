@@ -162,7 +162,8 @@ bool TrackerNodelet::acceptStamp(const std_msgs::Header& header) {
 
 bool TrackerNodelet::prepareTracker(const sensor_msgs::CameraInfo& info, const std::string& frame,
                                     const GreyImage& image) {
-  const auto checked = toIntrinsics(info, node_config_.rectified);
+  const auto checked =
+      toIntrinsics(info, {node_config_.rectified, node_config_.rescale_calibration});
   if (!checked.value) {
     drop(info_topic_, "camera " + frame + ": " + checked.fault);
     return false;
@@ -192,6 +193,11 @@ bool TrackerNodelet::prepareTracker(const sensor_msgs::CameraInfo& info, const s
     drop(info_topic_, e.what());
     return false;
   }
+  const double scale = camera.fx_px / (node_config_.rectified ? info.P[0] : info.K[0]);
+  if (scale != 1)
+    NODELET_WARN_STREAM(info_topic_ << ": camera " << frame << ": the calibration is of images "
+                                    << 1 / scale << " times as wide: taken for them "
+                                    << "(rescale_calibration)");
   camera_ = camera;
   camera_frame_ = frame;
   return true;

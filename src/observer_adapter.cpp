@@ -20,7 +20,9 @@ constexpr double kResetFrom_m = 1;  // a position nearer to the origin than this
 constexpr double kResetTo_m = 0.1;
 constexpr double kResetSpeed_m_s = 100;                // no drone and no car
 constexpr double kWholeMetreVariance_m2 = 1.0 / 12.0;  // of a metre cut off
-constexpr double kHeightRate_m_s = 1;  // at which a whole metre takes effect: no step
+// At which a whole metre corrects what the twist has climbed: not faster than a twist is wrong, or
+// the camera contradicts it.
+constexpr double kHeightRate_m_s = 0.03;
 constexpr double kMostWithoutTwist_m = 1;
 
 double seconds(std::int64_t nanoseconds) {
@@ -208,7 +210,9 @@ Push ObserverAdapter::adapt(const ObserverState& message, std::vector<ObserverSt
   if (!follows(message)) return Push::kOutOfRange;
   const bool is_repaired = before != faults_;
   if (message.covariance.diagonal().head<3>().isZero(0)) count(OdometryFault::kNoCovariance);
-  if (whole_metres_.see(message.T_odom_base.translation().z())) count(OdometryFault::kWholeMetres);
+  const double climbed_m = last_ ? wayByTwist_m(message).z() : 0;
+  if (whole_metres_.see(message.T_odom_base.translation().z(), climbed_m))
+    count(OdometryFault::kWholeMetres);
 
   ObserverState state = message;
   Eigen::Vector3d position_m = message.T_odom_base.translation();

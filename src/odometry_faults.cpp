@@ -45,7 +45,8 @@ const char* explain(OdometryFault fault) {
   return "";
 }
 
-bool WholeMetresWatch::see(double height_m) {
+bool WholeMetresWatch::see(double height_m, double vertical_way_m) {
+  constexpr double kClimb_m = 0.05;  // a twist that drifts at rest is told by the height
   if (height_m != std::round(height_m)) {
     *this = {};
     return false;
@@ -53,9 +54,11 @@ bool WholeMetresWatch::see(double height_m) {
   const bool is_step = count_ > 0 && height_m != last_m_;
   if (count_ < kFewest) ++count_;
   last_m_ = height_m;
-  if (!is_step || count_ < kFewest) return false;
-  is_whole_ = true;
-  return true;
+  climbed_m_ = is_step ? 0 : climbed_m_ + vertical_way_m;
+  if (count_ < kFewest) return false;
+  // At 0 it stands on the floor, whatever its twist says.
+  if (is_step || (height_m != 0 && std::abs(climbed_m_) > kClimb_m)) is_whole_ = true;
+  return is_step;
 }
 
 }  // namespace ardrone_vslam

@@ -43,9 +43,10 @@ const char* explain(OdometryFault fault);
 /// Tells heights in whole metres (a driver that divides integers) from a height that is constant.
 class WholeMetresWatch {
  public:
-  /// One height, in order. @return whether it is a step of whole metres after others
-  bool see(double height_m);
-  /// Whether all heights of late were whole metres, and not the same.
+  /// One height, in order. @param vertical_way_m  since the one before, by the twist
+  /// @return whether it is a step of whole metres after others
+  bool see(double height_m, double vertical_way_m);
+  /// Whether all heights of late were whole metres although the twist climbs.
   bool isWhole() const { return is_whole_; }
 
  private:
@@ -53,6 +54,7 @@ class WholeMetresWatch {
 
   int count_ = 0;  // whole ones on end
   double last_m_ = 0;
+  double climbed_m_ = 0;  // by the twist, since the last step
   bool is_whole_ = false;
 };
 

@@ -23,7 +23,7 @@ sensor_msgs::CameraInfo goodInfo() {
 }
 
 TEST(CameraInfoConversion, PlumbBob) {
-  const auto camera = toIntrinsics(goodInfo(), false).value;
+  const auto camera = toIntrinsics(goodInfo()).value;
   ASSERT_TRUE(camera);
   CameraIntrinsics expected;
   expected.width_px = 640;
@@ -43,7 +43,7 @@ TEST(CameraInfoConversion, PlumbBob) {
 TEST(CameraInfoConversion, RectifiedTakesProjectionAndNoDistortion) {
   auto info = goodInfo();
   info.distortion_model = "equidistant";  // of the camera, not of its rectified images
-  const auto camera = toIntrinsics(info, true).value;
+  const auto camera = toIntrinsics(info, {true, false}).value;
   ASSERT_TRUE(camera);
   EXPECT_EQ(camera->fx_px, 500);
   EXPECT_EQ(camera->fy_px, 501);
@@ -52,11 +52,53 @@ TEST(CameraInfoConversion, RectifiedTakesProjectionAndNoDistortion) {
   EXPECT_EQ(camera->k1, 0);
 }
 
+constexpr CameraInfoUse kRescale{false, true};
+
+/// K of images `factor` times as wide, whose centres of pixels have whole coordinates.
+sensor_msgs::CameraInfo calibratedAt(double factor, double cut_px = 0) {
+  auto info = goodInfo();
+  info.K[0] *= factor;
+  info.K[4] *= factor;
+  info.K[2] = (info.K[2] + 0.5) * factor - 0.5;
+  info.K[5] = (info.K[5] + 0.5 + cut_px) * factor - 0.5;
+  return info;
+}
+
+void expectNear(const CameraIntrinsics& camera, const CameraIntrinsics& expected) {
+  EXPECT_NEAR(camera.fx_px, expected.fx_px, 1e-9);
+  EXPECT_NEAR(camera.fy_px, expected.fy_px, 1e-9);
+  EXPECT_NEAR(camera.cx_px, expected.cx_px, 1e-9);
+  EXPECT_NEAR(camera.cy_px, expected.cy_px, 1e-9);
+  EXPECT_EQ(camera.k1, expected.k1);
+}
+
+TEST(CameraInfoConversion, ACalibrationOfAnotherSizeIsTakenForTheImagesWhereAskedFor) {
+  const CameraIntrinsics expected = *toIntrinsics(goodInfo()).value;
+  const auto large = calibratedAt(2);
+  EXPECT_NE(toIntrinsics(large).fault.find("rescale_calibration"), std::string::npos);
+  expectNear(*toIntrinsics(large, kRescale).value, expected);
+  // The bottom camera's 320x240, doubled and cut to 640x360.
+  expectNear(*toIntrinsics(calibratedAt(0.5, 60), kRescale).value, expected);
+  expectNear(*toIntrinsics(calibratedAt(0.5), kRescale).value, expected);
+}
+
+TEST(CameraInfoConversion, RescalingLeavesACentreFarFromTheMiddleAlone) {
+  for (const double off_px : {-90.0, 90.0}) {
+    auto info = goodInfo();
+    info.K[2] += off_px;
+    info.K[5] += off_px / 2;
+    EXPECT_TRUE(*toIntrinsics(info, kRescale).value == *toIntrinsics(info).value) << off_px;
+  }
+  auto uncalibrated = goodInfo();
+  uncalibrated.K.fill(0);
+  EXPECT_NE(toIntrinsics(uncalibrated, kRescale).fault.find("uncalibrated"), std::string::npos);
+}
+
 TEST(CameraInfoConversion, NoLens) {
   auto info = goodInfo();
   info.distortion_model.clear();
   info.D.clear();
-  const auto camera = toIntrinsics(info, false).value;
+  const auto camera = toIntrinsics(info).value;
   ASSERT_TRUE(camera);
   EXPECT_EQ(camera->k1, 0);
 }
@@ -64,7 +106,7 @@ TEST(CameraInfoConversion, NoLens) {
 TEST(CameraInfoConversion, FourCoefficients) {
   auto info = goodInfo();
   info.D.pop_back();
-  const auto camera = toIntrinsics(info, false).value;
+  const auto camera = toIntrinsics(info).value;
   ASSERT_TRUE(camera);
   EXPECT_EQ(camera->p2, -0.002);
   EXPECT_EQ(camera->k3, 0);
@@ -74,7 +116,7 @@ TEST(CameraInfoConversion, RationalWithoutDenominatorIsPlumbBob) {
   auto info = goodInfo();
   info.distortion_model = "rational_polynomial";
   info.D.resize(8, 0.0);
-  const auto camera = toIntrinsics(info, false).value;
+  const auto camera = toIntrinsics(info).value;
   ASSERT_TRUE(camera);
   EXPECT_EQ(camera->k3, 0.03);
 }
@@ -89,7 +131,7 @@ class CameraInfoFault : public testing::TestWithParam<SpoiledInfo> {};
 TEST_P(CameraInfoFault, IsNamed) {
   auto info = goodInfo();
   GetParam().spoil(info);
-  const auto checked = toIntrinsics(info, false);
+  const auto checked = toIntrinsics(info);
   EXPECT_FALSE(checked.value);
   for (const char* part : GetParam().expected) {
     EXPECT_NE(checked.fault.find(part), std::string::npos) << checked.fault;
@@ -136,7 +178,7 @@ TEST(CameraInfoConversion, RegionOfInterestMayBeTheWholeImage) {
   auto info = goodInfo();
   info.roi.width = 640;
   info.roi.height = 360;
-  EXPECT_TRUE(toIntrinsics(info, false).value);
+  EXPECT_TRUE(toIntrinsics(info).value);
 }
 
 nav_msgs::Odometry goodOdometry() {

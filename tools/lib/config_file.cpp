@@ -105,7 +105,7 @@ bool hasParameter(Config config, const std::string& key) {
 }
 
 /// Keys that the nodelets read beside the stages' parameters (topics, frames); the offline tools
-/// pass over them, but for `rectified` and `base_frame`.
+/// pass over them, but for `rectified`, `rescale_calibration` and `base_frame`.
 bool isNodeKey(const std::string& section, const std::string& key) {
   if (section == "tracker") return hasParameter(TrackerNodeConfig{}, key);
   if (section == kObserverFusion) return hasParameter(ObserverFusionNodeConfig{}, key);
@@ -187,6 +187,8 @@ PipelineConfig loadConfig(const std::string& path, const std::vector<std::string
   PipelineConfig config;
   const ParameterInfo rectified{"rectified", "switch", 0, 0, ""};
   SectionReader{"tracker", &sections["tracker"], &faults}(rectified, config.rectified);
+  const ParameterInfo rescale{"rescale_calibration", "switch", 0, 0, ""};
+  SectionReader{"tracker", &sections["tracker"], &faults}(rescale, config.rescale_calibration);
   const ParameterInfo base_frame{"base_frame", "name", 0, 0, ""};
   SectionReader{"mapper", &sections["mapper"], &faults}(base_frame, config.base_frame);
   readSection("tracker", sections, config.tracker, faults);

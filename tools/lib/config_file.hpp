@@ -16,6 +16,7 @@ struct PipelineConfig {
   SlamConfig mapper;
   bool rectified =
       false;  ///< tracker/rectified: a bag's images are rectified, its camera_info's P holds
+  bool rescale_calibration = false;  ///< tracker/rescale_calibration, of a bag
   std::string base_frame;  ///< mapper/base_frame, of a bag; empty: the odometry's child_frame_id
 };
 

@@ -46,7 +46,7 @@ Finding judgeCentre(const CameraIntrinsics& c, const std::string& which) {
     finding.text +=
         text(": its centre would suit an image of about ", std::lround(2 * c.cx_px), "x",
              std::lround(2 * c.cy_px), ", so K was made at another size and not rescaled");
-    finding.remedy = kCalibrate;
+    finding.remedy = text(kCalibrate, ", or set rescale_calibration: true");
   } else if (off > kOffCentre) {
     finding.verdict = Verdict::kWarning;
     finding.text += ": its centre is far from the image's middle";

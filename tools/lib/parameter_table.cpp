@@ -79,7 +79,9 @@ std::string parameterTable() {
   writeTable<TrackerConfig>("tracker: images to features", out);
   writeTable<SlamConfig>("mapper: features and odometry to poses and map", out);
   writeTable<TrackerNodeConfig>(
-      "tracker, read by its nodelet, and `rectified` by the offline tools (bags)", out);
+      "tracker, read by its nodelet; `rectified` and `rescale_calibration` by the offline tools "
+      "(bags)",
+      out);
   writeTable<MapperNodeConfig>("mapper, read by its nodelet only", out);
   writeTable<ObserverFusionNodeConfig>("observer_fusion, read by its nodelet only", out);
   writeTable<LateFusionConfig>("observer_fusion: odometry and corrections to odometry in map", out);

@@ -24,8 +24,9 @@ BagCameras::BagCameras(const rosbag::Bag& bag, const std::string& camera_info_to
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = readMessage<sensor_msgs::CameraInfo>(instance);
     if (!message) continue;
-    const CameraIntrinsics intrinsics = intrinsicsFromCameraInfo(
-        *message, bag.getFileName() + ", " + camera_info_topic, options.rectified);
+    const CameraIntrinsics intrinsics =
+        intrinsicsFromCameraInfo(*message, bag.getFileName() + ", " + camera_info_topic,
+                                 {options.rectified, options.rescale_calibration});
     const std::string frame = withoutSlash(message->header.frame_id);
     const auto known = std::find_if(cameras_.begin(), cameras_.end(),
                                     [&](const Camera& one) { return one.info_frame == frame; });

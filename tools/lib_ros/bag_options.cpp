@@ -43,6 +43,7 @@ void BagOptions::refuseForFolder(const std::string& folder) const {
 BagReadOptions BagOptions::read(const PipelineConfig& config) const {
   BagReadOptions options = bag_;
   options.rectified = config.rectified;
+  options.rescale_calibration = config.rescale_calibration;
   options.use_range = config.mapper.height_input.use_range;
   if (config.mapper.observer_adapter.mode == ObserverMode::kNavdata)
     options.drone_filter = config.mapper.drone_filter;

@@ -28,6 +28,7 @@ struct BagReadOptions {
   /// Empty: the odometry's child_frame_id; in a bag without odometry the camera's tf parent.
   std::string base_frame;
   bool rectified = false;  ///< the images are rectified: camera_info's P without distortion
+  bool rescale_calibration = false;             ///< CameraInfoUse::rescale
   std::optional<CameraIntrinsics> camera;       ///< instead of camera_info
   std::optional<Eigen::Isometry3d> T_base_cam;  ///< instead of tf
 };

@@ -5,12 +5,10 @@
 
 #include <stdexcept>
 
-#include "camera_info_conversion.hpp"
-
 namespace ardrone_vslam {
 CameraIntrinsics intrinsicsFromCameraInfo(const sensor_msgs::CameraInfo& info,
-                                          const std::string& topic, bool rectified) {
-  const Checked<CameraIntrinsics> checked = toIntrinsics(info, rectified);
+                                          const std::string& topic, const CameraInfoUse& use) {
+  const Checked<CameraIntrinsics> checked = toIntrinsics(info, use);
   if (!checked.value) throw std::runtime_error(topic + ": " + checked.fault);
   return *checked.value;
 }

@@ -6,15 +6,15 @@
 #include <string>
 
 #include "ardrone_vslam/camera_model.hpp"
+#include "camera_info_conversion.hpp"
 
 namespace ardrone_vslam {
 
 /// What the tracker makes of the same message (toIntrinsics).
 /// @param topic  for the messages of errors
-/// @param rectified  the images are rectified: takes P without distortion instead of K and D
 /// @throws std::runtime_error naming the topic, the fault and the remedy
 CameraIntrinsics intrinsicsFromCameraInfo(const sensor_msgs::CameraInfo& info,
-                                          const std::string& topic, bool rectified = false);
+                                          const std::string& topic, const CameraInfoUse& use = {});
 
 /// Unrectified camera: R identity, P = [K 0]. The header is left empty.
 sensor_msgs::CameraInfo cameraInfoFromIntrinsics(const CameraIntrinsics& camera);

@@ -51,7 +51,7 @@ void DoctorCollector::see(const sensor_msgs::CompressedImage& message, const cv:
 }
 
 void DoctorCollector::see(const sensor_msgs::CameraInfo& message, std::int64_t received_ns) {
-  const Checked<CameraIntrinsics> checked = toIntrinsics(message, false);
+  const Checked<CameraIntrinsics> checked = toIntrinsics(message);
   DoctorCalibration calibration;
   calibration.camera = checked.value.value_or(rawIntrinsics(message));
   calibration.fault = checked.fault;
