@@ -10,12 +10,23 @@
 namespace ardrone_vslam {
 namespace {
 
+/// Of points seen along a baseline that the odometry's velocity error may have made (a drone that
+/// turns on the spot, the camera at its nose): all of them are so much nearer or further, which
+/// shows only from elsewhere.
+Eigen::Matrix3d covarianceByStretch(double stretch_deviation, const Eigen::Vector3d& offset) {
+  constexpr double kLittle = 0.1;
+  constexpr double kCaution = 3;  // a velocity error is one draw for all of them
+  if (stretch_deviation < kLittle) return Eigen::Matrix3d::Zero();
+  return std::pow(kCaution * stretch_deviation, 2) * offset * offset.transpose();
+}
+
 Landmark landmarkOf(const UsedTrack& used, const FrameView& view) {
   Landmark landmark;
   const Eigen::Vector3d offset = used.point.position_map - view.origin_map();
-  const double variance_m2 = used.point.covariance_m2.trace();
+  const Eigen::Matrix3d by_stretch = covarianceByStretch(used.stretch_deviation, offset);
+  const double variance_m2 = used.point.covariance_m2.trace() + by_stretch.trace();
   landmark.position_map = used.point.position_map;
-  landmark.covariance_m2 = used.covariance_m2;
+  landmark.covariance_m2 = used.covariance_m2 + by_stretch;
   landmark.anchor_id = used.anchor_id;
   landmark.deviation_m = std::sqrt(variance_m2 / 3);
   landmark.depth_deviation_m = std::sqrt(variance_m2);
@@ -158,8 +169,6 @@ void Slam::State::moveLandmarks() {
 }
 
 bool Slam::State::isWellKnown(const UsedTrack& one) const {
-  // What all points of a slow or turning camera share would show only when it is elsewhere.
-  if (one.stretch_deviation > 0.5 * config.constraint_filter.landmark_deviation) return false;
   const double distance_m = (one.point.position_map - view.origin_map()).norm();
   return std::sqrt(one.covariance_m2.trace()) <
          config.constraint_filter.landmark_deviation * distance_m;
