@@ -141,12 +141,7 @@ void WindowState::propagate(const ObserverState& observer,
   position.noalias() += P.leftCols<kGlobals>() * F.transpose();
   position.middleRows<3>(to) = position.middleRows<3>(from) + F * position.topRows<kGlobals>();
   P.middleRows<3>(to) = position.transpose();
-  const std::optional<double> then = positionVariance_m2(observer_);
-  const std::optional<double> now = positionVariance_m2(observer);
-  P.diagonal().segment<3>(to).array() +=
-      then && now && *now > *then
-          ? *now - *then
-          : squared(config_.walk_m_per_sqrt_m) * way_m + squared(config_.walk_m_per_sqrt_s) * dt_s;
+  P.diagonal().segment<3>(to).array() += walkVariance_m2(observer, dt_s, way_m);
   if (step_in_it) {
     // Nothing but where the drone is now is in doubt: odometry that had stood still may catch up.
     const Eigen::Vector3d jump_map = R_map_odom_ * step_in_it->step_odom_m;
@@ -166,6 +161,21 @@ void WindowState::propagate(const ObserverState& observer,
   P.diagonal().segment<3>(to + 3).array() += squared(radians(config_.attitude_noise_deg));
   frames_.push_back(next);
   observer_ = observer;
+}
+
+double WindowState::walkVariance_m2(const ObserverState& observer, double dt_s,
+                                    double way_m) const {
+  const double configured_m2 =
+      squared(config_.walk_m_per_sqrt_m) * way_m + squared(config_.walk_m_per_sqrt_s) * dt_s;
+  const std::optional<double> then = positionVariance_m2(observer_);
+  const std::optional<double> now = positionVariance_m2(observer);
+  if (!then || !now || !(*now > *then)) return configured_m2;
+  // Of what the observer says of itself the slow velocity error is a state of its own here. Taken
+  // for white noise a second time, it would leave the camera hardly anything to go by.
+  const double by_bias_m2 =
+      2 * squared(config_.velocity_bias_m_s) * config_.velocity_bias_time_s * dt_s;
+  const double rest_m2 = *now - *then - by_bias_m2;
+  return std::max(rest_m2, std::min(configured_m2, *now - *then));
 }
 
 // Of the corrected poses: the observer's noise would make the velocity jitter, and the bias, which

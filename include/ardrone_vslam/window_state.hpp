@@ -130,6 +130,8 @@ class WindowState {
   }
 
  private:
+  /// Growth of the position's variance, per axis, by white noise of the odometry.
+  double walkVariance_m2(const ObserverState& observer, double dt_s, double way_m) const;
   void propagateGlobals(const ObserverState& observer, double dt_s, double way_m);
   void inject(const Eigen::VectorXd& error);
   /// What an error of bias and scale, the columns, adds to the coordinates after a correction.
