@@ -64,7 +64,7 @@ TEST(NodeConfig, NoNameIsUsedTwiceInANode) {
 }
 
 TEST(NodeConfig, ShippedFilesLoad) {
-  for (const auto* name : {"kitti.yaml", "ardrone_front.yaml"}) {
+  for (const auto* name : {"kitti.yaml", "ardrone_front.yaml", "ardrone.yaml"}) {
     EXPECT_NO_THROW(loadConfig(std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/" + name, {}))
         << name;
   }

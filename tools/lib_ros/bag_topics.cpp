@@ -24,6 +24,7 @@ struct Role {
   std::string what;                ///< for messages
   std::string option;              ///< that names the topic
   std::vector<std::string> types;  ///< that fit
+  bool has_parent = false;         ///< of several topics the one in the namespace above is taken
 };
 
 bool contains(const std::vector<std::string>& list, const std::string& text) {
@@ -48,6 +49,16 @@ std::string listOf(const TopicTypes& types) {
   return list;
 }
 
+std::string parentName(const std::string& topic) {
+  const auto slash = topic.rfind('/');
+  return slash == std::string::npos ? std::string() : topic.substr(0, slash);
+}
+
+/// Namespace of an image topic, raw or compressed.
+std::string cameraOf(const std::string& topic) {
+  return parentName(endsWith(topic, "/compressed") ? parentName(topic) : topic);
+}
+
 class TopicChooser {
  public:
   TopicChooser(const std::string& path, const TopicTypes& types) : path_(path), types_(types) {}
@@ -60,6 +71,16 @@ class TopicChooser {
     for (const auto& topic : types_) {
       if (contains(role.types, topic.second) && is_candidate(topic.first)) {
         candidates.push_back(topic.first);
+      }
+    }
+    if (candidates.size() > 1 && role.has_parent) {
+      // Of ardrone_autonomy's topics the one of whichever camera streams.
+      for (const std::string& one : candidates) {
+        const auto is_above = [&one](const std::string& other) {
+          return other == one || parentName(cameraOf(other)) == cameraOf(one);
+        };
+        if (!cameraOf(one).empty() && std::all_of(candidates.begin(), candidates.end(), is_above))
+          return one;
       }
     }
     if (candidates.size() > 1) {
@@ -94,11 +115,6 @@ class TopicChooser {
   const std::string& path_;
   const TopicTypes& types_;
 };
-
-std::string parentName(const std::string& topic) {
-  const auto slash = topic.rfind('/');
-  return slash == std::string::npos ? std::string() : topic.substr(0, slash);
-}
 
 std::string chooseCameraInfo(const TopicChooser& chooser, const TopicTypes& types,
                              const BagReadOptions& options, const ChosenTopics& topics) {
@@ -147,7 +163,7 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
                           const BagReadOptions& options) {
   const TopicChooser chooser(path, types);
   ChosenTopics topics;
-  const Role image{"images", "--image-topic", {kImage, kCompressed}};
+  const Role image{"images", "--image-topic", {kImage, kCompressed}, true};
   topics.image = chooser.choose(image, options.image_topic, [&types](const std::string& topic) {
     // Of one image recorded in both ways the raw one is taken.
     const bool is_second = types.at(topic) == kCompressed && types.count(parentName(topic)) != 0;
@@ -170,7 +186,8 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
     topics.odometry =
         chooser.choose(odometry, options.odometry_topic, [&topics](const std::string& topic) {
           // What the mapper publishes is no observer.
-          return topic != topics.truth && !endsWith(topic, "odometry_fused");
+          return topic != topics.truth && !endsWith(topic, "odometry_fused") &&
+                 !endsWith(topic, "odometry_live") && !endsWith(topic, "observer_odometry");
         });
   if (options.use_range) {
     topics.range = chooser.choose({"range", "--range-topic", {kRange}}, options.range_topic,
