@@ -210,15 +210,14 @@ Push ObserverAdapter::adapt(const ObserverState& message, std::vector<ObserverSt
   if (!follows(message)) return Push::kOutOfRange;
   const bool is_repaired = before != faults_;
   if (message.covariance.diagonal().head<3>().isZero(0)) count(OdometryFault::kNoCovariance);
-  const double climbed_m = last_ ? wayByTwist_m(message).z() : 0;
-  if (whole_metres_.see(message.T_odom_base.translation().z(), climbed_m))
+  const Eigen::Vector3d way_m = wayByTwist_m(message);
+  if (whole_metres_.see(message.T_odom_base.translation().z(), way_m.z()))
     count(OdometryFault::kWholeMetres);
 
   ObserverState state = message;
   Eigen::Vector3d position_m = message.T_odom_base.translation();
   if (!offset_odom_m_.isZero(0)) position_m += offset_odom_m_;
   if (config_.mode == ObserverMode::kTwist && last_) {
-    const Eigen::Vector3d way_m = wayByTwist_m(message);
     if (secondsBetween(*last_, message) > kLongestWay_s) count(OdometryFault::kHole);
     if (!is_repaired) watchTwist(message, wayBetween_m(*last_, message));
     position_m.head<2>() = position_odom_m_.head<2>() + way_m.head<2>();
