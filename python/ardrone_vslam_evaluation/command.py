@@ -17,7 +17,7 @@ from .table import as_text
 EPILOG = """Trajectories: TUM (stamp tx ty tz qx qy qz qw), KITTI (12 numbers a line), bags with nav_msgs/Odometry, PoseStamped or
 PoseWithCovarianceStamped; the kind is told by the content. Folders: what replay, simulate_landmarks and record_run write, of several
 seeds or estimators all in it; of one folder, report and numbers go to FOLDER/report.html and FOLDER/evaluation.json unless --html and
---json name others. Exit codes: 0 done, 1 something is not installed or cannot be written, 2 wrong usage or input."""
+--json name others, or --table is given. Exit codes: 0 done, 1 something is not installed or cannot be written, 2 wrong usage or input."""
 
 
 def positive(text):
@@ -46,6 +46,7 @@ def parser_of(version):
         parser.add_argument(f"--{name}-topic", metavar="TOPIC", help=f"of the {name}'s bag; default: the only one with poses, or the usual")
     parser.add_argument("--json", metavar="FILE", help="all numbers")
     parser.add_argument("--html", metavar="FILE", help="the report: one page with its plots in it")
+    parser.add_argument("--table", action="store_true", help="of one folder, too, no files but those that --json and --html name")
     parser.add_argument("--figures", metavar="DIR", help="the report's plots as PNG files, too")
     parser.add_argument("--version", action="version", version=f"%(prog)s {version}")
     return parser
@@ -58,19 +59,10 @@ def check(parser, arguments):
         parser.error("what shall be evaluated? Give --truth FILE --estimate FILE, or a folder that replay wrote")
     if arguments.observer_scale_error is not None and not arguments.observer:
         parser.error("--observer-scale-error needs --observer FILE")
-    if len(arguments.folder) == 1:
+    if len(arguments.folder) == 1 and not arguments.table:
         arguments.html = arguments.html or os.path.join(arguments.folder[0], "report.html")
         arguments.json = arguments.json or os.path.join(arguments.folder[0], "evaluation.json")
     arguments.align = arguments.align or ("none" if arguments.folder else "se3")
-
-
-def check_places(arguments):
-    """Before the work."""
-    for option, path in (("--json", arguments.json), ("--html", arguments.html)):
-        folder = os.path.dirname(path or "") or "."
-        if path and (os.path.isdir(path) or (os.path.isdir(folder) and not os.access(folder, os.W_OK))
-                     or (not os.path.isdir(folder) and (option not in sys.argv[1:] and not arguments.folder))):
-            raise MachineFault(f"{path}: cannot be written; name a file in a folder that is there and may be written to, by {option}")
 
 
 def plain(value):
@@ -123,7 +115,6 @@ def main(version):
     arguments = parser.parse_args()
     check(parser, arguments)
     try:
-        check_places(arguments)
         run(arguments, version)
     except InputFault as fault:
         print(f"evaluate: {fault}", file=sys.stderr)

@@ -83,8 +83,9 @@ def summary_of_nees(values):
 
 
 def summary_of_nis(values):
-    """Of the fixes' mean squared deviations over the expected ones, 1 is honest. None when there is none."""
+    """Of the fixes' mean squared deviations over the expected ones (fix_nis), 1 is honest. None before the first fix."""
     values = values[np.isfinite(values)]
+    values = values[np.cumsum(values != 1) > 0]  # it begins with 1 before it knows anything
     if not len(values):
         return None
     return {"expected": 1, "mean": values.mean(), "median": np.median(values), "p95": np.percentile(values, 95),

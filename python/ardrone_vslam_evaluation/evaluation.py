@@ -139,7 +139,9 @@ def compare_with_observer(row, observer, scale_error):
         return
 
     def rmse(one, error):
-        truth_m = metrics.with_scale_error(one.pairs.truth.positions_m, error)
+        truth_m = one.pairs.truth.positions_m
+        if error:
+            truth_m = metrics.with_scale_error(truth_m, error)
         return metrics.summary_of_errors(np.linalg.norm(one.pairs.estimate.positions_m - truth_m, axis=1))["rmse_m"]
 
     if rmse(observer, 0) > 0:

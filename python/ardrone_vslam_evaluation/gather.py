@@ -9,7 +9,7 @@ from .evaluation import Row, compare_with_observer, evaluate_row
 from .faults import InputFault
 from .read_bag import ESTIMATE_TOPICS, TRUTH_TOPICS, read_bag
 from .read_text import is_kitti, read_kitti, read_tum
-from .run_folder import find_runs, in_order, read_run
+from .run_folder import find_runs, read_run
 
 
 def is_bag(path):
@@ -145,6 +145,3 @@ def in_groups(observers, estimates):
         rows.append(observer)
         rows += [row for row in estimates if _same(row.run.observer, observer.trajectory) and row not in rows]
     return rows + [row for row in estimates if row not in rows]
-
-
-__all__ = ["rows_of_files", "rows_of_folders", "in_order"]

@@ -19,10 +19,12 @@ def draw_error_over_time(rows):
     for row in known:
         x = row.pairs.seconds(row.start_ns())
         errors = np.maximum(row.errors_m, SMALLEST_SHOWN_M)
-        axes.plot(x, errors, linewidth=0.6, alpha=0.45, **look[row.name])
+        axes.plot(x, errors, linewidth=0.6, alpha=0.45, color=look[row.name]["color"])
         width = RUNNING_MEAN_S if has_time else 50
-        axes.plot(x, running_mean(x, errors, width), linewidth=1.8, label=row.name, **look[row.name])
+        axes.plot(x, running_mean(x, errors, width), linewidth=1.8, **look[row.name])
     axes.set_yscale("log")
+    errors = np.concatenate([row.errors_m for row in known])
+    axes.set_ylim(bottom=max(0.5 * np.nanpercentile(errors, 1), SMALLEST_SHOWN_M))
     axes.grid(which="both", alpha=0.2)
     axes.set_xlabel("time [s]" if has_time else "pose")
     axes.set_ylabel("position error [m]")
@@ -39,8 +41,8 @@ def draw_error_over_length(rows):
     for row in known:
         parts = row.numbers["kitti"]["by_length"]
         lengths = [part["length_m"] for part in parts]
-        translation.plot(lengths, [part["t_rel_percent"] for part in parts], "o-", markersize=4, label=row.name, **look[row.name])
-        rotation.plot(lengths, [part["r_rel_deg_per_m"] for part in parts], "o-", markersize=4, **look[row.name])
+        translation.plot(lengths, [part["t_rel_percent"] for part in parts], "o-", markersize=4, **look[row.name])
+        rotation.plot(lengths, [part["r_rel_deg_per_m"] for part in parts], "o-", markersize=4, color=look[row.name]["color"])
     for axes, label in ((translation, "translation error [%]"), (rotation, "rotation error [deg/m]")):
         axes.set_ylim(bottom=0)
         axes.set_xlabel("length of the sub-path [m]")
@@ -62,8 +64,8 @@ def draw_nees(rows):
     for row in known:
         seconds = (row.nees_stamps_ns - row.start_ns()) * 1e-9
         values = np.maximum(row.nees, 1e-2)
-        axes.plot(seconds, values, linewidth=0.5, alpha=0.4, **look[row.name])
-        axes.plot(seconds, running_mean(seconds, row.nees), linewidth=1.8, label=row.name, **look[row.name])
+        axes.plot(seconds, values, linewidth=0.5, alpha=0.4, color=look[row.name]["color"])
+        axes.plot(seconds, running_mean(seconds, row.nees), linewidth=1.8, **look[row.name])
     axes.set_yscale("log")
     axes.set_ylim(bottom=1e-2)
     axes.set_xlabel("time [s]")
@@ -81,7 +83,7 @@ def draw_nis(rows):
     axes.axhline(1, color=TRUTH, linewidth=1, linestyle="--", label="honest: 1")
     for row in known:
         seconds = (row.run.frames["stamp_ns"] - row.start_ns()) * 1e-9
-        axes.plot(seconds, row.run.column("fix_nis"), linewidth=1.2, label=row.name, **look[row.name])
+        axes.plot(seconds, row.run.column("fix_nis"), linewidth=1.2, **look[row.name])
     axes.set_ylim(bottom=0)
     axes.set_xlabel("time [s]")
     axes.set_ylabel("NIS of the fixes")

@@ -3,14 +3,14 @@
 
 import numpy as np
 
-from .plot_style import GREY, LeftOut, clear_of_extremes, frame_seconds, legend, looks, panels, runs_of, with_columns
+from .plot_style import GREY, LeftOut, clear_of_extremes, few_of, frame_seconds, legend, looks, panels, runs_of, with_columns
 
 MOST_POINTS = 5000  # of a scatter plot
 
 
 def draw_matches_over_time(rows):
-    runs = with_columns(rows, "landmark_candidates", "landmark_matches")
-    figure, axes = panels(len(runs), 3.2 if len(runs) > 1 else 4.0)
+    runs, title = few_of(with_columns(rows, "landmark_candidates", "landmark_matches"))
+    figure, axes = panels(len(runs), 3.2 if len(runs) > 1 else 4.0, title=title)
     for one, row in zip(axes, runs):
         seconds, frames = frame_seconds(row), row.run.frames
         one.plot(seconds, frames["landmark_candidates"], color=GREY, linewidth=0.9, label="landmarks, with mismatches")
@@ -43,11 +43,12 @@ def draw_error_against_matches(rows):
     if not runs:
         raise LeftOut("there is no truth")
     look = looks(rows)
-    figure, axes = panels(len(runs), 3.4 if len(runs) > 1 else 4.2)
+    runs, title = few_of(runs)
+    figure, axes = panels(len(runs), 3.4 if len(runs) > 1 else 4.2, title=title)
     for one, row in zip(axes, runs):
         matches, errors = row.run.frames["landmark_matches"], errors_of_frames(row)
         step = max(1, len(matches) // MOST_POINTS)
-        one.plot(matches[::step], errors[::step], ".", markersize=3, alpha=0.5, rasterized=True, **look[row.name])
+        one.plot(matches[::step], errors[::step], ".", markersize=3, alpha=0.5, rasterized=True, color=look[row.name]["color"])
         bins = np.unique(np.percentile(matches, np.linspace(0, 100, 11)))
         if len(bins) > 2:
             place = np.clip(np.searchsorted(bins, matches, side="right") - 1, 0, len(bins) - 2)
@@ -71,9 +72,8 @@ def draw_histogram_of_matches(rows):
     edges = np.linspace(0, max(most, 1), 41)
     for row in runs:
         share = np.full(len(row.run.frames["landmark_matches"]), 100 / len(row.run.frames["landmark_matches"]))
-        axes.hist(row.run.frames["landmark_matches"], bins=edges, weights=share, histtype="stepfilled", alpha=0.25, **look[row.name])
-        axes.hist(row.run.frames["landmark_matches"], bins=edges, weights=share, histtype="step", linewidth=1.5, label=row.name,
-                  **look[row.name])
+        axes.hist(row.run.frames["landmark_matches"], bins=edges, weights=share, histtype="stepfilled", alpha=0.25, color=look[row.name]["color"])
+        axes.hist(row.run.frames["landmark_matches"], bins=edges, weights=share, histtype="step", linewidth=1.5, **look[row.name])
     axes.set_xlabel("landmark matches a frame, mismatches removed")
     axes.set_ylabel("frames [%]")
     legend(axes)
@@ -81,7 +81,7 @@ def draw_histogram_of_matches(rows):
 
 
 def draw_stage_times(rows):
-    """Bars: medians, one on the other; a line over them up to the slowest twentieth."""
+    """Bars: means, as a stage that works in few frames has a median of nothing; beside them all stages over time."""
     runs = [row for row in runs_of(rows) if row.run.stages()]
     if not runs:
         raise LeftOut("frames.csv lacks stage times (columns ms_*)")
@@ -92,13 +92,12 @@ def draw_stage_times(rows):
     for i, row in enumerate(runs):
         times = row.run.stages()
         x = np.arange(len(stages)) + (i - 0.5 * (len(runs) - 1)) * width
-        # A stage that hardly ever works has a median of nothing; its mean shows what it costs.
         means = [np.nanmean(times[name]) if name in times else 0 for name in stages]
         p95 = [np.nanpercentile(times[name], 95) if name in times else 0 for name in stages]
-        bars.bar(x, means, width, label=row.name, **look[row.name])
+        bars.bar(x, means, width, **look[row.name])
         bars.plot(x, p95, "_", color="#333333", markersize=9, label="95 %" if i == 0 else None)
         total = np.sum(list(times.values()), axis=0)
-        lines.plot(frame_seconds(row), total, linewidth=0.8, **look[row.name])
+        lines.plot(frame_seconds(row), total, linewidth=0.8, color=look[row.name]["color"])
     bars.set_xticks(np.arange(len(stages)), stages, rotation=30 if len(stages) > 6 else 0)
     bars.set_ylabel("mean time a frame [ms]")
     lines.set_yscale("log")

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from .plot_style import LeftOut, TRUTH, looks, legend, panels, runs_of
+from .plot_style import LeftOut, TRUTH, few_of, legend, looks, panels, runs_of
 
 
 def plane_of(trajectory):
@@ -32,8 +32,9 @@ def groups_of(rows):
 
 
 def draw_trajectories(rows):
-    groups, look = groups_of(rows), looks(rows)
-    figure, axes = panels(len(groups), 5.0 if len(groups) > 1 else 6.5)
+    look = looks(rows)
+    groups, title = few_of(groups_of(rows))
+    figure, axes = panels(len(groups), 5.0 if len(groups) > 1 else 6.5, title=title)
     for one, group in zip(axes, groups):
         (x, y), x_label, y_label = plane_of(group[0].trajectory)
         if group[0].truth is not None:
@@ -41,7 +42,7 @@ def draw_trajectories(rows):
             one.plot(truth[:, x], truth[:, y], "--", color=TRUTH, linewidth=1.4, label="truth")
         for row in group:
             position = position_of(row)
-            one.plot(position[:, x], position[:, y], linewidth=1.2, label=row.name, **look[row.name])
+            one.plot(position[:, x], position[:, y], linewidth=1.2, **look[row.name])
         start = position_of(group[0])[0]
         one.plot(start[x], start[y], "o", color=TRUTH, markersize=4)
         one.set_aspect("equal", adjustable="datalim")
@@ -56,7 +57,8 @@ def draw_maps(rows):
     runs = [row for row in runs_of(rows) if row.run.landmarks and len(row.run.landmarks.get("x_m", ()))]
     if not runs:
         raise LeftOut("no run has landmarks in landmarks.csv")
-    figure, axes = panels(len(runs), 4.6 if len(runs) > 1 else 6.5)
+    runs, title = few_of(runs)
+    figure, axes = panels(len(runs), 4.6 if len(runs) > 1 else 6.5, title=title)
     for one, row in zip(axes, runs):
         marks = row.run.landmarks
         deviation = marks.get("deviation_m", np.zeros(len(marks["x_m"])))

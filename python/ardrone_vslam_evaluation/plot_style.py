@@ -13,6 +13,7 @@ TRUTH, GREY = "#333333", "#b5b5b5"
 OBSERVERS = ("#d62728", "#ff9896", "#e377c2", "#8c564b")
 ESTIMATES = ("#1f77b4", "#2ca02c", "#ff7f0e", "#9467bd", "#17becf", "#bcbd22", "#7f7f7f", "#aec7e8")
 WIDTH_IN = 11.0
+MOST_PANELS = 8
 RUNNING_MEAN_S = 5.0
 
 plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False, "axes.spines.right": False,
@@ -23,21 +24,41 @@ class LeftOut(Exception):
     """A plot's data are not there; the message says which."""
 
 
+def family_of(row):
+    """What many runs have in common."""
+    return row.kind if row.kind == "observer" else row.numbers.get("estimator") or row.kind
+
+
 def looks(rows):
-    """{row's name: colour and line style}, the same in all plots."""
-    result, counts = {}, {"observer": 0, "estimate": 0}
-    for row in rows:
-        colours = OBSERVERS if row.kind == "observer" else ESTIMATES
-        result[row.name] = {"color": colours[counts[row.kind] % len(colours)]}
-        counts[row.kind] += 1
+    """{row's name: colour and label}, the same in all plots. Too many rows for the colours: one for each family."""
+    kinds = [row.kind for row in rows]
+    is_crowded = kinds.count("estimate") > len(ESTIMATES) or kinds.count("observer") > len(OBSERVERS)
+    keys = [family_of(row) if is_crowded else row.name for row in rows]
+    colours, result = {}, {}
+    free = {"observer": list(OBSERVERS), "estimate": list(ESTIMATES)}
+    for key, row in zip(keys, rows):
+        is_first = key not in colours
+        if is_first:
+            colours[key] = free[row.kind].pop(0) if free[row.kind] else GREY
+        label = key if keys.count(key) == 1 else f"{key}, {keys.count(key)} runs"
+        result[row.name] = {"color": colours[key], "label": label if is_first else None}
     return result
 
 
-def panels(count, height_in, columns=2, **options):
+def few_of(runs):
+    """Runs that get a panel of their own, and what to say of the others."""
+    if len(runs) <= MOST_PANELS:
+        return runs, None
+    return runs[:MOST_PANELS], f"the first {MOST_PANELS} of {len(runs)} runs"
+
+
+def panels(count, height_in, columns=2, title=None, **options):
     """So many axes, at most `columns` side by side; one alone takes the whole width."""
     columns = min(columns, count)
     lines = math.ceil(count / columns)
     figure, axes = plt.subplots(lines, columns, figsize=(WIDTH_IN, height_in * lines), squeeze=False, layout="constrained", **options)
+    if title:
+        figure.suptitle(title, fontsize=10)
     for empty in axes.flat[count:]:
         empty.set_visible(False)
     return figure, list(axes.flat[:count])

@@ -31,8 +31,8 @@ class Figure:
 def all_figures():
     return [
         Figure("trajectories", "Trajectories", "From above. The dot is the start.", draw_trajectories),
-        Figure("error_over_time", "Position error over time", "Thick: mean over 5 s (poses without stamps: over 50). Errors below "
-               "0.1 mm are drawn there.", draw_error_over_time),
+        Figure("error_over_time", "Position error over time", "Thick: mean over 5 s (poses without stamps: over 50). The "
+               "smallest hundredth of the errors is below the picture.", draw_error_over_time),
         Figure("error_over_length", "Error by length of the way", "Sub-paths from every 10th pose, as in the KITTI development kit.",
                draw_error_over_length),
         Figure("matches_over_time", "Matches over time", "With mismatches, and after their removal.", draw_matches_over_time),
@@ -41,8 +41,8 @@ def all_figures():
         Figure("maps", "Map", "From above; landmarks are coloured by their deviation. Landmarks far away are outside the picture.", draw_maps),
         Figure("nees", "Consistency: NEES", "Squared error over the claimed variance. Above the band: over-confident, below: too modest. "
                "Thick: mean over 5 s.", draw_nees),
-        Figure("nis", "Consistency: NIS", "Mean squared deviations of the fixes over what is expected; frames.csv does not tell of how "
-               "many, so there are no bounds.", draw_nis),
+        Figure("nis", "Consistency: NIS", "Squared deviations of the fixes over what is expected, a running mean of about ten fixes, 1 before "
+               "the first. frames.csv does not tell their number, so there are no bounds.", draw_nis),
         Figure("stage_times", "Stage times", "Decoding of images is not in it.", draw_stage_times),
     ]
 
