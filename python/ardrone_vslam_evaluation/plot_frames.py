@@ -3,8 +3,12 @@
 
 import numpy as np
 
-from .plot_style import GREY, LeftOut, clear_of_extremes, few_of, frame_seconds, legend, looks, panels, runs_of, with_columns
+from .plot_style import GREY, LeftOut, clear_of_extremes, few_of, frame_seconds, legend, looks, panels, running_mean, runs_of, with_columns
 
+LINES_OF_MATCHES = (("landmark_candidates", GREY, "landmarks, with mismatches"),
+                    ("landmark_matches", "#1f77b4", "landmarks, mismatches removed"),
+                    ("feature_candidates", "#a8d5a8", "features, with mismatches"),
+                    ("feature_matches", "#2ca02c", "features, mismatches removed"))
 MOST_POINTS = 5000  # of a scatter plot
 
 
@@ -13,11 +17,11 @@ def draw_matches_over_time(rows):
     figure, axes = panels(len(runs), 3.2 if len(runs) > 1 else 4.0, title=title)
     for one, row in zip(axes, runs):
         seconds, frames = frame_seconds(row), row.run.frames
-        one.plot(seconds, frames["landmark_candidates"], color=GREY, linewidth=0.9, label="landmarks, with mismatches")
-        one.plot(seconds, frames["landmark_matches"], color="#1f77b4", linewidth=0.9, label="landmarks, mismatches removed")
-        if row.run.column("feature_candidates") is not None:
-            one.plot(seconds, frames["feature_candidates"], color="#c5e3c5", linewidth=0.9, label="features, with mismatches")
-            one.plot(seconds, frames["feature_matches"], color="#2ca02c", linewidth=0.9, label="features, mismatches removed")
+        for name, colour, label in LINES_OF_MATCHES:
+            if row.run.column(name) is None:
+                continue
+            one.plot(seconds, frames[name], color=colour, linewidth=0.5, alpha=0.25)
+            one.plot(seconds, running_mean(seconds, frames[name], 1.0), color=colour, linewidth=1.3, label=label)
         clear_of_extremes(one, frames["landmark_candidates"])
         one.set_title(row.name)
         one.set_xlabel("time [s]")

@@ -35,7 +35,7 @@ def all_figures():
                "smallest hundredth of the errors is below the picture.", draw_error_over_time),
         Figure("error_over_length", "Error by length of the way", "Sub-paths from every 10th pose, as in the KITTI development kit.",
                draw_error_over_length),
-        Figure("matches_over_time", "Matches over time", "With mismatches, and after their removal.", draw_matches_over_time),
+        Figure("matches_over_time", "Matches over time", "With mismatches, and after their removal. Thick: mean over 1 s.", draw_matches_over_time),
         Figure("error_against_matches", "Error against matches", "A dot is a frame.", draw_error_against_matches),
         Figure("histogram_of_matches", "How many matches", "Of the landmarks, after the removal of mismatches.", draw_histogram_of_matches),
         Figure("maps", "Map", "From above; landmarks are coloured by their deviation. Landmarks far away are outside the picture.", draw_maps),
