@@ -65,7 +65,7 @@ def _ate(row, settings):
     row.aligned = chosen.apply(row.pairs.estimate)
     row.errors_m = metrics.position_errors_m(row.aligned, row.pairs.truth)
     row.numbers["align"] = settings.align
-    row.numbers["scale"] = chosen.scale if settings.align == "sim3" else None
+    row.numbers["scale"] = alignments["sim3"].scale if alignments.get("sim3") else None
 
 
 def _relative(row):

@@ -94,6 +94,8 @@ def read_tum(path):
         if abs(norm - 1) > 0.01:
             raise fault(path, number, f"the quaternion's norm is {norm:.3g}, not 1")
         values.append(row[:3] + [part / norm for part in row[3:]])
+    if not values:
+        raise InputFault(f"{path}: holds no pose; name another file, or make the run again")
     values = np.array(values)
     return Trajectory(path, np.array(stamps, dtype=np.int64), values[:, :3], rotations_of_quaternions(values[:, 3:]))
 

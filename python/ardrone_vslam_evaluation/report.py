@@ -70,7 +70,7 @@ def write_pictures(figures, folder):
 def as_image(figure):
     """As an image of its own: its names cannot meet those of the next plot."""
     buffer = io.BytesIO()
-    figure.picture.savefig(buffer, format="svg", dpi=150, metadata={"Date": None, "Creator": None})
+    figure.picture.savefig(buffer, format="svg", dpi=150, metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
     plt.close(figure.picture)
     data = base64.b64encode(buffer.getvalue()).decode("ascii")
     return f'<img alt="{html.escape(figure.title)}" src="data:image/svg+xml;base64,{data}">'

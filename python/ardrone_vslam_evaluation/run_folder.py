@@ -47,7 +47,7 @@ def read_columns(path):
         return {}
     names, rows = rows[0], rows[1:]
     columns = {name: np.full(len(rows), np.nan) for name in names}
-    with_words = set()
+    with_words = {}  # column -> the first line
     for number, row in enumerate(rows, start=2):
         if len(row) != len(names):
             raise InputFault(f"{path}:{number}: {len(row)} cells for {len(names)} columns; make the run again")
@@ -55,10 +55,11 @@ def read_columns(path):
             try:
                 columns[name][number - 2] = float(cell) if cell else np.nan
             except ValueError:
-                with_words.add(name)
+                with_words.setdefault(name, number)
     known_words = {"state", "match_method"}
-    for name in sorted(with_words - known_words):
-        raise InputFault(f"{path}: column {name} holds what is no number; make the run again")
+    for name, number in with_words.items():
+        if name not in known_words:
+            raise InputFault(f"{path}:{number}: column {name} holds what is no number; make the run again")
     return {name: values for name, values in columns.items() if name not in known_words}
 
 
@@ -100,11 +101,19 @@ def find_runs(folder):
     return runs
 
 
+def read_frames(path):
+    """frames.csv; a header alone counts as nothing."""
+    frames = read_columns(path)
+    if frames and "stamp_ns" not in frames:
+        raise InputFault(f"{path}:1: no column stamp_ns; name a folder that replay or record_run wrote, or make the run again")
+    return frames if frames and len(frames["stamp_ns"]) else {}
+
+
 def read_run(folder):
     def read(name, reader, otherwise):
         path = os.path.join(folder, name)
         return reader(path) if os.path.exists(path) else otherwise
 
     return RunFolder(folder, read_tum(os.path.join(folder, "fused.tum")), read("observer.tum", read_tum, None),
-                     read("truth.tum", read_tum, None), read("frames.csv", read_columns, {}),
+                     read("truth.tum", read_tum, None), read("frames.csv", read_frames, {}),
                      read("landmarks.csv", read_columns, {}), read("summary.json", read_summary, {}))

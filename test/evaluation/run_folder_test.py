@@ -103,7 +103,9 @@ class RunFolderTest(unittest.TestCase):
 
     def test_damaged_files_are_named(self):
         for name, text, parts in (("frames.csv", "index,stamp_ns\n0,1\n0\n", ("frames.csv:3", "1 cells for 2 columns")),
-                                  ("frames.csv", "index,stamp_ns\n0,x\n", ("frames.csv", "column stamp_ns")),
+                                  ("frames.csv", "index,stamp_ns\n0,x\n", ("frames.csv:2", "column stamp_ns")),
+                                  ("frames.csv", "index,features\n0,1\n", ("frames.csv:1", "no column stamp_ns")),
+                                  ("fused.tum", "# no pose\n", ("fused.tum", "holds no pose")),
                                   ("summary.json", "{\n  \"a\": ,\n}", ("summary.json:2", "no JSON")),
                                   ("truth.tum", "0 0 0\n", ("truth.tum:1", "8 are expected"))):
             folder = self.copied("fused.tum")
