@@ -98,7 +98,7 @@ TEST_F(DoctorBag, NamesEachFaultOfTheDriverAndNothingElse) {
       {DriverFault::kFusedAltitude, {"height_ground"}},
       {DriverFault::kWholeMetres, {"height_metres"}},
       {DriverFault::kUnprefixedFrame, {"odometry_frames"}},
-      {DriverFault::kBursts, {"odometry_bursts"}},
+      {DriverFault::kBursts, {"odometry_bursts", "navdata_bursts", "imu_bursts"}},
       {DriverFault::kUnscaledCameraInfo, {"calibration"}},
       {DriverFault::kTogglecam, {"camera_switch"}},
   };
@@ -114,7 +114,8 @@ TEST_F(DoctorBag, NamesAllFaultsTogether) {
   // What shows behind whole metres needs a table, what shows in the tracks a calibration.
   const Names wanted{"odometry_yaw",       "odometry_jumps", "odometry_covariance",
                      "odometry_turn_rate", "height_metres",  "odometry_frames",
-                     "odometry_bursts",    "calibration",    "camera_switch"};
+                     "odometry_bursts",    "navdata_bursts", "imu_bursts",
+                     "calibration",        "camera_switch"};
   EXPECT_EQ(found(examineFlight(driverFaultsNamed({"all"}))), wanted);
   DriverFlight("table", 30).write(driverFaultsNamed({"all"}), path());
   const Names over_table = found(examineBag(path()));
@@ -124,8 +125,9 @@ TEST_F(DoctorBag, NamesAllFaultsTogether) {
 
 TEST_F(DoctorBag, NamesTheReleasedDriversFaultsAndSuggestsTheirRemedies) {
   const DoctorReport report = examineFlight(driverFaultsNamed({"released"}), longLaps());
-  EXPECT_EQ(found(report), (Names{"odometry_yaw", "odometry_covariance", "odometry_turn_rate",
-                                  "height_ground", "odometry_bursts", "image_time_offset"}))
+  EXPECT_EQ(found(report),
+            (Names{"odometry_yaw", "odometry_covariance", "odometry_turn_rate", "height_ground",
+                   "odometry_bursts", "navdata_bursts", "imu_bursts", "image_time_offset"}))
       << textOf(report);
   EXPECT_TRUE(report.canWork());
   std::map<std::string, std::string> values;
@@ -133,6 +135,18 @@ TEST_F(DoctorBag, NamesTheReleasedDriversFaultsAndSuggestsTheirRemedies) {
   EXPECT_EQ(values["observer_mode"], "twist");
   // The video is 75 to 100 ms late.
   EXPECT_NEAR(std::stod(values["image_time_offset_s"]), -0.0875, 0.01);
+}
+
+/// A bag's copy without odometry, as of a driver that was not asked for it.
+void dropOdometry(const std::string& from, const std::string& to) {
+  const rosbag::Bag source(from, rosbag::bagmode::Read);
+  rosbag::Bag copy(to, rosbag::bagmode::Write);
+  rosbag::View view(source);
+  for (const rosbag::MessageInstance& instance : view) {
+    if (!instance.isType<nav_msgs::Odometry>())
+      copy.write(instance.getTopic(), instance.getTime(), instance);
+  }
+  copy.close();
 }
 
 /// A bag's copy with the cameras turned by `turn` in tf.
@@ -258,6 +272,30 @@ TEST_F(DoctorTool, ExitCodesTellUsableFromNotAndFromWrongUsage) {
   EXPECT_EQ(run(path() + " --no-such-option"), 2);
   EXPECT_EQ(run("--help"), 0);
   EXPECT_EQ(run("--version"), 0);
+}
+
+TEST_F(DoctorTool, NavdataWithoutOdometryIsUsableAndItsReplayLineRuns) {
+  laps().write({}, path("whole.bag"));
+  dropOdometry(path("whole.bag"), path());
+  EXPECT_EQ(run(path() + " --json " + path("report.json")), 0) << output() << errors();
+  EXPECT_NE(output().find("observer_mode: navdata"), std::string::npos) << output();
+  const auto json = nlohmann::json::parse(readWhole(path("report.json")));
+  EXPECT_EQ(json["parameters"]["mapper/observer_mode"]["value"], "navdata");
+  for (const auto& check : json["checks"]) {
+    if (check["check"] == "topics" || check["verdict"] == "not checked") continue;
+    EXPECT_EQ(check["verdict"], "ok") << check;
+  }
+  std::string line = json["replay"];
+  const auto replaced = [&line](const std::string& from, const std::string& to) {
+    const auto at = line.find(from);
+    ASSERT_NE(at, std::string::npos) << line;
+    line.replace(at, from.size(), to);
+  };
+  replaced("rosrun ardrone_vslam replay", ARDRONE_VSLAM_REPLAY);
+  replaced("$(rospack find ardrone_vslam)", ARDRONE_VSLAM_SOURCE_DIR);
+  replaced("--out driver_run", "--frames 0:20 --out " + path("run"));
+  line += " > " + path("output") + " 2> " + path("errors");
+  EXPECT_EQ(std::system(line.c_str()), 0) << line << "\n" << errors();
 }
 
 TEST_F(DoctorTool, WithoutAMasterLiveSaysSo) {
