@@ -5,61 +5,16 @@
 
 #include <algorithm>
 
-#include "support/h264_pictures.hpp"
-#include "support/pave_packets.hpp"
-#include "support/sequence_folders.hpp"
+#include "support/pave_capture.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-/// Groups of 5 frames, each of another grey.
-class Capture {
- public:
-  /// @param number  of the first frame @param timestamp_ms  likewise; 33 more for each
-  void add(int groups, unsigned width_px, unsigned height_px, std::uint32_t number,
-           std::int64_t timestamp_ms, int step_ms = 33) {
-    H264Pictures pictures(width_px, height_px);
-    for (int i = 0; i < 5 * groups; ++i) {
-      const bool is_idr = i % 5 == 0;
-      if (is_idr) luma_ = static_cast<std::uint8_t>(luma_ + 10);
-      Packet packet = is_idr ? idr(number) : dependent(number);
-      packet.width_px = static_cast<std::uint16_t>(width_px);
-      packet.height_px = static_cast<std::uint16_t>(height_px);
-      packet.timestamp_ms = timestamp_ms;
-      packet.payload = is_idr ? pictures.idr(luma_) : pictures.repeated();
-      const Bytes bytes = toBytes(packet);
-      text_.append(bytes.begin(), bytes.end());
-      lumas_.push_back(luma_);
-      ++number;
-      timestamp_ms += step_ms;
-    }
-  }
-  const std::string& text() const { return text_; }
-  /// Of each frame added.
-  const std::vector<std::uint8_t>& lumas() const { return lumas_; }
-
- private:
-  std::string text_;
-  std::uint8_t luma_ = 40;
-  std::vector<std::uint8_t> lumas_;
-};
-
-std::string cameraYaml(int width_px, int height_px) {
-  std::string yaml = textCameraYaml("plumb_bob", "0, 0, 0, 0, 0");
-  const auto replace = [&yaml](const std::string& from, const std::string& to) {
-    ASSERT_NE(yaml.find(from), std::string::npos) << yaml;
-    yaml.replace(yaml.find(from), from.size(), to);
-  };
-  replace("image_width: 32", "image_width: " + std::to_string(width_px));
-  replace("image_height: 24", "image_height: " + std::to_string(height_px));
-  return yaml;
-}
-
 class PaveSequenceTest : public testing::Test {
  protected:
-  PaveSequenceTest() { folder_.write("camera.yaml", cameraYaml(32, 24)); }
+  PaveSequenceTest() { folder_.write("camera.yaml", paveCameraYaml(32, 24)); }
 
-  std::unique_ptr<PaveSequence> open(const Capture& capture, const std::string& bottom = {}) {
+  std::unique_ptr<PaveSequence> open(const PaveCapture& capture, const std::string& bottom = {}) {
     folder_.write("video.pave", capture.text());
     PaveOptions options;
     options.bottom_camera_yaml = bottom;
@@ -89,7 +44,7 @@ std::string warningsOf(const PaveSequence& sequence) {
 }
 
 TEST_F(PaveSequenceTest, ASoundStreamHasNoWarning) {
-  Capture capture;
+  PaveCapture capture;
   capture.add(6, 32, 24, 1, 5000);
   const auto sequence = open(capture);
   expectPictures(*sequence, capture.lumas());
@@ -98,8 +53,8 @@ TEST_F(PaveSequenceTest, ASoundStreamHasNoWarning) {
 }
 
 TEST_F(PaveSequenceTest, TheBottomCameraInMidStreamIsACameraOfItsOwn) {
-  folder_.write("bottom.yaml", cameraYaml(48, 32));
-  Capture capture;
+  folder_.write("bottom.yaml", paveCameraYaml(48, 32));
+  PaveCapture capture;
   capture.add(4, 32, 24, 1, 5000);
   capture.add(3, 48, 32, 21, 5660);
   capture.add(2, 32, 24, 36, 6155);
@@ -116,14 +71,14 @@ TEST_F(PaveSequenceTest, TheBottomCameraInMidStreamIsACameraOfItsOwn) {
 }
 
 TEST_F(PaveSequenceTest, CamerasOfOneSizeCannotBeToldApart) {
-  Capture capture;
+  PaveCapture capture;
   capture.add(4, 32, 24, 1, 5000);
   expectError([&] { open(capture, folder_.file("camera.yaml")); },
               {"camera.yaml", "does not tell the two apart", "--frames"});
 }
 
 TEST_F(PaveSequenceTest, ASizeWithoutCalibrationIsCountedAndTheRestGoesOn) {
-  Capture capture;
+  PaveCapture capture;
   capture.add(4, 32, 24, 1, 5000);
   capture.add(3, 48, 32, 21, 5660);
   capture.add(2, 32, 24, 36, 6155);
@@ -137,7 +92,7 @@ TEST_F(PaveSequenceTest, ASizeWithoutCalibrationIsCountedAndTheRestGoesOn) {
 }
 
 TEST_F(PaveSequenceTest, TheFrontCameraAtAnotherSizeKeepsItsCalibrationScaled) {
-  Capture capture;
+  PaveCapture capture;
   capture.add(2, 64, 48, 1, 5000);
   capture.add(3, 32, 24, 11, 5330);
   const auto sequence = open(capture);
@@ -151,7 +106,7 @@ TEST_F(PaveSequenceTest, TheFrontCameraAtAnotherSizeKeepsItsCalibrationScaled) {
 }
 
 TEST_F(PaveSequenceTest, WhatComesAfterARestartIsKept) {
-  Capture capture;
+  PaveCapture capture;
   capture.add(4, 32, 24, 900, 500'000);
   capture.add(6, 32, 24, 1, 2000);
   const auto sequence = open(capture);
@@ -161,7 +116,7 @@ TEST_F(PaveSequenceTest, WhatComesAfterARestartIsKept) {
 }
 
 TEST_F(PaveSequenceTest, EqualStampsAreSpreadWithAWarning) {
-  Capture capture;
+  PaveCapture capture;
   capture.add(6, 32, 24, 1, 5000, 0);
   const auto sequence = open(capture);
   expectPictures(*sequence, capture.lumas());

@@ -298,6 +298,23 @@ TEST_F(DoctorTool, NavdataWithoutOdometryIsUsableAndItsReplayLineRuns) {
   EXPECT_EQ(std::system(line.c_str()), 0) << line << "\n" << errors();
 }
 
+TEST_F(DoctorTool, ReplayOfATurnedCameraNamesDoctorAndThatOfASoundOneDoesNot) {
+  longLaps().write(driverFaultsNamed({"released"}), path());
+  turnCameras(path(), path("turned.bag"), rotationOf(Eigen::Vector3d(0, 0, M_PI)));
+  const auto replay = [this](const std::string& name) {
+    const std::string command = ARDRONE_VSLAM_REPLAY " " + path(name) + " --out " + path("run") +
+                                " --config " ARDRONE_VSLAM_SOURCE_DIR "/config/ardrone.yaml > " +
+                                path("output") + " 2> " + path("errors");
+    EXPECT_EQ(std::system(command.c_str()), 0) << errors();
+    return errors();
+  };
+  EXPECT_NE(replay("turned.bag").find("rosrun ardrone_vslam doctor " + path("turned.bag")),
+            std::string::npos)
+      << errors();
+  EXPECT_EQ(replay("driver.bag").find("rosrun ardrone_vslam doctor"), std::string::npos)
+      << errors();
+}
+
 TEST_F(DoctorTool, WithoutAMasterLiveSaysSo) {
   EXPECT_EQ(std::system(("ROS_MASTER_URI=http://localhost:9 " ARDRONE_VSLAM_DOCTOR
                          " --live --seconds 1 2> " +
