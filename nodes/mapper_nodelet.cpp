@@ -285,6 +285,7 @@ void MapperNodelet::restartAt(std::int64_t stamp_ns, const std::string& topic) {
   // only its own.
   const std::int64_t limit_ns = stamp_ns + StampGuard::kRestart_ns - 1;
   const bool was_waiting = matcher_->forgetAfter(limit_ns);
+  mounting_->tf().clear();  // a bag without /clock: tf cannot know
   if (slam_ && answered_ns_ > limit_ns) {
     beginMapAnew("stamps on " + topic + " jumped back (a bag plays again?)");
   } else if (was_waiting) {

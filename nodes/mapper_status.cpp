@@ -61,6 +61,13 @@ void MapperNodelet::noteOdometryFaults() {
   odometry_faults_ = faults;
 }
 
+void MapperNodelet::noteOdomFrame() {
+  if (!odom_frame_fault_.empty() || frames_.odom.empty() || frames_.base.empty()) return;
+  odom_frame_fault_ =
+      odomFrameFault(mounting_->tf().core(), frames_.map, frames_.odom, frames_.base);
+  if (!odom_frame_fault_.empty()) NODELET_WARN_STREAM(odom_frame_fault_);
+}
+
 void MapperNodelet::publishStatus(const FrameResult& result, const Features& features) {
   Status status;
   toStatus(result, frames_.map, status);
@@ -168,6 +175,7 @@ void MapperNodelet::remindOfRange() {
 
 void MapperNodelet::onSecond() {
   remindOfRange();
+  noteOdomFrame();
   if (has_answer_) {
     seconds_waiting_ = 0;
   } else {
@@ -188,7 +196,7 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
        latest_.state == Status::TRACKING || latest_.state == Status::RESTING ||
        latest_.state == Status::ROTATING || latest_.state == Status::RELOCATED ||
        latest_.state == Status::OBSERVER_ONLY) &&
-      speed_.absurd_m_s() == 0 && missingRange().empty();
+      speed_.absurd_m_s() == 0 && odom_frame_fault_.empty() && missingRange().empty();
   const auto level = is_stuck  ? DiagnosticStatus::ERROR
                      : is_well ? DiagnosticStatus::OK
                                : DiagnosticStatus::WARN;
@@ -210,6 +218,9 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
     wrapper.add("odometry speed",
                 explainSpeed("the odometry on " + odometry_sub_.getTopic(), speed_.absurd_m_s()));
   }
+  if (!odom_frame_fault_.empty()) wrapper.add("odometry frame", odom_frame_fault_);
+  wrapper.add("tf transforms with a stamp that was there", mounting_->tf().repeated());
+  wrapper.add("tf transforms older than all kept", mounting_->tf().tooOld());
   if (config_.height_input.use_range) {
     wrapper.add("ranges refused", totals_.ranges_refused);
     wrapper.add("images without a range", totals_.heights_missing);
