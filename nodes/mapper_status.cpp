@@ -112,7 +112,8 @@ void MapperNodelet::publishWaiting() {
     status.reason =
         navdata_ && miss == ObserverBuffer::Lookup::kEmpty
             ? "no navdata has come on " + odometry_sub_.getTopic() +
-                  " (ardrone_autonomy/Navdata): start the driver, or remap `navdata` to its topic"
+                  " (ardrone_autonomy/Navdata): start the driver, or remap `navdata` to its topic "
+                  "(launch files: navdata:=TOPIC)"
             : explain(miss, odometry_sub_.getTopic());
   }
   if (isReminderDue(++seconds_waiting_)) {
