@@ -142,11 +142,8 @@ void MapperNodelet::fillTotals(Status& status) const {
   status.heights_rejected = totals_.heights_rejected;
   status.odometry_steps = totals_.odometry_steps;
   toStatus(odometryFaults(), status);
-  status.image_time_offset = config_.image_time_offset_s;
-  if (time_offset_) {
-    status.image_time_offset_estimate = time_offset_->estimate().offset_s;
-    status.image_time_offset_deviation = time_offset_->estimate().deviation_s;
-  }
+  toStatus(time_offset_ ? time_offset_->estimate() : TimeOffset{}, config_.image_time_offset_s,
+           status);
   status.results_not_finite = totals_.results_not_finite;
   status.restarts = totals_.restarts;
   status.camera_changes = totals_.camera_changes;
