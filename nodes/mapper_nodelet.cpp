@@ -64,12 +64,6 @@ void MapperNodelet::subscribeObserver() {
   odometry_sub_ = navdata_->subscriber();
 }
 
-OdometryFaultCounts MapperNodelet::odometryFaults() const {
-  OdometryFaultCounts faults = adapter_->faults();
-  if (navdata_) add(navdata_->faults(), faults);
-  return faults;
-}
-
 void MapperNodelet::readParameters() {
   ParamReader reader(getPrivateNodeHandle());
   reader.read(node_config_);
@@ -272,12 +266,6 @@ Eigen::Isometry3d MapperNodelet::mapToOdomOfTf(const FrameResult& result) const 
   if (config_.observer_adapter.mode == ObserverMode::kPose) return slam_->T_map_odom();
   const auto T_odom_base = mounting_->T_odom_base(frames_.odom, frames_.base, result.stamp_ns);
   return T_odom_base ? result.T_map_base * T_odom_base->inverse() : slam_->T_map_odom();
-}
-
-void MapperNodelet::refuseResult(const FrameResult& result, const Features& features) {
-  ++totals_.results_not_finite;
-  publishStatus(result, features);
-  beginMapAnew(explain(result.state));  // last: it ends the life of the result
 }
 
 void MapperNodelet::restartAt(std::int64_t stamp_ns, const std::string& topic) {

@@ -49,6 +49,12 @@ void MapperNodelet::noteTimeOffset() {
   NODELET_WARN_STREAM(advice);
 }
 
+OdometryFaultCounts MapperNodelet::odometryFaults() const {
+  OdometryFaultCounts faults = adapter_->faults();
+  if (navdata_) add(navdata_->faults(), faults);
+  return faults;
+}
+
 void MapperNodelet::noteOdometryFaults() {
   const OdometryFaultCounts faults = odometryFaults();
   for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
@@ -89,6 +95,12 @@ void MapperNodelet::publishStatus(const FrameResult& result, const Features& fea
   fillTotals(status);
   status_pub_.publish(status);
   latest_ = status;
+}
+
+void MapperNodelet::refuseResult(const FrameResult& result, const Features& features) {
+  ++totals_.results_not_finite;
+  publishStatus(result, features);
+  beginMapAnew(explain(result.state));  // last: it ends the life of the result
 }
 
 void MapperNodelet::publishWaiting() {
