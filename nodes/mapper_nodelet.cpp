@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kTick_s = 0.05;                // how late the end of a wait may be noticed
 constexpr std::uint32_t kOdometryQueue = 2000;  // 10 s at 200 Hz, while the mapper is busy
-constexpr std::uint32_t kRangeQueue = 500;
 
 double now_s() {
   return ros::SteadyTime::now().toSec();
@@ -40,8 +39,9 @@ void MapperNodelet::onInit() {
     if (slam_) outputs_->publishMap(slam_->landmarks(), frames_.map);
   });
   subscribeObserver();
-  if (config_.height_input.use_range)
-    range_sub_ = nh.subscribe("range", kRangeQueue, &MapperNodelet::onRange, this);
+  heights_ = std::make_unique<HeightTopic>(
+      nh, config_.height_input, config_.observer.buffer_s,
+      [this](const std::string& topic, const std::string& fault) { warn(topic, fault); });
   features_sub_ = nh.subscribe("features", static_cast<std::uint32_t>(node_config_.queue_size),
                                &MapperNodelet::onFeatures, this);
 }
@@ -76,7 +76,6 @@ void MapperNodelet::readParameters() {
     adapter_ = std::make_unique<ObserverAdapter>(config_.observer_adapter);
     matcher_ = std::make_unique<FrameMatcher>(config_.observer, node_config_.odometry_wait_s,
                                               config_.image_time_offset_s);
-    heights_ = std::make_unique<HeightInput>(config_.height_input, config_.observer.buffer_s);
   } catch (const ConfigError& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;
@@ -158,26 +157,6 @@ std::string MapperNodelet::takeOdometry(const ObserverState& message) {
   return fault;
 }
 
-void MapperNodelet::onRange(const sensor_msgs::RangeConstPtr& range) {
-  const auto checked = toRangeReading(*range);
-  if (!checked.value) {
-    ++totals_.ranges_refused;
-    return warn(range_sub_.getTopic(), checked.fault);
-  }
-  if (heights_->newestStamp_ns() - checked.value->stamp_ns >= StampGuard::kRestart_ns)
-    heights_->clear();
-  // Out of bounds is how the sensor says that there is no echo: counted, no fault.
-  switch (heights_->push(*checked.value)) {
-    case HeightInput::Push::kAccepted:
-      return;
-    case HeightInput::Push::kNotAscending:
-      warn(range_sub_.getTopic(), "its stamp is not after the one before; stamps must ascend");
-      [[fallthrough]];
-    case HeightInput::Push::kOutOfRange:
-      ++totals_.ranges_refused;
-  }
-}
-
 void MapperNodelet::takeFrameNames(const nav_msgs::Odometry& odometry) {
   const auto chosen = [](const std::string& parameter, const std::string& header) -> const auto& {
     return parameter.empty() ? header : parameter;
@@ -240,13 +219,10 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   toFeatures(*frame.features, features_);
   ObserverState observer = frame.observer;
   observer.height_m = heights_->at(observer);
-  has_range_ = has_range_ || heights_->missing() == totals_.heights_missing;
-  totals_.heights_missing = heights_->missing();
   observer.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
   time_offset_->see(features_, matcher_->observers());
   noteTimeOffset();
   const FrameResult& result = slam_->process(features_, observer, stage_clock_.hook());
-  totals_.heights_tilted = heights_->tilted();
   if (result.height == HeightOutcome::kRejected) ++totals_.heights_rejected;
   noteStep(result.odometry_step_m);
   noteDistrust(result.state);

@@ -11,6 +11,7 @@
 #include "camera_identity.hpp"
 #include "conversions.hpp"
 #include "frame_matcher.hpp"
+#include "height_topic.hpp"
 #include "mapper_outputs.hpp"
 #include "mounting.hpp"
 #include "navdata_input.hpp"
@@ -35,7 +36,6 @@ class MapperNodelet : public nodelet::Nodelet {
 
   void onFeatures(const FeaturesConstPtr& features);
   void onOdometry(const nav_msgs::OdometryConstPtr& odometry);
-  void onRange(const sensor_msgs::RangeConstPtr& range);
   void onSecond();
 
   bool acceptFeatures(const Features& features);
@@ -48,10 +48,8 @@ class MapperNodelet : public nodelet::Nodelet {
   void noteDistrust(SlamState state);
   /// Says that another image_time_offset_s would be better.
   void noteTimeOffset();
-  /// What is wrong with the ranges once images have been without for seconds; else empty.
-  std::string missingRange() const;
   /// Every second.
-  void remindOfRange();
+  void remindOfHeights();
   OdometryFaultCounts odometryFaults() const;
   /// Says what the adapter has found since this was called last.
   void noteOdometryFaults();
@@ -87,7 +85,6 @@ class MapperNodelet : public nodelet::Nodelet {
 
   ros::Subscriber features_sub_;
   ros::Subscriber odometry_sub_;
-  ros::Subscriber range_sub_;
   ros::Publisher status_pub_;
   ros::WallTimer tick_timer_;
   ros::WallTimer map_timer_;
@@ -101,7 +98,7 @@ class MapperNodelet : public nodelet::Nodelet {
   std::vector<ObserverState> ready_;       // from the adapter; kept for its memory
   OdometryFaultCounts odometry_faults_{};  // those that were said
   std::unique_ptr<FrameMatcher> matcher_;
-  std::unique_ptr<HeightInput> heights_;
+  std::unique_ptr<HeightTopic> heights_;
   std::unique_ptr<Slam> slam_;
   std::unique_ptr<TimeOffsetEstimator> time_offset_;
   Eigen::Isometry3d T_base_cam_ = Eigen::Isometry3d::Identity();  // as slam_ has it
@@ -125,8 +122,6 @@ class MapperNodelet : public nodelet::Nodelet {
   bool is_time_offset_told_ = false;
   bool has_features_ = false;  // within this second
   bool has_answer_ = false;
-  bool has_range_ = false;  // near an image's stamp
-  int seconds_without_range_ = 0;
 };
 
 }  // namespace ardrone_vslam

@@ -148,9 +148,9 @@ void MapperNodelet::fillTotals(Status& status) const {
   status.dropped_no_odometry = totals_.dropped_no_odometry;
   status.dropped_no_extrinsics = totals_.dropped_no_extrinsics;
   status.odometry_refused = totals_.odometry_refused;
-  status.ranges_refused = totals_.ranges_refused;
-  status.heights_missing = totals_.heights_missing;
-  status.heights_tilted = totals_.heights_tilted;
+  status.ranges_refused = heights_->refused();
+  status.heights_missing = heights_->input().missing();
+  status.heights_tilted = heights_->input().tilted();
   status.heights_rejected = totals_.heights_rejected;
   status.odometry_steps = totals_.odometry_steps;
   toStatus(odometryFaults(), status);
@@ -161,30 +161,14 @@ void MapperNodelet::fillTotals(Status& status) const {
   status.camera_changes = totals_.camera_changes;
 }
 
-std::string MapperNodelet::missingRange() const {
-  constexpr int kPatience_s = 3;
-  if (seconds_without_range_ < kPatience_s) return {};
-  const std::string topic = range_sub_.getTopic();
-  const std::string helps = ", or set use_range to false; without it the scale stays unknown";
-  if (heights_->newestStamp_ns() != 0)
-    return topic + ": no range is near the images' stamps: is the sensor alive, and is its clock " +
-           "the images'? Mend it" + helps;
-  if (totals_.ranges_refused > 0)
-    return topic + ": no range could be used yet (" + std::to_string(totals_.ranges_refused) +
-           " refused: outside of their min_range and max_range, or no stamp): correct the driver" +
-           helps;
-  return topic + ": no range has come: remap range to the sensor's topic" + helps;
-}
-
-void MapperNodelet::remindOfRange() {
-  if (!config_.height_input.use_range || !has_answer_) return;
-  seconds_without_range_ = has_range_ ? 0 : seconds_without_range_ + 1;
-  has_range_ = false;
-  if (isReminderDue(seconds_without_range_)) NODELET_WARN_STREAM(missingRange());
+void MapperNodelet::remindOfHeights() {
+  if (!heights_->isUsed() || !has_answer_) return;
+  heights_->countSecond();
+  if (isReminderDue(heights_->secondsWithout())) NODELET_WARN_STREAM(heights_->missing());
 }
 
 void MapperNodelet::onSecond() {
-  remindOfRange();
+  remindOfHeights();
   noteOdomFrame();
   if (has_answer_) {
     seconds_waiting_ = 0;
@@ -206,7 +190,7 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
        latest_.state == Status::TRACKING || latest_.state == Status::RESTING ||
        latest_.state == Status::ROTATING || latest_.state == Status::RELOCATED ||
        latest_.state == Status::OBSERVER_ONLY) &&
-      speed_.absurd_m_s() == 0 && odom_frame_fault_.empty() && missingRange().empty();
+      speed_.absurd_m_s() == 0 && odom_frame_fault_.empty() && heights_->missing().empty();
   const auto level = is_stuck  ? DiagnosticStatus::ERROR
                      : is_well ? DiagnosticStatus::OK
                                : DiagnosticStatus::WARN;
@@ -231,10 +215,10 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
   if (!odom_frame_fault_.empty()) wrapper.add("odometry frame", odom_frame_fault_);
   wrapper.add("tf transforms with a stamp that was there", mounting_->tf().repeated());
   wrapper.add("tf transforms older than all kept", mounting_->tf().tooOld());
-  if (config_.height_input.use_range) {
-    wrapper.add("ranges refused", totals_.ranges_refused);
-    wrapper.add("images without a range", totals_.heights_missing);
-    if (!missingRange().empty()) wrapper.add("range", missingRange());
+  if (heights_->isUsed()) {
+    wrapper.add("heights refused", heights_->refused());
+    wrapper.add("images without a height", heights_->input().missing());
+    if (!heights_->missing().empty()) wrapper.add(heights_->name(), heights_->missing());
     wrapper.add("heights rejected", totals_.heights_rejected);
     wrapper.add("scale error", latest_.scale_error);
     wrapper.add("scale deviation", latest_.scale_deviation);

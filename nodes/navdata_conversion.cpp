@@ -32,6 +32,15 @@ Checked<NavdataReading> toNavdataReading(const Navdata& m) {
   return {reading, {}};
 }
 
+Checked<RangeReading> toHeightReading(const Navdata& m) {
+  if (m.header.stamp.isZero()) return {std::nullopt, kNoStamp};
+  constexpr double kSonarReach_m = 6;  // beyond it the drone guesses
+  constexpr double kLowest_m = 0.1;    // 0 on the ground
+  return {RangeReading{static_cast<std::int64_t>(m.header.stamp.toNSec()), m.altd * kPerThousand,
+                       kLowest_m, kSonarReach_m, true},
+          {}};
+}
+
 Checked<DroneImu> toDroneImu(const sensor_msgs::Imu& m) {
   if (m.header.stamp.isZero()) return {std::nullopt, kNoStamp};
   DroneImu imu;

@@ -22,6 +22,9 @@ HeightInput::HeightInput(const HeightInputConfig& config, double buffer_s)
 HeightInput::Push HeightInput::push(const RangeReading& reading) {
   const bool is_in_range = std::isfinite(reading.range_m) && reading.range_m > 0 &&
                            reading.range_m >= reading.min_m && reading.range_m <= reading.max_m;
+  const bool is_of_burst =
+      reading.is_vertical && !readings_.empty() && reading.stamp_ns == readings_.back().stamp_ns;
+  if (is_of_burst && is_in_range) readings_.pop_back();
   const bool is_ascending = readings_.empty() || reading.stamp_ns > readings_.back().stamp_ns;
   if (!is_in_range || !is_ascending) {
     ++refused_;
@@ -33,7 +36,7 @@ HeightInput::Push HeightInput::push(const RangeReading& reading) {
 }
 
 std::optional<double> HeightInput::at(const ObserverState& observer) {
-  if (!config_.use_range) {
+  if (!usesReadings(config_)) {
     if (config_.known_height_m > 0) return config_.known_height_m;
     return std::nullopt;
   }
@@ -47,7 +50,7 @@ std::optional<double> HeightInput::at(const ObserverState& observer) {
     ++tilted_;
     return std::nullopt;
   }
-  return *range_m * cosine;
+  return readings_.back().is_vertical ? *range_m : *range_m * cosine;
 }
 
 std::optional<double> HeightInput::rangeAt(std::int64_t stamp_ns) const {

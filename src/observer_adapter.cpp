@@ -170,10 +170,12 @@ bool ObserverAdapter::follows(const ObserverState& message) {
   }
   const Eigen::Vector3d position_m = message.T_odom_base.translation();
   const Eigen::Vector3d expected_m = position_odom_m_ + wayByTwist_m(message);
-  // Drivers integrate x and y; the height is measured.
+  // Some drivers measure the height, which goes on by itself, and some integrate it, which does
+  // not. Only what the twist cannot tell, across a hole or within a metre, is left to the message.
   const bool is_height_sane = std::abs(position_m.z() - position_odom_m_.z()) < kJump_m;
+  const bool is_way_known = last_ && secondsBetween(*last_, message) <= kLongestWay_s;
   offset_odom_m_ = expected_m - position_m;
-  if (is_height_sane) offset_odom_m_.z() = 0;
+  if (is_height_sane && (!is_way_known || whole_metres_.isWhole())) offset_odom_m_.z() = 0;
   return true;
 }
 

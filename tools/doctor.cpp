@@ -42,6 +42,8 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--image", o.topics.image, "topic; default: the one with the most messages");
   app.add_option("--camera-info", o.topics.camera_info, "topic; default: beside the images");
   app.add_option("--odometry", o.topics.odometry, "topic; default: the one with the most messages");
+  app.add_option("--navdata", o.topics.navdata, "topic; default: the driver's");
+  app.add_option("--imu", o.topics.imu, "topic; default: beside navdata");
   app.footer(
       "Exit code: 0 when it can work (warnings allowed), 1 when it cannot or cannot be read, 2 for "
       "wrong usage.");

@@ -179,6 +179,8 @@ int main(int argc, char** argv) {
   }
   pave->add_option("--camera", o.pave.camera_yaml,
                    "calibration; default: camera.yaml beside the stream");
+  pave->add_option("--bottom-camera", o.pave.bottom_camera_yaml,
+                   "calibration of the bottom camera, when its pictures have another size");
   pave->add_flag("--at-rest", o.pave.at_rest, "the drone stood still: its true pose is known");
   return runTool(app, argc, argv, [&] { return run(app, o); });
 }

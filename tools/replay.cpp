@@ -177,7 +177,14 @@ int run(const Options& o) {
   const FrameSelection selection =
       asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
   const auto sequence = select(openInput(o, config), selection);
-  if (config.mapper.height_input.use_range && sequence->ranges().empty()) {
+  const HeightInputConfig& heights = config.mapper.height_input;
+  if (heights.use_navdata_height && sequence->ranges().empty()) {
+    std::cerr
+        << "replay: " << sequence->name()
+        << ": holds no heights of an AR.Drone's navdata (use_navdata_height); the scale stays "
+           "the odometry's\n";
+  }
+  if (heights.use_range && sequence->ranges().empty()) {
     throw std::runtime_error(sequence->name() +
                              ": holds no ranges, which use_range asks for: record the sensor's "
                              "topic (a folder: range.txt), or set use_range to false");

@@ -13,6 +13,7 @@ namespace ardrone_vslam {
 /// Where heights above the floor come from.
 struct HeightInputConfig {
   bool use_range = false;
+  bool use_navdata_height = false;
   double range_max_gap_s = 0.1;
   double range_max_tilt_deg = 20;
   double known_height_m = 0;
@@ -24,8 +25,14 @@ void visitParameters(HeightInputConfig& c, Visitor&& visit) {
                       "constraint filter: a range sensor that looks down (the topic `range`) tells "
                       "the height above the floor, and so the scale when it changes"},
         c.use_range);
+  visit(
+      ParameterInfo{"use_navdata_height", "switch", 0, 0,
+                    "constraint filter: the height above the floor in the AR.Drone's navdata (the "
+                    "topic `altitude`) takes the range's place"},
+      c.use_navdata_height);
   visit(ParameterInfo{"range_max_gap_s", "s", 0.001, 10,
-                      "ranges are interpolated at the image's stamp across no longer a hole; at "
+                      "ranges and navdata heights are interpolated at the image's stamp across no "
+                      "longer a hole; at "
                       "their end the nearest one counts for as long"},
         c.range_max_gap_s);
   visit(ParameterInfo{"range_max_tilt_deg", "deg", 0, 80,
@@ -37,6 +44,11 @@ void visitParameters(HeightInputConfig& c, Visitor&& visit) {
         c.known_height_m);
 }
 
+/// Whether heights come from readings.
+inline bool usesReadings(const HeightInputConfig& config) {
+  return config.use_range || config.use_navdata_height;
+}
+
 /// What a range sensor under base says, its beam along base's -z. As sensor_msgs/Range: a range
 /// outside its own bounds is none.
 struct RangeReading {
@@ -44,6 +56,7 @@ struct RangeReading {
   double range_m = 0;
   double min_m = 0;
   double max_m = 0;
+  bool is_vertical = false;  ///< already the height, whatever the tilt
 };
 
 /// The height of base above the floor at image stamps.
@@ -54,7 +67,8 @@ class HeightInput {
   /// @param buffer_s  ranges are kept for so long
   HeightInput(const HeightInputConfig& config, double buffer_s);
 
-  /// Appends a reading; one that is refused changes nothing.
+  /// Appends a reading; one that is refused changes nothing. Of vertical ones with equal stamps (a
+  /// burst) the last counts.
   Push push(const RangeReading& reading);
   /// @param observer  its stamp is the image's, its attitude turns the range into a height
   /// @return nothing without a range near the stamp, or while base is tilted too much

@@ -35,8 +35,8 @@ void visitParameters(HeightConfig& c, Visitor&& visit) {
         c.floor_step_s);
   visit(ParameterInfo{"floor_points", "switch", 0, 0,
                       "constraint filter: what a camera that looks down sees lies on the floor, as "
-                      "far below as the height says (known_height_m or use_range): its way tells "
-                      "the scale without any climb"},
+                      "far below as the height says (known_height_m, use_range or "
+                      "use_navdata_height): its way tells the scale without any climb"},
         c.floor_points);
   visit(ParameterInfo{"floor_point_deviation_m", "m", 0.0001, 10,
                       "constraint filter: deviation of such a point from the floor, the height's "

@@ -156,7 +156,9 @@ TEST(DoctorHeight, FindsTheStepBehindWholeMetresByTheDronesOwnAltitude) {
   for (std::size_t i = 0; i < recording.odometry.size(); ++i) {
     double& z_m = recording.odometry[i].state->T_odom_base.translation().z();
     if (i > 400 && i < 700) z_m -= 0.75;
-    recording.altitudes.push_back({recording.odometry[i].time, z_m});
+    NavdataReading reading;
+    reading.measured.height_m = z_m;
+    recording.navdata.push_back({recording.odometry[i].time, reading});
     z_m = std::trunc(z_m);
   }
   EXPECT_EQ(found(allOf(recording)), (Names{"height_metres", "height_ground"}));

@@ -104,13 +104,49 @@ TEST(DoctorTopics, TakesTheTopicWithMostMessagesThenTheShortestName) {
   EXPECT_EQ(drone.image_topic, "/ardrone/image_raw");
   EXPECT_EQ(drone.camera_info_topic, "/ardrone/camera_info");
   EXPECT_EQ(drone.odometry_topic, "/ardrone/odometry");
-  EXPECT_EQ(navdataTopic(drone), "/ardrone/navdata");
+  EXPECT_EQ(drone.navdata_topic, "/ardrone/navdata");
   EXPECT_FALSE(drone.choices.empty());
-  chooseTopics({"ardrone/front/image_raw", "", ""}, drone);
+  chooseTopics({"ardrone/front/image_raw", "", "", "", ""}, drone);
   EXPECT_EQ(drone.image_topic, "/ardrone/front/image_raw");
   EXPECT_EQ(drone.camera_info_topic, "/ardrone/front/camera_info");
-  EXPECT_THROW(chooseTopics({"/none", "", ""}, drone), std::runtime_error);
-  EXPECT_THROW(chooseTopics({"/ardrone/odometry", "", ""}, drone), std::runtime_error);
+  EXPECT_THROW(chooseTopics({"/none", "", "", "", ""}, drone), std::runtime_error);
+  EXPECT_THROW(chooseTopics({"/ardrone/odometry", "", "", "", ""}, drone), std::runtime_error);
+}
+
+TEST(DoctorTopics, TellReplayWhatWasChosenAmongSeveral) {
+  DoctorRecording one;
+  one.topics = {{"/cam/image_raw", {"sensor_msgs/Image", 30}},
+                {"/cam/camera_info", {"sensor_msgs/CameraInfo", 30}},
+                {"/odom", {"nav_msgs/Odometry", 100}},
+                {"/vslam/observer_odometry", {"nav_msgs/Odometry", 200}}};
+  chooseTopics({}, one);
+  EXPECT_EQ(one.odometry_topic, "/odom");  // not what was recorded of this package's own
+  EXPECT_EQ(one.replay_options, std::vector<std::string>{});
+  DoctorRecording several = one;
+  several.topics["/ardrone/front/image_raw"] = {"sensor_msgs/Image", 40};
+  several.topics["/ardrone/imu"] = {"sensor_msgs/Imu", 100};
+  several.topics["/imu"] = {"sensor_msgs/Imu", 300};
+  several.topics["/wheels"] = {"nav_msgs/Odometry", 90};
+  several.topics["/ardrone/navdata"] = {"ardrone_autonomy/Navdata", 100};
+  chooseTopics({}, several);
+  EXPECT_EQ(several.replay_options,
+            (std::vector<std::string>{"--image-topic /ardrone/front/image_raw",
+                                      "--odometry-topic /odom"}));
+  DoctorTopicNames names;
+  names.odometry = "wheels";
+  chooseTopics(names, several);
+  EXPECT_EQ(several.replay_options.back(), "--odometry-topic /wheels");
+  // Without odometry navdata is the observer, and its IMU the one beside it.
+  several.topics.erase("/odom");
+  several.topics.erase("/wheels");
+  several.topics["/joy"] = {"geometry_msgs/Twist", 500};
+  several.topics["/cmd_vel"] = {"geometry_msgs/Twist", 20};
+  chooseTopics({}, several);
+  EXPECT_EQ(several.odometry_topic, "");
+  EXPECT_EQ(several.imu_topic, "/ardrone/imu");
+  EXPECT_EQ(several.replay_options,
+            (std::vector<std::string>{"--image-topic /ardrone/front/image_raw",
+                                      "--imu-topic /ardrone/imu", "--command-topic /cmd_vel"}));
 }
 
 TEST(DoctorTracks, LooksAtStretchesOfALongRecording) {

@@ -8,73 +8,11 @@
 
 #include "pave_sequence.hpp"
 #include "random_source.hpp"
+#include "support/pave_packets.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
-
-struct Packet {
-  std::uint32_t number = 0;
-  std::uint8_t type = PaveHeader::kP;
-  std::uint8_t slices = 1;
-  std::uint8_t slice = 0;
-  std::uint16_t width_px = 640;
-  std::uint8_t codec = 4;
-  std::size_t payload_bytes = 20;
-  std::uint8_t fill = 0;  ///< of the payload; 0: the frame's number
-};
-
-void put(Bytes& bytes, std::size_t offset, std::uint32_t value, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    bytes[offset + i] = static_cast<std::uint8_t>(value >> (8 * i));
-  }
-}
-
-/// Header of 68 bytes, as the real ones are.
-Bytes toBytes(const Packet& packet) {
-  Bytes bytes(68);
-  bytes[0] = 'P';
-  bytes[1] = 'a';
-  bytes[2] = 'V';
-  bytes[3] = 'E';
-  bytes[4] = 2;
-  bytes[5] = packet.codec;
-  put(bytes, 6, 68, 2);
-  put(bytes, 8, static_cast<std::uint32_t>(packet.payload_bytes), 4);
-  put(bytes, 12, packet.width_px, 2);
-  put(bytes, 14, 368, 2);
-  put(bytes, 16, packet.width_px, 2);
-  put(bytes, 18, 360, 2);
-  put(bytes, 20, packet.number, 4);
-  put(bytes, 24, 1000 + 33 * packet.number, 4);
-  bytes[30] = packet.type;
-  bytes[42] = packet.slices;
-  bytes[43] = packet.slice;
-  const auto fill = packet.fill != 0 ? packet.fill : static_cast<std::uint8_t>(packet.number);
-  bytes.insert(bytes.end(), packet.payload_bytes, fill);
-  return bytes;
-}
-
-Packet idr(std::uint32_t number) {
-  Packet packet;
-  packet.number = number;
-  packet.type = PaveHeader::kIdr;
-  return packet;
-}
-
-Packet dependent(std::uint32_t number) {
-  Packet packet;
-  packet.number = number;
-  return packet;
-}
-
-Bytes join(const std::vector<Bytes>& parts) {
-  Bytes all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
-}
 
 PaveStream parse(const Bytes& bytes) {
   return parsePave(bytes.data(), bytes.size());

@@ -4,15 +4,19 @@
 #include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
 #include <yaml-cpp/yaml.h>
 
 #include <iterator>
+#include <set>
 
 #include "ardrone_vslam/height_input.hpp"
 #include "bag_sequence.hpp"
 #include "bag_writer.hpp"
+#include "pave_sequence.hpp"
+#include "support/pave_capture.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {
@@ -300,6 +304,39 @@ TEST(RealBag, KittiClipThereAndBack) {
   EXPECT_TRUE(bag->camera() == source->camera());
   expectSameImages(*source, *bag, report.stamp_offset_ns);
   expectSameTruth(source->truth(), bag->truth(), report.stamp_offset_ns);
+}
+
+TEST(BagRoundTrip, TheBottomCameraOfAVideoStreamHasItsOwnFrameAndCalibration) {
+  TemporaryFolder folder;
+  PaveCapture capture;
+  capture.add(3, 32, 24, 1, 5000);
+  capture.add(2, 48, 32, 16, 5495);
+  capture.add(1, 32, 24, 26, 5825);
+  folder.write("video.pave", capture.text());
+  folder.write("camera.yaml", paveCameraYaml(32, 24));
+  folder.write("bottom.yaml", paveCameraYaml(48, 32));
+  PaveOptions pave;
+  pave.bottom_camera_yaml = folder.file("bottom.yaml");
+  pave.at_rest = true;
+  const auto stream = openPave(folder.file("video.pave"), pave);
+  writeBag(*stream, driftingOptions(), folder.file("a.bag"));
+  BagReadOptions read;
+  read.base_frame = "base_link";
+  const auto bag = openBag(folder.file("a.bag"), read);
+  expectSameImages(*stream, *bag, 0);
+  ASSERT_EQ(bag->size(), 30U);
+  for (std::size_t i = 0; i < bag->size(); ++i) {
+    const SequenceCamera a = stream->cameraAt(stream->cameraOf(i));
+    const SequenceCamera b = bag->cameraAt(bag->cameraOf(i));
+    EXPECT_TRUE(a.intrinsics == b.intrinsics) << i;
+    expectSamePose(a.T_base_cam, b.T_base_cam);
+  }
+  EXPECT_NE(bag->cameraOf(0), bag->cameraOf(15));
+  const rosbag::Bag file(folder.file("a.bag"), rosbag::bagmode::Read);
+  std::set<std::string> frames;
+  for (const auto& instance : rosbag::View(file, rosbag::TopicQuery("/camera/camera_info")))
+    frames.insert(instance.instantiate<sensor_msgs::CameraInfo>()->header.frame_id);
+  EXPECT_EQ(frames, (std::set<std::string>{"camera_optical", "camera_optical_2"}));
 }
 
 }  // namespace

@@ -3,17 +3,13 @@
 #include "doctor_bag.hpp"
 
 #include <gtest/gtest.h>
-#include <rosbag/view.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "ardrone_vslam/rotation.hpp"
 #include "bag_recipe.hpp"
 #include "doctor_examination.hpp"
-#include "driver_recording.hpp"
+#include "doctor_flights.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -30,56 +26,6 @@ Names found(const DoctorReport& report) {
   }
   return names;
 }
-
-DoctorReport examineBag(const std::string& path) {
-  return examine(readForDoctor(path, {}, {}), {});
-}
-
-/// A flight as the driver records it, 8 images a second.
-class DriverFlight {
- public:
-  DriverFlight(const std::string& flight, double seconds) : world_(options(flight, seconds)) {}
-
-  void write(const DriverFaults& faults, const std::string& path) const {
-    DriverBagOptions options;
-    options.faults = faults;
-    options.profile =
-        loadObserverProfile("drone", ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");
-    options.tool = "test";
-    writeDriverBag(world_, options, path);
-  }
-
- private:
-  static WorldOptions options(const std::string& flight, double seconds) {
-    WorldOptions options;
-    options.flight = flight;
-    options.duration_s = seconds;
-    options.rate_hz = 8;
-    return options;
-  }
-  WorldSequence world_;
-};
-
-class DoctorBag : public testing::Test {
- protected:
-  /// Painted once.
-  static const DriverFlight& laps() {
-    static const DriverFlight flight("laps", 10);
-    return flight;
-  }
-  /// Long enough to tell the time offset.
-  static const DriverFlight& longLaps() {
-    static const DriverFlight flight("laps", 24);
-    return flight;
-  }
-  std::string path(const std::string& name = "driver.bag") const { return folder_.file(name); }
-  DoctorReport examineFlight(const DriverFaults& faults,
-                             const DriverFlight& flight = laps()) const {
-    flight.write(faults, path());
-    return examineBag(path());
-  }
-  TemporaryFolder folder_;
-};
 
 TEST_F(DoctorBag, TheDriverWithoutFaultsHasNone) {
   const DoctorReport report = examineFlight({}, longLaps());
@@ -98,7 +44,7 @@ TEST_F(DoctorBag, NamesEachFaultOfTheDriverAndNothingElse) {
       {DriverFault::kFusedAltitude, {"height_ground"}},
       {DriverFault::kWholeMetres, {"height_metres"}},
       {DriverFault::kUnprefixedFrame, {"odometry_frames"}},
-      {DriverFault::kBursts, {"odometry_bursts"}},
+      {DriverFault::kBursts, {"odometry_bursts", "navdata_bursts", "imu_bursts"}},
       {DriverFault::kUnscaledCameraInfo, {"calibration"}},
       {DriverFault::kTogglecam, {"camera_switch"}},
   };
@@ -114,7 +60,8 @@ TEST_F(DoctorBag, NamesAllFaultsTogether) {
   // What shows behind whole metres needs a table, what shows in the tracks a calibration.
   const Names wanted{"odometry_yaw",       "odometry_jumps", "odometry_covariance",
                      "odometry_turn_rate", "height_metres",  "odometry_frames",
-                     "odometry_bursts",    "calibration",    "camera_switch"};
+                     "odometry_bursts",    "navdata_bursts", "imu_bursts",
+                     "calibration",        "camera_switch"};
   EXPECT_EQ(found(examineFlight(driverFaultsNamed({"all"}))), wanted);
   DriverFlight("table", 30).write(driverFaultsNamed({"all"}), path());
   const Names over_table = found(examineBag(path()));
@@ -124,8 +71,9 @@ TEST_F(DoctorBag, NamesAllFaultsTogether) {
 
 TEST_F(DoctorBag, NamesTheReleasedDriversFaultsAndSuggestsTheirRemedies) {
   const DoctorReport report = examineFlight(driverFaultsNamed({"released"}), longLaps());
-  EXPECT_EQ(found(report), (Names{"odometry_yaw", "odometry_covariance", "odometry_turn_rate",
-                                  "height_ground", "odometry_bursts", "image_time_offset"}))
+  EXPECT_EQ(found(report),
+            (Names{"odometry_yaw", "odometry_covariance", "odometry_turn_rate", "height_ground",
+                   "odometry_bursts", "navdata_bursts", "imu_bursts", "image_time_offset"}))
       << textOf(report);
   EXPECT_TRUE(report.canWork());
   std::map<std::string, std::string> values;
@@ -133,29 +81,6 @@ TEST_F(DoctorBag, NamesTheReleasedDriversFaultsAndSuggestsTheirRemedies) {
   EXPECT_EQ(values["observer_mode"], "twist");
   // The video is 75 to 100 ms late.
   EXPECT_NEAR(std::stod(values["image_time_offset_s"]), -0.0875, 0.01);
-}
-
-/// A bag's copy with the cameras turned by `turn` in tf.
-void turnCameras(const std::string& from, const std::string& to, const Eigen::Matrix3d& turn) {
-  const rosbag::Bag source(from, rosbag::bagmode::Read);
-  rosbag::Bag copy(to, rosbag::bagmode::Write);
-  rosbag::View view(source);
-  for (const rosbag::MessageInstance& instance : view) {
-    const auto tf = instance.instantiate<tf2_msgs::TFMessage>();
-    if (!tf) {
-      copy.write(instance.getTopic(), instance.getTime(), instance);
-      continue;
-    }
-    for (auto& transform : tf->transforms) {
-      if (transform.child_frame_id.find("cam") == std::string::npos) continue;
-      const auto& q = transform.transform.rotation;
-      Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-      T.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z) * turn;
-      transform.transform.rotation = toPoseMessage(T).orientation;
-    }
-    copy.write(instance.getTopic(), instance.getTime(), *tf);
-  }
-  copy.close();
 }
 
 TEST_F(DoctorBag, FindsATurnedCameraAndPrintsTheRightTransform) {
@@ -217,57 +142,6 @@ TEST_F(DoctorBag, DamagedBagsAreNoCrash) {
       }
     }
   }
-}
-
-class DoctorTool : public DoctorBag {
- protected:
-  int run(const std::string& arguments) const {
-    const std::string command =
-        ARDRONE_VSLAM_DOCTOR " " + arguments + " > " + path("output") + " 2> " + path("errors");
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-  std::string output() const { return readWhole(path("output")); }
-  std::string errors() const { return readWhole(path("errors")); }
-};
-
-TEST_F(DoctorTool, ExitCodesTellUsableFromNotAndFromWrongUsage) {
-  laps().write(driverFaultsNamed({"released"}), path());
-  EXPECT_EQ(run(path() + " --json " + path("report.json")), 0) << errors();
-  EXPECT_NE(output().find("observer_mode: twist"), std::string::npos) << output();
-  const auto json = nlohmann::json::parse(readWhole(path("report.json")));
-  EXPECT_TRUE(json["usable"].get<bool>());
-  EXPECT_EQ(run(path() + " --json -"), 0);
-  EXPECT_EQ(nlohmann::json::parse(output()), json);
-
-  BagRecipe no_tf;
-  no_tf.has_tf = false;
-  EXPECT_EQ(run(TestBag(no_tf).path()), 1);
-  EXPECT_NE(output().find("cannot work as it is"), std::string::npos);
-  EXPECT_EQ(run(path() + " --image /none"), 1);
-  EXPECT_NE(errors().find("/none"), std::string::npos);
-  folder_.write("empty.bag", "");
-  EXPECT_EQ(run(path("empty.bag")), 1);
-  EXPECT_NE(errors().find("is empty"), std::string::npos) << errors();
-  EXPECT_EQ(run(path("missing.bag")), 1);
-  EXPECT_NE(errors().find("no such file"), std::string::npos) << errors();
-
-  EXPECT_EQ(run(""), 2);
-  EXPECT_EQ(run(path() + " --live"), 2);
-  EXPECT_EQ(run(path() + " --seconds 5"), 2);
-  EXPECT_EQ(run(path() + " --no-such-option"), 2);
-  EXPECT_EQ(run("--help"), 0);
-  EXPECT_EQ(run("--version"), 0);
-}
-
-TEST_F(DoctorTool, WithoutAMasterLiveSaysSo) {
-  EXPECT_EQ(std::system(("ROS_MASTER_URI=http://localhost:9 " ARDRONE_VSLAM_DOCTOR
-                         " --live --seconds 1 2> " +
-                         path("errors") + " > " + path("output"))
-                            .c_str()) >>
-                8,
-            1);
-  EXPECT_NE(errors().find("no ROS master"), std::string::npos) << errors();
 }
 
 }  // namespace

@@ -37,6 +37,27 @@ TEST(DriverNavdata, HasTheUnitsOfTheFilter) {
   EXPECT_FALSE(toNavdataReading(message).value->is_standing);
 }
 
+TEST(DriverNavdata, ItsHeightIsAVerticalReadingWithinTheSonarsReach) {
+  Navdata message;
+  EXPECT_FALSE(toHeightReading(message).value) << "no stamp";
+  message.header.stamp.fromNSec(5'000'000'000);
+  HeightInputConfig config;
+  config.use_navdata_height = true;
+  HeightInput input(config, 10);
+  const auto push = [&](int altitude_mm) {
+    message.altd = altitude_mm;
+    message.header.stamp += ros::Duration(0.005);
+    return input.push(*toHeightReading(message).value);
+  };
+  EXPECT_EQ(push(850), HeightInput::Push::kAccepted);
+  EXPECT_EQ(push(0), HeightInput::Push::kOutOfRange) << "on the ground";
+  EXPECT_EQ(push(-3), HeightInput::Push::kOutOfRange);
+  EXPECT_EQ(push(9000), HeightInput::Push::kOutOfRange);
+  ObserverState upright;
+  upright.stamp_ns = 5'005'000'000;
+  EXPECT_NEAR(*input.at(upright), 0.85, 1e-9);
+}
+
 BagReadOptions frontCamera() {
   BagReadOptions options;
   options.image_topic = "/ardrone/front/image_raw";
@@ -61,6 +82,21 @@ TEST(DriverNavdata, TakesTheOdometrysPlaceInABag) {
   }
   EXPECT_FALSE(states.back().twist_base.tail<3>().isZero(0)) << "the IMU's";
   EXPECT_EQ(openBag(recording.path(), frontCamera())->observerFaults(), OdometryFaultCounts{});
+}
+
+TEST(DriverNavdata, HeightsAreReadWhereTheyAreAskedFor) {
+  const DriverRecording recording(driverFaultsNamed({"released"}), "truth");
+  BagReadOptions options = frontCamera();
+  EXPECT_TRUE(openBag(recording.path(), options)->ranges().empty());
+  options.use_navdata_height = true;
+  const auto bag = openBag(recording.path(), options);
+  EXPECT_EQ(bag->ranges().size(), recording.read<Navdata>("/ardrone/navdata").size());
+  std::size_t near = 0;  // the fused altitude lags where the drone climbs
+  for (const RangeReading& height : bag->ranges()) {
+    const double z_m = bag->truth().at(height.stamp_ns).translation().z();
+    near += std::abs(height.range_m - z_m) < 0.1;
+  }
+  EXPECT_GT(near, bag->ranges().size() / 2);
 }
 
 TEST(DriverNavdata, ABagWithoutIsRefusedByName) {

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""use_range: without a range that can be used the mapper says so in log and diagnostics, and counts;
-with ranges in a climb it finds the odometry's scale."""
+"""use_range, use_navdata_height: without a height that can be used the mapper says so in log and
+diagnostics, and counts; with heights in a climb it finds the odometry's scale."""
 import os
 import sys
 import time
@@ -9,6 +9,7 @@ import unittest
 
 import rospy
 import rostest
+from ardrone_vslam.msg import Navdata
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from sensor_msgs.msg import Range
 
@@ -24,15 +25,21 @@ class RangeTest(unittest.TestCase):
         rospy.init_node("range_test")
         self.drone = Drone()
         self.diagnostics = Recorder("/diagnostics", DiagnosticArray)
-        self.ranges = rospy.Publisher("/range", Range, queue_size=100)
+        self.of_navdata = rospy.get_param("/vslam/mapper/use_navdata_height", False)
+        self.topic = "/ardrone/navdata" if self.of_navdata else "/range"
+        self.what = "altitude" if self.of_navdata else "range"
+        self.parameter = "use_navdata_height" if self.of_navdata else "use_range"
+        self.ranges = rospy.Publisher(self.topic, Navdata if self.of_navdata else Range, queue_size=100)
         self.drone.connect()
         self.drone.mount_camera()
 
     def send_range(self, range_m):
-        message = Range()
+        message = Navdata() if self.of_navdata else Range()
         message.header.stamp = self.drone.stamp()
-        message.header.frame_id = "sonar"
-        message.min_range, message.max_range, message.range = 0.2, 6.0, range_m
+        if self.of_navdata:
+            message.altd = round(range_m * 1000)
+        else:
+            message.min_range, message.max_range, message.range = 0.2, 6.0, range_m
         self.ranges.publish(message)
 
     def slide(self, range_m=None):
@@ -71,13 +78,14 @@ class RangeTest(unittest.TestCase):
 
     def test_range(self):
         status = self.mapper_says(
-            lambda s, values: s.level == DiagnosticStatus.WARN and int(values["images without a range"]) > 0
-            and "/range: no range has come" in values.get("range", "") and "use_range to false" in values["range"],
+            lambda s, values: s.level == DiagnosticStatus.WARN and int(values["images without a height"]) > 0
+            and self.topic + ": no " + self.what + " has come" in values.get(self.what, "")
+            and self.parameter + " to false" in values[self.what],
             self.slide)
         self.assertEqual(status.heights_missing, status.images)
-        self.assertIsNotNone(self.drone.log.wait(lambda m: m.msg.startswith("/range: no range has come")))
+        self.assertIsNotNone(self.drone.log.wait(lambda m: m.msg.startswith("%s: no %s has come" % (self.topic, self.what))))
 
-        status = self.mapper_says(lambda s, values: "no range could be used yet" in values.get("range", ""),
+        status = self.mapper_says(lambda s, values: "no %s could be used yet" % self.what in values.get(self.what, ""),
                                   lambda: self.slide(9.0))
         self.assertGreater(status.ranges_refused, 0)
         self.assertEqual(status.heights_missing, status.images)
@@ -93,7 +101,7 @@ class RangeTest(unittest.TestCase):
         self.assertAlmostEqual(status.scale_error, SCALE_ERROR, delta=3 * status.scale_deviation)
         self.assertGreater(status.scale_error, SCALE_ERROR / 4)
 
-        self.mapper_says(lambda s, values: "range" not in values,
+        self.mapper_says(lambda s, values: self.what not in values,
                          lambda: self.climb(higher_m, 0.5 + higher_m / (1 + SCALE_ERROR)))
 
 

@@ -66,6 +66,36 @@ TEST(HeightInput, TheBeamIsAsLongAsTheDroneIsTilted) {
   EXPECT_EQ(input.tilted(), 2U);
 }
 
+TEST(HeightInput, AVerticalReadingIsTheHeightWhateverTheTilt) {
+  HeightInputConfig config;
+  config.use_navdata_height = true;
+  HeightInput input(config, 10);
+  RangeReading height = reading(1000, 2.0);
+  height.is_vertical = true;
+  EXPECT_EQ(input.push(height), HeightInput::Push::kAccepted);
+  EXPECT_EQ(*input.at(observerAt(1000, 0.2, -0.15)), 2.0);
+  EXPECT_FALSE(input.at(observerAt(1000, 0.4))) << "its sonar hears no echo from there";
+  EXPECT_EQ(input.tilted(), 1U);
+}
+
+TEST(HeightInput, OfABurstOfVerticalReadingsTheLastCounts) {
+  HeightInputConfig config;
+  config.use_navdata_height = true;
+  HeightInput input(config, 10);
+  for (const double height_m : {2.0, 2.1, 2.2}) {
+    RangeReading height = reading(1000, height_m);
+    height.is_vertical = true;
+    EXPECT_EQ(input.push(height), HeightInput::Push::kAccepted);
+  }
+  EXPECT_EQ(*input.at(observerAt(1000)), 2.2);
+  EXPECT_EQ(input.push({900 * kMillisecond_ns, 2.0, 0.2, 4, true}),
+            HeightInput::Push::kNotAscending);
+  EXPECT_EQ(input.push({1000 * kMillisecond_ns, 9.0, 0.2, 4, true}),
+            HeightInput::Push::kOutOfRange);
+  EXPECT_EQ(*input.at(observerAt(1000)), 2.2);
+  EXPECT_EQ(input.refused(), 2U);
+}
+
 TEST(HeightInput, WhatIsNoRangeIsRefusedAndCounted) {
   HeightInput input(withRange(), 10);
   using Push = HeightInput::Push;

@@ -156,6 +156,19 @@ TEST_F(ObserverAdapterTest, AnEpochJumpIsNoMotionAndCountedOnce) {
   }
 }
 
+TEST_F(ObserverAdapterTest, AHeightThatBeginsAnewWithTheJumpGoesOn) {
+  Faults faults;
+  faults.epoch_at_s = 20;
+  auto messages = messagesOf(faults);
+  for (std::size_t i = 4000; i < messages.size(); ++i)  // integrated from where it is started
+    messages[i].T_odom_base.translation().z() -= 0.7;
+  for (const auto mode : {ObserverMode::kPose, ObserverMode::kTwist}) {
+    feed(messages, mode);
+    EXPECT_LT(worstHeight_m(), 0.02);
+    EXPECT_EQ(count(OdometryFault::kJump), 1U);
+  }
+}
+
 TEST_F(ObserverAdapterTest, OdometryThatHasJumpedBeforeBeginsAtItsOrigin) {
   Faults faults;
   faults.epoch_at_s = 20;

@@ -64,12 +64,19 @@ TEST(SlamConfig, OneHeightIsEnough) {
   config.height_input.use_range = true;
   config.height_input.known_height_m = 1.65;
   expectFault(config, {"use_range and known_height_m exclude each other"});
+  config.height_input.use_range = false;
+  config.height_input.use_navdata_height = true;
+  expectFault(config, {"use_navdata_height and known_height_m exclude each other"});
+  config.height_input.known_height_m = 0;
+  config.height_input.use_range = true;
+  expectFault(config, {"use_range and use_navdata_height exclude each other"});
 }
 
 TEST(SlamConfig, FloorPointsNeedAHeightAndTheConstraintFilter) {
   SlamConfig config;
   config.constraint_filter.height.floor_points = true;
-  expectFault(config, {"floor_points needs a height", "use_range", "known_height_m"});
+  expectFault(config,
+              {"floor_points needs a height", "use_range", "use_navdata_height", "known_height_m"});
   config.height_input.known_height_m = 1.2;
   EXPECT_TRUE(faultsOf(config).empty());
   config.estimator = Estimator::kThesis;

@@ -2,6 +2,8 @@
 #include "doctor_examination.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <utility>
 
 #include "../../nodes/checked.hpp"  // no ROS
@@ -9,6 +11,7 @@
 #include "doctor_frames.hpp"
 #include "doctor_height.hpp"
 #include "doctor_motion.hpp"
+#include "doctor_navdata.hpp"
 #include "doctor_odometry.hpp"
 #include "doctor_streams.hpp"
 #include "doctor_topics.hpp"
@@ -47,7 +50,7 @@ double meanSpeed_m_s(const std::vector<ObserverState>& odometry) {
 
 void nameVehicle(const DoctorRecording& recording, const std::vector<ObserverState>& odometry,
                  DoctorReport& report) {
-  if (!navdataTopic(recording).empty() ||
+  if (!recording.navdata_topic.empty() ||
       recording.base_frame.find("ardrone_base_link") != std::string::npos) {
     report.vehicle = "an AR.Drone";
     report.config_file = "ardrone_front.yaml";
@@ -60,6 +63,34 @@ void nameVehicle(const DoctorRecording& recording, const std::vector<ObserverSta
         std::remove_if(report.parameters.begin(), report.parameters.end(), isNoise),
         report.parameters.end());
   }
+}
+
+std::string shellWord(const std::string& word) {
+  const bool is_plain = std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return std::isalnum(c) ||
+           std::string("/._-+,:@%=").find(static_cast<char>(c)) != std::string::npos;
+  });
+  if (is_plain && !word.empty()) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// Takes the topics that were looked at, and the parameters that were found.
+std::string replayLine(const DoctorRecording& recording, const DoctorReport& report) {
+  const std::string stem = std::filesystem::path(recording.name).stem().string();
+  std::string line = "rosrun ardrone_vslam replay " + shellWord(recording.name) + " --out " +
+                     shellWord(stem + "_run");
+  if (!report.config_file.empty()) {
+    line += " --config $(rospack find ardrone_vslam)/config/" + report.config_file;
+  }
+  for (const std::string& option : recording.replay_options) line += " " + option;
+  for (const SuggestedParameter& parameter : report.parameters) {
+    // Of the images' transport replay knows by the topic's type.
+    if (parameter.key == "image_transport") continue;
+    line += " --set " + parameter.section + "/" + parameter.key + "=" + parameter.value;
+  }
+  return line;
 }
 
 Finding aboutTracks(const DoctorRecording& recording, const Tracks& tracks) {
@@ -89,6 +120,7 @@ DoctorReport examine(const DoctorRecording& recording,
   findings.push_back(checkTopics(recording));
   append(findings, checkImageStream(recording));
   append(findings, checkOdometryStream(recording));
+  append(findings, checkNavdataStreams(recording));
   findings.push_back(checkClock(recording));
   findings.push_back(checkPairing(recording));
   append(findings, checkCalibrations(recording));
@@ -100,11 +132,18 @@ DoctorReport examine(const DoctorRecording& recording,
   findings.push_back(checkOdometryYaw(recording, parameters));
   const bool is_mirrored = !parameters.empty() && parameters.back().key == "observer_mode";
   append(findings, checkHeight(recording, parameters));
+  append(findings, checkNavdataValues(recording));
+  if (isNavdataTheObserver(recording)) {
+    parameters.push_back(
+        {"mapper", "observer_mode", "navdata", "there is no odometry; navdata and IMU make one"});
+  }
 
   const Tracks tracks = trackImages(recording, progress);
   findings.push_back(aboutTracks(recording, tracks));
   const AdaptedOdometry odometry =
-      adapt(recording, is_mirrored ? ObserverMode::kTwist : ObserverMode::kPose);
+      isNavdataTheObserver(recording)
+          ? observeNavdata(recording)
+          : adapt(recording, is_mirrored ? ObserverMode::kTwist : ObserverMode::kPose);
   findings.push_back(checkMoves(recording, tracks, odometry.states));
   const auto mountings = estimateMountings(recording, tracks, odometry.states);
   append(findings, checkDirections(mountings, recording.base_frame, report.static_transform));
@@ -114,6 +153,7 @@ DoctorReport examine(const DoctorRecording& recording,
     parameters.push_back({"tracker", "image_transport", "compressed", "there are no raw images"});
   }
   removeRepeated(parameters);
+  if (!recording.is_live && report.canWork()) report.replay = replayLine(recording, report);
   return report;
 }
 

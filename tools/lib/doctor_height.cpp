@@ -30,7 +30,7 @@ struct HeightSample {
 std::vector<HeightSample> samplesOf(const DoctorRecording& recording) {
   std::vector<HeightSample> samples;
   const ObserverState* before = nullptr;
-  auto altitude = recording.altitudes.begin();
+  auto navdata = recording.navdata.begin();
   for (const DoctorOdometry& odometry : recording.odometry) {
     if (!odometry.state || odometry.state->stamp_ns <= 0) continue;
     const ObserverState& state = *odometry.state;
@@ -44,11 +44,12 @@ std::vector<HeightSample> samplesOf(const DoctorRecording& recording) {
       sample.climbed_m = samples.back().climbed_m + (dt_s < kLongestGap_s ? climb_m_s * dt_s : 0);
     }
     // In bursts several of each have one stamp: the driver sends them in turn.
-    while (altitude != recording.altitudes.end() && altitude->time.stamp_ns < state.stamp_ns) {
-      ++altitude;
+    while (navdata != recording.navdata.end() && navdata->time.stamp_ns < state.stamp_ns) {
+      ++navdata;
     }
-    if (altitude != recording.altitudes.end() && altitude->time.stamp_ns == state.stamp_ns) {
-      sample.altitude_m = (altitude++)->altitude_m;
+    if (navdata != recording.navdata.end() && navdata->time.stamp_ns == state.stamp_ns) {
+      if (navdata->reading) sample.altitude_m = navdata->reading->measured.height_m;
+      ++navdata;
     }
     samples.push_back(sample);
     before = &state;

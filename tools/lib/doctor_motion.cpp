@@ -147,7 +147,7 @@ Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
   finding.text = text("up to ", rounded(farthest_m, 2), " m from where it began");
   if (is_stuck) {
     finding.verdict = Verdict::kFault;
-    finding.text = explainStandstill(recording.odometry_topic);
+    finding.text = explainStandstill(observerTopic(recording));
   } else if (farthest_m == 0) {
     finding.verdict = Verdict::kWarning;
     finding.text = text("all ", odometry.size(), " positions are equal");

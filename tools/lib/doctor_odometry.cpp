@@ -240,6 +240,7 @@ Finding checkOdometryYaw(const DoctorRecording& recording,
                          std::vector<SuggestedParameter>& parameters) {
   Finding finding{"odometry_yaw", Verdict::kOk, {}, {}};
   const auto states = usableStates(recording);
+  if (states.empty()) return {"odometry_yaw", Verdict::kNotChecked, "needs odometry", {}};
   const bool has_twist = std::any_of(states.begin(), states.end(), [](const ObserverState* state) {
     return !state->twist_base.head<3>().isZero(0);
   });

@@ -13,6 +13,7 @@ struct AdaptedOdometry {
   std::vector<ObserverState> states;  ///< stamps ascending
   OdometryFaultCounts faults{};
   std::size_t refused = 0;  ///< messages that are not finite or out of bounds
+  std::size_t refused_imu = 0;
 };
 AdaptedOdometry adapt(const DoctorRecording& recording, ObserverMode mode);
 

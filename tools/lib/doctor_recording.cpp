@@ -24,6 +24,14 @@ std::vector<Ancestor> ancestorsOf(const DoctorRecording& recording, const std::s
 
 }  // namespace
 
+bool isNavdataTheObserver(const DoctorRecording& recording) {
+  return recording.odometry_topic.empty() && !recording.navdata_topic.empty();
+}
+
+const std::string& observerTopic(const DoctorRecording& recording) {
+  return recording.odometry_topic.empty() ? recording.navdata_topic : recording.odometry_topic;
+}
+
 std::optional<Eigen::Isometry3d> lookUp(const DoctorRecording& recording, const std::string& from,
                                         const std::string& to) {
   const std::vector<Ancestor> above_from = ancestorsOf(recording, from);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ardrone_vslam/camera_model.hpp"
+#include "ardrone_vslam/drone_observer.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
 
 namespace ardrone_vslam {
@@ -50,10 +51,15 @@ struct DoctorOdometry {
   std::optional<ObserverState> state;  ///< nothing: a number is not finite or no rotation
 };
 
-/// The drone's own height, of the driver's navdata.
-struct DoctorAltitude {
+/// A packet of the drone; nothing without a stamp.
+struct DoctorNavdata {
   DoctorTime time;
-  double altitude_m = 0;
+  std::optional<NavdataReading> reading;
+};
+
+struct DoctorImu {
+  DoctorTime time;
+  std::optional<DroneImu> reading;
 };
 
 struct DoctorTransform {
@@ -68,25 +74,35 @@ struct DoctorTopic {
 };
 
 struct DoctorRecording {
-  std::string name;  ///< of the bag, for messages
+  std::string name;      ///< of the bag, for messages
+  bool is_live = false;  ///< there is no bag
   std::map<std::string, DoctorTopic> topics;
-  std::string image_topic;  ///< empty: there is none, as for the next two
+  std::string image_topic;  ///< empty: there is none, as for the next four
   std::string camera_info_topic;
   std::string odometry_topic;
-  std::vector<std::string> choices;  ///< sentences: which topic was taken among several
+  std::string navdata_topic;  ///< the driver's, or this package's copy of its type
+  std::string imu_topic;
+  std::vector<std::string> choices;         ///< sentences: which topic was taken among several
+  std::vector<std::string> replay_options;  ///< that make replay take the same
 
   std::vector<DoctorImage> images;
   std::vector<DoctorCalibration> calibrations;
   std::vector<DoctorCameraInfo> camera_infos;
   std::vector<DoctorOdometry> odometry;
   std::string odom_frame;  ///< of the first odometry message
-  std::string base_frame;
-  std::vector<DoctorAltitude> altitudes;
+  std::string base_frame;  ///< likewise, or of the first navdata
+  std::vector<DoctorNavdata> navdata;
+  std::vector<DoctorImu> imu;
   std::map<std::string, DoctorTransform> transforms;  ///< by child
 
   /// 8-bit grey of an image without fault; empty when it cannot be decoded. May be slow.
   std::function<cv::Mat(std::size_t image)> grey;
 };
+
+/// Whether navdata stands in for odometry, which there is none of (observer_mode navdata).
+bool isNavdataTheObserver(const DoctorRecording& recording);
+/// Of odometry, else of navdata; empty: there is neither.
+const std::string& observerTopic(const DoctorRecording& recording);
 
 /// T_from_to: takes coordinates of `to` to `from`, wherever in the tree the two
 /// are. @return nothing when they are not connected

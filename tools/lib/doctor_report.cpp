@@ -73,6 +73,7 @@ std::string textOf(const DoctorReport& report) {
          << '\n';
   }
   if (!report.parameters.empty()) text << "\nParameters:\n" << yamlOf(report.parameters);
+  if (!report.replay.empty()) text << "\nReplay:\n" << report.replay << '\n';
   if (!report.static_transform.empty()) {
     text << "\nThe camera's mounting, in place of what tf says:\n"
          << report.static_transform << '\n';
@@ -102,6 +103,7 @@ nlohmann::ordered_json jsonOf(const DoctorReport& report) {
     json["parameters"][parameter.section + "/" + parameter.key] = {{"value", parameter.value},
                                                                    {"reason", parameter.reason}};
   }
+  json["replay"] = report.replay;
   json["static_transform"] = report.static_transform;
   return json;
 }

@@ -40,6 +40,7 @@ struct DoctorReport {
   std::string vehicle;  ///< what the topics look like; empty: unknown
   std::string config_file;
   std::vector<SuggestedParameter> parameters;
+  std::string replay;            ///< command line with all of this; empty: it cannot work, or live
   std::string static_transform;  ///< command line that corrects the mounting; empty: none
 
   bool canWork() const;

@@ -12,17 +12,16 @@ struct DoctorTopicNames {
   std::string image;
   std::string camera_info;
   std::string odometry;
+  std::string navdata;
+  std::string imu;
 };
 
-/// Sets the recording's topics and `choices` by its `topics`. Of several that fit the one with the
-/// most messages is taken, of these the shortest name, so that doctor has something to look at
-/// where replay asks.
+/// Sets the recording's topics, `choices` and `replay_options` by its `topics`. Of several that fit
+/// the one with the most messages is taken, of these the shortest name, so that doctor has
+/// something to look at where replay asks.
 /// @throws std::runtime_error when a named topic is not there or of another type
 void chooseTopics(const DoctorTopicNames& names, DoctorRecording& recording);
 
 bool isCompressed(const DoctorRecording& recording);
-
-/// The driver's navdata; empty: there is none.
-std::string navdataTopic(const DoctorRecording& recording);
 
 }  // namespace ardrone_vslam

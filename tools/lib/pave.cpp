@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace ardrone_vslam {
@@ -13,6 +14,7 @@ constexpr std::size_t kMaxHeaderSize_bytes = 512;
 constexpr std::size_t kMaxPayloadSize_bytes = 4 << 20;  // a raw 1280x720 picture is below it
 constexpr int kMaxWidth_px = 4096;
 constexpr std::uint32_t kMostLost = 3000;  // frames; 100 s
+constexpr std::size_t kFewestOfSize = 10;  // packets; a third of a second
 constexpr std::uint8_t kH264 = 4;
 constexpr std::uint8_t kSignature[4] = {'P', 'a', 'V', 'E'};
 
@@ -31,7 +33,8 @@ Size sizeOf(const PaveHeader& header) {
 /// Puts packets together to frames and drops what cannot be decoded.
 class FrameAssembler {
  public:
-  FrameAssembler(PaveStream& stream, const Size& size) : stream_(stream), size_(size) {}
+  FrameAssembler(PaveStream& stream, std::set<Size> sizes)
+      : stream_(stream), sizes_(std::move(sizes)) {}
 
   /// A hole in the bytes: the next picture's predecessor may be missing.
   void hole() { awaits_idr_ = true; }
@@ -87,11 +90,13 @@ class FrameAssembler {
     }
     has_number_ = true;
     last_number_ = header.frame_number;
-    if (sizeOf(header) != size_) {
+    if (sizes_.count(sizeOf(header)) == 0) {
       ++statistics.other_size_frames;
       awaits_idr_ = true;
       return false;
     }
+    if (!stream_.frames.empty() && sizeOf(stream_.frames.back().header) != sizeOf(header))
+      awaits_idr_ = true;
     if (awaits_idr_ && !is_idr) {
       ++statistics.waiting_frames;
       return false;
@@ -101,7 +106,7 @@ class FrameAssembler {
   }
 
   PaveStream& stream_;
-  Size size_;
+  std::set<Size> sizes_;
   std::vector<std::uint8_t> parameter_sets_;
   bool awaits_idr_ = true;
   bool has_number_ = false;
@@ -129,18 +134,17 @@ std::size_t findHeader(const std::uint8_t* data, std::size_t size, std::size_t b
   }
 }
 
-/// That of most packets: the first one's may be damaged.
-Size commonSize(const std::uint8_t* data, std::size_t size) {
+/// That of most packets, and those of a camera or setting that was switched to: others are damaged.
+std::set<Size> soundSizes(const std::uint8_t* data, std::size_t size) {
   std::map<Size, std::size_t> packets;
-  Size common;
   std::size_t most = 0;
-  for (std::size_t i = findHeader(data, size, 0); i < size; i = findHeader(data, size, i + 4)) {
-    const Size one = sizeOf(*parsePaveHeader(data + i, size - i));
-    if (++packets[one] <= most) continue;
-    most = packets[one];
-    common = one;
+  for (std::size_t i = findHeader(data, size, 0); i < size; i = findHeader(data, size, i + 4))
+    most = std::max(most, ++packets[sizeOf(*parsePaveHeader(data + i, size - i))]);
+  std::set<Size> sizes;
+  for (const auto& one : packets) {
+    if (one.second == most || one.second >= kFewestOfSize) sizes.insert(one.first);
   }
-  return common;
+  return sizes;
 }
 
 }  // namespace
@@ -173,7 +177,7 @@ std::optional<PaveHeader> parsePaveHeader(const std::uint8_t* data, std::size_t 
 
 PaveStream parsePave(const std::uint8_t* data, std::size_t size) {
   PaveStream stream;
-  FrameAssembler assembler(stream, commonSize(data, size));
+  FrameAssembler assembler(stream, soundSizes(data, size));
   std::size_t position = findHeader(data, size, 0);
   stream.statistics.garbage_bytes += position;
   while (position < size) {

@@ -41,12 +41,13 @@ struct PaveStatistics {
   std::size_t garbage_bytes = 0;  ///< bytes passed over outside of any packet
   std::size_t lost_frames = 0;    ///< holes in the frame numbers
   std::size_t misordered_frames = 0;  ///< repeated or older frame numbers, dropped
-  std::size_t other_size_frames = 0;  ///< of another size than most, dropped
+  std::size_t other_size_frames = 0;  ///< of a size that hardly occurs, dropped
   std::size_t waiting_frames = 0;     ///< dropped for want of the picture they build on
 };
 
 struct PaveStream {
-  /// Every frame can be decoded: an IDR picture comes first and after every hole.
+  /// Every frame can be decoded: an IDR picture comes first, after every hole and where the size
+  /// changes.
   std::vector<PaveFrame> frames;
   PaveStatistics statistics;
 };

@@ -141,14 +141,22 @@ PaveDecoder::PaveDecoder(const std::string& name, std::vector<PaveFrame> frames)
                              "picture, and OpenCV must be built with FFmpeg");
   }
   dropped_frames_ = frame_count - frames.size();
-  for (const PaveFrame& frame : frames) headers_.push_back(frame.header);
-  reader_ = std::make_unique<Reader>(name, frames);
+  std::map<std::pair<int, int>, std::vector<PaveFrame>> frames_of_size;
+  for (PaveFrame& frame : frames) {
+    headers_.push_back(frame.header);
+    auto& same_size = frames_of_size[{frame.header.width_px, frame.header.height_px}];
+    indices_.push_back(same_size.size());
+    same_size.push_back(std::move(frame));
+  }
+  for (const auto& one : frames_of_size)
+    readers_[one.first] = std::make_unique<Reader>(name, one.second);
 }
 
 PaveDecoder::~PaveDecoder() = default;
 
 cv::Mat PaveDecoder::image(std::size_t index) {
-  return reader_->image(index);
+  const PaveHeader& header = headers_.at(index);
+  return readers_.at({header.width_px, header.height_px})->image(indices_[index]);
 }
 
 }  // namespace ardrone_vslam

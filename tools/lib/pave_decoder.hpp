@@ -2,17 +2,19 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pave.hpp"
 
 namespace ardrone_vslam {
 
-/// H.264 pictures of PaVE frames by OpenCV's FFmpeg backend, which reads files only: the payloads
-/// are joined in a temporary file.
+/// H.264 pictures of PaVE frames by OpenCV's FFmpeg backend, which reads files only and gives all
+/// pictures of one file the same size: the payloads are joined in a temporary file for each size.
 class PaveDecoder {
  public:
   /// Drops the groups of frames (an IDR picture and those built on it) of which the decoder does
@@ -34,7 +36,8 @@ class PaveDecoder {
 
   std::vector<PaveHeader> headers_;
   std::size_t dropped_frames_ = 0;
-  std::unique_ptr<Reader> reader_;
+  std::map<std::pair<int, int>, std::unique_ptr<Reader>> readers_;  // by width and height
+  std::vector<std::size_t> indices_;                                // of frames, in their reader
 };
 
 }  // namespace ardrone_vslam

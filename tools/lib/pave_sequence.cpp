@@ -5,18 +5,19 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "camera_yaml.hpp"
 #include "folder_sequence.hpp"
 #include "pave_decoder.hpp"
+#include "pave_stamps.hpp"
+#include "world_camera.hpp"
 
 namespace ardrone_vslam {
 namespace {
-
-/// The driver's transform base -> front camera.
-constexpr double kFrontCameraForward_m = 0.21;
 
 std::vector<std::uint8_t> readBytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -49,7 +50,7 @@ std::vector<std::string> damageOf(const PaveStatistics& statistics) {
       {statistics.lost_frames, "frames are missing"},
       {statistics.misordered_frames, "frames are repeated or out of order"},
       {statistics.other_size_frames,
-       "frames are of another size than most (another camera or setting)"},
+       "frames are of a size that hardly any other has (a damaged header)"},
       {statistics.waiting_frames, "frames build on a missing one"}};
   std::vector<std::string> damage;
   for (const auto& kind : kinds) {
@@ -58,28 +59,63 @@ std::vector<std::string> damageOf(const PaveStatistics& statistics) {
   return damage;
 }
 
-/// The indices of the longest strictly ascending sub-sequence (patience sorting), O(n log n).
-std::vector<std::size_t> longestAscent(const std::vector<std::int64_t>& values) {
-  constexpr auto kNone = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> ends;  // of the ascents of each length: the one that ends lowest
-  std::vector<std::size_t> before(values.size(), kNone);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto end = std::lower_bound(
-        ends.begin(), ends.end(), values[i],
-        [&values](std::size_t index, std::int64_t value) { return values[index] < value; });
-    if (end != ends.begin()) before[i] = *std::prev(end);
-    if (end == ends.end()) {
-      ends.push_back(i);
-    } else {
-      *end = i;
+using Size = std::pair<int, int>;  // width and height
+
+std::string nameOf(const Size& size) {
+  return std::to_string(size.first) + "x" + std::to_string(size.second);
+}
+
+/// The same picture with more or fewer pixels: 720p and 360p of the front camera.
+CameraIntrinsics scaledTo(CameraIntrinsics camera, const Size& size) {
+  const double x = static_cast<double>(size.first) / camera.width_px;
+  const double y = static_cast<double>(size.second) / camera.height_px;
+  camera.fx_px *= x;
+  camera.fy_px *= y;
+  // The middle of the first pixel is 0, its corner -0.5.
+  camera.cx_px = (camera.cx_px + 0.5) * x - 0.5;
+  camera.cy_px = (camera.cy_px + 0.5) * y - 0.5;
+  camera.width_px = size.first;
+  camera.height_px = size.second;
+  return camera;
+}
+
+/// Finds each size's camera.
+class PaveCameras {
+ public:
+  PaveCameras(const std::string& front_yaml, const std::string& bottom_yaml)
+      : front_{readCameraYaml(front_yaml), cameraNamed("front").T_body_cam} {
+    if (!bottom_yaml.empty()) {
+      bottom_ = SequenceCamera{readCameraYaml(bottom_yaml), cameraNamed("bottom").T_body_cam};
+      if (fitsFront({bottom_->intrinsics.width_px, bottom_->intrinsics.height_px})) {
+        throw std::runtime_error(bottom_yaml + ": is for pictures of the front camera's size (" +
+                                 front_yaml +
+                                 "), and a stream does not tell the two apart; leave " +
+                                 "it out, and choose one camera's pictures by --frames");
+      }
     }
   }
-  std::vector<std::size_t> ascent;
-  for (std::size_t i = ends.empty() ? kNone : ends.back(); i != kNone; i = before[i])
-    ascent.push_back(i);
-  std::reverse(ascent.begin(), ascent.end());
-  return ascent;
-}
+
+  bool fits(const Size& size) const {
+    return isOf(front_, size) || (bottom_ && isOf(*bottom_, size));
+  }
+  /// @return nothing without a calibration
+  std::optional<SequenceCamera> find(const Size& size) const {
+    if (isOf(front_, size)) return front_;
+    if (bottom_ && isOf(*bottom_, size)) return bottom_;
+    const CameraIntrinsics& front = front_.intrinsics;
+    if (size.first * front.height_px != size.second * front.width_px) return std::nullopt;
+    return SequenceCamera{scaledTo(front, size), front_.T_base_cam};
+  }
+  const CameraIntrinsics& front() const { return front_.intrinsics; }
+
+ private:
+  bool fitsFront(const Size& size) const { return isOf(front_, size); }
+  static bool isOf(const SequenceCamera& camera, const Size& size) {
+    return Size(camera.intrinsics.width_px, camera.intrinsics.height_px) == size;
+  }
+  SequenceCamera front_;
+  std::optional<SequenceCamera> bottom_;
+};
 
 class PaveFile : public PaveSequence {
  public:
@@ -88,58 +124,96 @@ class PaveFile : public PaveSequence {
         warnings_(damageOf(stream.statistics)),
         decoder_(path, std::move(stream.frames)) {
     const std::filesystem::path beside = std::filesystem::path(path).parent_path() / "camera.yaml";
-    calibration_ = options.camera_yaml.empty() ? beside.string() : options.camera_yaml;
-    camera_ = readCameraYaml(calibration_);
+    const std::string yaml = options.camera_yaml.empty() ? beside.string() : options.camera_yaml;
+    takeCameras(PaveCameras(yaml, options.bottom_camera_yaml), yaml);
     takeStamps();
-    checkImageSize(decoder_.image(0), path, camera_, calibration_);
     if (!options.at_rest) return;
-    for (const std::int64_t stamp_ns : stamps_ns_) {
+    for (const std::int64_t stamp_ns : stamps_.stamps_ns) {
       truth_.append({stamp_ns, Eigen::Isometry3d::Identity()});
     }
   }
 
   std::string name() const override { return name_; }
-  std::size_t size() const override { return stamps_ns_.size(); }
-  std::int64_t stamp_ns(std::size_t index) const override { return stamps_ns_.at(index); }
+  std::size_t size() const override { return stamps_.stamps_ns.size(); }
+  std::int64_t stamp_ns(std::size_t index) const override { return stamps_.stamps_ns.at(index); }
   cv::Mat image(std::size_t index) override {
-    cv::Mat image = decoder_.image(frames_.at(index));
-    checkImageSize(image, name_ + ", frame " + std::to_string(index), camera_, calibration_);
+    const cv::Mat image = decoder_.image(stamps_.frames.at(index));
+    checkImageSize(image, name_ + ", frame " + std::to_string(index),
+                   cameraAt(cameraOf(index)).intrinsics, "its header");
     return image;
   }
-  const CameraIntrinsics& camera() const override { return camera_; }
-  Eigen::Isometry3d T_base_cam() const override {
-    return Eigen::Translation3d(kFrontCameraForward_m, 0, 0) * forwardCamera();
+  const CameraIntrinsics& camera() const override { return cameras_.at(cameraOf(0)).intrinsics; }
+  Eigen::Isometry3d T_base_cam() const override { return cameras_.at(cameraOf(0)).T_base_cam; }
+  std::size_t cameraOf(std::size_t index) const override {
+    return which_.at(sizeOf(decoder_.header(stamps_.frames.at(index))));
   }
+  SequenceCamera cameraAt(std::size_t which) const override { return cameras_.at(which); }
   const Trajectory& truth() const override { return truth_; }
   const std::vector<ObserverState>& observer() const override { return observer_; }
   const std::vector<std::string>& warnings() const override { return warnings_; }
 
  private:
-  /// As many frames as possible whose stamps ascend: where the clock stands still, goes back or is
-  /// damaged, frames are decoded (others build on them) but not handed on.
-  void takeStamps() {
-    std::vector<std::int64_t> stamps_ns;
-    for (std::size_t i = 0; i < decoder_.size(); ++i)
-      stamps_ns.push_back(std::int64_t{1'000'000} * decoder_.header(i).timestamp_ms);
-    frames_ = longestAscent(stamps_ns);
-    for (const std::size_t frame : frames_) stamps_ns_.push_back(stamps_ns[frame]);
-    if (decoder_.droppedFrames() > 0) {
-      warnings_.push_back(std::to_string(decoder_.droppedFrames()) +
-                          " frames are in groups that cannot be decoded whole");
+  static Size sizeOf(const PaveHeader& header) { return {header.width_px, header.height_px}; }
+
+  /// A camera for each size that has a calibration.
+  void takeCameras(const PaveCameras& known, const std::string& yaml) {
+    std::map<Size, std::size_t> counts;
+    for (std::size_t i = 0; i < decoder_.size(); ++i) ++counts[sizeOf(decoder_.header(i))];
+    const bool any_fits = std::any_of(counts.begin(), counts.end(),
+                                      [&](const auto& size) { return known.fits(size.first); });
+    if (!any_fits) {
+      throw std::runtime_error(name_ + ": its pictures are " + nameOf(sizeOf(decoder_.header(0))) +
+                               ", the calibration " + yaml + " is for " +
+                               nameOf({known.front().width_px, known.front().height_px}) +
+                               "; give the calibration of this camera at this size");
     }
-    if (frames_.size() < decoder_.size()) {
-      warnings_.push_back(std::to_string(decoder_.size() - frames_.size()) +
-                          " frames have a stamp that is not later than the one before");
+    for (std::size_t i = 0; i < decoder_.size(); ++i) {
+      const Size size = sizeOf(decoder_.header(i));
+      const auto camera = known.find(size);
+      if (which_.count(size) > 0 || !camera) continue;
+      which_[size] = cameras_.size();
+      cameras_.push_back(*camera);
+      if (!known.fits(size)) {
+        warnings_.push_back(std::to_string(counts[size]) + " frames are " + nameOf(size) +
+                            ": taken for the front camera's, its calibration scaled");
+      }
+    }
+    for (const auto& size : counts) {
+      if (which_.count(size.first) > 0) continue;
+      warnings_.push_back(std::to_string(size.second) + " frames are " + nameOf(size.first) +
+                          ", of another camera without calibration (--bottom-camera), and are "
+                          "left out");
+    }
+  }
+
+  void takeStamps() {
+    std::vector<PaveHeader> headers;
+    std::vector<std::size_t> known;
+    for (std::size_t i = 0; i < decoder_.size(); ++i) {
+      if (which_.count(sizeOf(decoder_.header(i))) == 0) continue;
+      headers.push_back(decoder_.header(i));
+      known.push_back(i);
+    }
+    stamps_ = stampsOf(headers);
+    for (std::size_t& frame : stamps_.frames) frame = known[frame];
+    const std::pair<std::size_t, const char*> kinds[] = {
+        {decoder_.droppedFrames(), "frames are in groups that cannot be decoded whole"},
+        {stamps_.dropped_frames, "frames have a stamp that is not later than the one before"},
+        {stamps_.restarts,
+         "times the drone was restarted: its clock began anew, the stamps go on a second later"},
+        {stamps_.spread_frames,
+         "frames are of a clock that stands still: they are spread at a constant rate"}};
+    for (const auto& kind : kinds) {
+      if (kind.first > 0) warnings_.push_back(std::to_string(kind.first) + " " + kind.second);
     }
   }
 
   std::string name_;
   std::vector<std::string> warnings_;
+  std::vector<SequenceCamera> cameras_;
+  std::map<Size, std::size_t> which_;  // of cameras_
   PaveDecoder decoder_;
-  std::string calibration_;
-  CameraIntrinsics camera_;
-  std::vector<std::size_t> frames_;  // of the decoder
-  std::vector<std::int64_t> stamps_ns_;
+  PaveStamps stamps_;
   Trajectory truth_;
   std::vector<ObserverState> observer_;  // always empty
 };

@@ -2,6 +2,8 @@
 #include "run_verdict.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 namespace ardrone_vslam {
@@ -84,6 +86,38 @@ std::vector<std::string> faultsOf(const std::string& name, const RunResult& run,
   return faults;
 }
 
+constexpr std::int64_t kTellingTracks = 1000;
+constexpr double kRejected = 0.5;    // of the tracks; a good run rejects a tenth
+constexpr int kSeen = 8;             // landmarks in an image; a wrong mounting leaves 2
+constexpr double kDistrusted = 0.2;  // of the images
+
+/// Share of the tracks that do not move as odometry, mounting and calibration foretell; 0 for too
+/// few of them, and where landmarks are seen again all the same (odometry that drifts much).
+double rejectedTracks(const RunResult& run) {
+  std::int64_t tracks = 0, used = 0;
+  const auto sees = std::count_if(run.frames.begin(), run.frames.end(), [](const RunFrame& frame) {
+    return frame.result.landmark_matches >= kSeen;
+  });
+  if (2 * sees >= static_cast<std::ptrdiff_t>(run.frames.size())) return 0;
+  for (const RunFrame& frame : run.frames) {
+    tracks += frame.result.feature_candidates;
+    used += frame.result.feature_matches;
+  }
+  if (tracks < kTellingTracks) return 0;
+  return 1 - static_cast<double>(used) / static_cast<double>(tracks);
+}
+
+/// Whether the recording rather than the flight is to blame.
+bool isDoctorsCase(const RunResult& run, double rejected) {
+  const auto distrusted = static_cast<double>(countDistrusted(run));
+  return rejected > kRejected || run.odometry_froze || run.absurd_speed_m_s > 0 ||
+         distrusted > kDistrusted * static_cast<double>(run.frames.size());
+}
+
+bool isBag(const std::string& name) {
+  return std::filesystem::path(name).extension() == ".bag";
+}
+
 }  // namespace
 
 RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEvaluation& evaluation,
@@ -127,6 +161,16 @@ RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEval
         "no landmark came out, so the poses are the odometry's: images too dark, blurred or plain, "
         "no motion sideways (turning gives no depth), odometry that does not move with the images, "
         "or another camera's calibration");
+  }
+  const double rejected = rejectedTracks(run);
+  if (rejected > kRejected) {
+    verdict.warnings.push_back(
+        name + ": " + std::to_string(std::lround(100 * rejected)) +
+        " % of the tracks do not move as odometry, calibration and the camera's mounting foretell");
+  }
+  if (isBag(name) && isDoctorsCase(run, rejected)) {
+    verdict.warnings.push_back(
+        "what is wrong with the recording tells: rosrun ardrone_vslam doctor " + name);
   }
   if (truth_moved) {
     verdict.warnings.push_back(

@@ -52,4 +52,17 @@ BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
   return odometry;
 }
 
+std::vector<RangeReading> readNavdataHeights(const rosbag::Bag& bag, const std::string& topic) {
+  std::vector<RangeReading> heights;
+  if (topic.empty()) return heights;
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto navdata = readMessage<Navdata>(instance);
+    if (!navdata) continue;
+    if (const auto height = toHeightReading(*navdata); height.value)
+      heights.push_back(*height.value);
+  }
+  return heights;
+}
+
 }  // namespace ardrone_vslam

@@ -15,7 +15,7 @@ void BagOptions::addTo(CLI::App& app) {
   add("--camera-info-topic", bag_.camera_info_topic, "of a bag; default: beside the images");
   add("--odometry-topic", bag_.odometry_topic, "of a bag; default: the only one there is");
   add("--navdata-topic", bag_.navdata_topic,
-      "of a bag, with observer_mode navdata; default: the only one there is");
+      "of a bag, with observer_mode navdata or use_navdata_height; default: the only one there is");
   add("--imu-topic", bag_.imu_topic,
       "of a bag, with observer_mode navdata; default: the only one there is, if any");
   add("--command-topic", bag_.command_topic,
@@ -45,6 +45,7 @@ BagReadOptions BagOptions::read(const PipelineConfig& config) const {
   options.rectified = config.rectified;
   options.rescale_calibration = config.rescale_calibration;
   options.use_range = config.mapper.height_input.use_range;
+  options.use_navdata_height = config.mapper.height_input.use_navdata_height;
   if (config.mapper.observer_adapter.mode == ObserverMode::kNavdata)
     options.drone_filter = config.mapper.drone_filter;
   if (options.base_frame.empty()) options.base_frame = config.base_frame;

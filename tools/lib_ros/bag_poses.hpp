@@ -31,6 +31,8 @@ BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
 
 /// All of them, the ones without an echo, too.
 std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& topic);
+/// The same of the drone's own height. A message without a stamp is left out.
+std::vector<RangeReading> readNavdataHeights(const rosbag::Bag& bag, const std::string& topic);
 
 /// PoseStamped, PoseWithCovarianceStamped or Odometry. Poses that are not finite or whose stamps do
 /// not ascend are dropped; `warnings` says how many.

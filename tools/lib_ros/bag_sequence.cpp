@@ -47,7 +47,8 @@ class BagFile : public BagSequence {
     BagOdometry odometry = options.drone_filter
                                ? readNavdata(bag_, topics, *options.drone_filter, warnings_)
                                : readOdometry(bag_, topics.odometry, warnings_);
-    ranges_ = readRanges(bag_, topics.range);
+    ranges_ = options.use_range ? readRanges(bag_, topics.range)
+                                : readNavdataHeights(bag_, topics.navdata);
     truth_ = readTruth(bag_, topics.truth, warnings_);
     const std::string base = options.base_frame.empty() ? odometry.base_frame : options.base_frame;
     if (base.empty() && !odometry.states.empty() && !options.T_base_cam) {

@@ -18,13 +18,14 @@ struct BagReadOptions {
   std::string odometry_topic;  ///< nav_msgs/Odometry
   /// observer_mode navdata: instead of odometry, the package's own observer of these.
   std::optional<DroneFilterConfig> drone_filter;
-  std::string navdata_topic;  ///< ardrone_autonomy/Navdata
+  std::string navdata_topic;  ///< ardrone_autonomy/Navdata; read with drone_filter or for heights
   std::string imu_topic;      ///< sensor_msgs/Imu; there may be none
   std::string command_topic;  ///< geometry_msgs/Twist; there may be none
   std::string truth_topic;    ///< PoseStamped, PoseWithCovarianceStamped or Odometry, of base
   std::string range_topic;    ///< sensor_msgs/Range; read only with use_range
   bool use_range = false;
-  std::string camera_frame;  ///< empty: the images' frame_id
+  bool use_navdata_height = false;  ///< the navdata's heights in the ranges' place
+  std::string camera_frame;         ///< empty: the images' frame_id
   /// Empty: the odometry's child_frame_id; in a bag without odometry the camera's tf parent.
   std::string base_frame;
   bool rectified = false;  ///< the images are rectified: camera_info's P without distortion

@@ -133,13 +133,17 @@ std::string chooseCameraInfo(const TopicChooser& chooser, const TopicTypes& type
   return chosen;
 }
 
+bool any(const std::string&) {
+  return true;
+}
+
 /// The driver's own type and this package's differ in their name only.
 void chooseNavdata(const TopicChooser& chooser, const BagReadOptions& options,
                    ChosenTopics& topics) {
-  const auto any = [](const std::string&) { return true; };
   const Role navdata{
       "navdata", "--navdata-topic", {"ardrone_autonomy/Navdata", "ardrone_vslam/Navdata"}};
   topics.navdata = chooser.choose(navdata, options.navdata_topic, any);
+  if (!options.drone_filter) return;  // only for heights, without which it goes on
   if (topics.navdata.empty()) {
     chooser.refuseMissing(navdata, "record the driver's, or set observer_mode to twist or pose");
   }
@@ -180,7 +184,7 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
   topics.truth = chooser.choose(truth, options.truth_topic, [](const std::string& topic) {
     return topic.find("truth") != std::string::npos;
   });
-  if (options.drone_filter) chooseNavdata(chooser, options, topics);
+  if (options.drone_filter || options.use_navdata_height) chooseNavdata(chooser, options, topics);
   const Role odometry{"odometry", "--odometry-topic", {kOdometry}};
   if (!options.drone_filter)
     topics.odometry =
@@ -190,8 +194,7 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
                  !endsWith(topic, "odometry_live") && !endsWith(topic, "observer_odometry");
         });
   if (options.use_range) {
-    topics.range = chooser.choose({"range", "--range-topic", {kRange}}, options.range_topic,
-                                  [](const std::string&) { return true; });
+    topics.range = chooser.choose({"range", "--range-topic", {kRange}}, options.range_topic, any);
   }
   return topics;
 }

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -112,8 +113,9 @@ class BagWriter {
   BagWriter(Sequence& sequence, const BagWriteOptions& options, BagContents contents,
             rosbag::Bag& bag)
       : sequence_(sequence), options_(options), contents_(std::move(contents)), bag_(bag) {
-    camera_info_ = cameraInfoFromIntrinsics(sequence.camera());
-    camera_info_.header.frame_id = options.frames.camera;
+    for (std::size_t i = 0; i < sequence.size(); ++i) cameras_[sequence.cameraOf(i)] = {};
+    for (auto& camera : cameras_)
+      camera.second = cameraInfoFromIntrinsics(sequence.cameraAt(camera.first).intrinsics);
     odometry_ = toOdometryMessages(contents_.observer, options.frames.odom, options.frames.base);
   }
 
@@ -158,11 +160,18 @@ class BagWriter {
     return first_ns;
   }
 
+  std::string cameraFrame(std::size_t which) const {
+    return options_.frames.camera + (which == 0 ? "" : "_" + std::to_string(which + 1));
+  }
+
   void writeLatched(const std::string& info) {
     const ros::Time start = toRosTime(firstStamp_ns());
     tf2_msgs::TFMessage extrinsics;
-    extrinsics.transforms = {toTransformMessage(sequence_.T_base_cam(), start, options_.frames.base,
-                                                options_.frames.camera)};
+    for (const auto& camera : cameras_) {
+      extrinsics.transforms.push_back(
+          toTransformMessage(sequence_.cameraAt(camera.first).T_base_cam, start,
+                             options_.frames.base, cameraFrame(camera.first)));
+    }
     bag_.write("/tf_static", start, extrinsics, latchedHeader(extrinsics));
     std_msgs::String text;
     text.data = info;
@@ -202,10 +211,12 @@ class BagWriter {
   void writeImage(std::size_t index) {
     std_msgs::Header header;
     header.stamp = toRosTime(contents_.image_stamps_ns[index]);
-    header.frame_id = options_.frames.camera;
+    const std::size_t which = sequence_.cameraOf(index);
+    header.frame_id = cameraFrame(which);
     const cv::Mat image = sequence_.image(index);
-    camera_info_.header = header;
-    bag_.write(options_.topics.camera_info, header.stamp, camera_info_);
+    sensor_msgs::CameraInfo& camera_info = cameras_.at(which);
+    camera_info.header = header;
+    bag_.write(options_.topics.camera_info, header.stamp, camera_info);
     if (options_.image_format == BagWriteOptions::ImageFormat::kRaw) {
       const cv_bridge::CvImage bridge(header, sensor_msgs::image_encodings::MONO8, image);
       bag_.write(options_.topics.image, header.stamp, *bridge.toImageMsg());
@@ -221,7 +232,7 @@ class BagWriter {
   const BagWriteOptions& options_;
   BagContents contents_;
   rosbag::Bag& bag_;
-  sensor_msgs::CameraInfo camera_info_;
+  std::map<std::size_t, sensor_msgs::CameraInfo> cameras_;  // by SequenceCamera
   std::vector<nav_msgs::Odometry> odometry_;
 };
 

@@ -52,10 +52,11 @@ struct BagWriteReport {
 };
 
 /// Writes the sequence as a bag: image (mono8), camera_info, odometry (twist by differences, in
-/// base) with tf odom -> base, ranges, latched tf_static base -> camera, the truth (PoseStamped in
-/// map) and a latched std_msgs/String of YAML that says how the bag was made. Messages come in the
-/// order of time, recorded at their stamps. Equal arguments give equal bytes. When it fails nothing
-/// is left behind and an existing file stays.
+/// base) with tf odom -> base, ranges, latched tf_static base -> camera (a second camera has a
+/// frame of its own, CAMERA_2), the truth (PoseStamped in map) and a latched std_msgs/String of
+/// YAML that says how the bag was made. Messages come in the order of time, recorded at their
+/// stamps. Equal arguments give equal bytes. When it fails nothing is left behind and an existing
+/// file stays.
 /// @throws std::runtime_error naming file or sequence, fault and remedy; a profile without truth
 BagWriteReport writeBag(Sequence& sequence, const BagWriteOptions& options,
                         const std::string& path);

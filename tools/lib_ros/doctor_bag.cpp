@@ -53,6 +53,8 @@ void collect(const rosbag::MessageInstance& instance, const DoctorRecording& rec
     collector.see(*tf);
   } else if (const auto navdata = readMessage<Navdata>(instance)) {
     collector.see(*navdata, received_ns);
+  } else if (const auto imu = readMessage<sensor_msgs::Imu>(instance)) {
+    collector.see(*imu, received_ns);
   }
 }
 
@@ -72,8 +74,9 @@ DoctorRecording readForDoctor(
     }
     chooseTopics(names, recording);
     std::vector<std::string> topics{"/tf", "/tf_static"};
-    for (const std::string& topic : {recording.image_topic, recording.camera_info_topic,
-                                     recording.odometry_topic, navdataTopic(recording)}) {
+    for (const std::string& topic :
+         {recording.image_topic, recording.camera_info_topic, recording.odometry_topic,
+          recording.navdata_topic, recording.imu_topic}) {
       if (!topic.empty()) topics.push_back(topic);
     }
     DoctorCollector collector(recording);

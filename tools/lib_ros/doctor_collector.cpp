@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "../../nodes/navdata_conversion.hpp"
 #include "bag_messages.hpp"
 #include "bag_poses.hpp"
 #include "camera_info_conversion.hpp"
@@ -72,8 +73,15 @@ void DoctorCollector::see(const nav_msgs::Odometry& message, std::int64_t receiv
 }
 
 void DoctorCollector::see(const Navdata& message, std::int64_t received_ns) {
-  recording_.altitudes.push_back(
-      {{toNanoseconds(message.header.stamp), received_ns}, message.altd / 1000.0});
+  if (isNavdataTheObserver(recording_) && recording_.navdata.empty())
+    recording_.base_frame = withoutSlash(message.header.frame_id);
+  recording_.navdata.push_back(
+      {{toNanoseconds(message.header.stamp), received_ns}, toNavdataReading(message).value});
+}
+
+void DoctorCollector::see(const sensor_msgs::Imu& message, std::int64_t received_ns) {
+  recording_.imu.push_back(
+      {{toNanoseconds(message.header.stamp), received_ns}, toDroneImu(message).value});
 }
 
 void DoctorCollector::see(const tf2_msgs::TFMessage& message) {

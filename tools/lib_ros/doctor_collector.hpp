@@ -6,6 +6,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstdint>
@@ -26,6 +27,7 @@ class DoctorCollector {
   void see(const sensor_msgs::CameraInfo& message, std::int64_t received_ns);
   void see(const nav_msgs::Odometry& message, std::int64_t received_ns);
   void see(const Navdata& message, std::int64_t received_ns);
+  void see(const sensor_msgs::Imu& message, std::int64_t received_ns);
   void see(const tf2_msgs::TFMessage& message);
 
  private:

@@ -43,7 +43,8 @@ class Listener {
     }
     subscribe(recording.camera_info_topic, &Listener::take<sensor_msgs::CameraInfo>);
     subscribe(recording.odometry_topic, &Listener::take<nav_msgs::Odometry>);
-    subscribe(navdataTopic(recording), &Listener::take<Navdata>);
+    subscribe(recording.navdata_topic, &Listener::take<Navdata>);
+    subscribe(recording.imu_topic, &Listener::take<sensor_msgs::Imu>);
   }
 
  private:
@@ -89,6 +90,7 @@ DoctorRecording listen(const DoctorTopicNames& names, double seconds,
   }
   DoctorRecording recording;
   recording.name = "live";
+  recording.is_live = true;
   ros::master::V_TopicInfo published;
   ros::master::getTopics(published);
   for (const ros::master::TopicInfo& topic : published) {

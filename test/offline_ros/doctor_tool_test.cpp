@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// doctor as a program: exit codes, what it prints, and that its replay command runs.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "ardrone_vslam/rotation.hpp"
+#include "bag_recipe.hpp"
+#include "doctor_flights.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+class DoctorTool : public DoctorBag {
+ protected:
+  int run(const std::string& arguments) const {
+    const std::string command =
+        ARDRONE_VSLAM_DOCTOR " " + arguments + " > " + path("output") + " 2> " + path("errors");
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  std::string output() const { return readWhole(path("output")); }
+  std::string errors() const { return readWhole(path("errors")); }
+};
+
+TEST_F(DoctorTool, ExitCodesTellUsableFromNotAndFromWrongUsage) {
+  laps().write(driverFaultsNamed({"released"}), path());
+  EXPECT_EQ(run(path() + " --json " + path("report.json")), 0) << errors();
+  EXPECT_NE(output().find("observer_mode: twist"), std::string::npos) << output();
+  const auto json = nlohmann::json::parse(readWhole(path("report.json")));
+  EXPECT_TRUE(json["usable"].get<bool>());
+  EXPECT_EQ(run(path() + " --json -"), 0);
+  EXPECT_EQ(nlohmann::json::parse(output()), json);
+
+  BagRecipe no_tf;
+  no_tf.has_tf = false;
+  EXPECT_EQ(run(TestBag(no_tf).path()), 1);
+  EXPECT_NE(output().find("cannot work as it is"), std::string::npos);
+  EXPECT_EQ(run(path() + " --image /none"), 1);
+  EXPECT_NE(errors().find("/none"), std::string::npos);
+  folder_.write("empty.bag", "");
+  EXPECT_EQ(run(path("empty.bag")), 1);
+  EXPECT_NE(errors().find("is empty"), std::string::npos) << errors();
+  EXPECT_EQ(run(path("missing.bag")), 1);
+  EXPECT_NE(errors().find("no such file"), std::string::npos) << errors();
+
+  EXPECT_EQ(run(""), 2);
+  EXPECT_EQ(run(path() + " --live"), 2);
+  EXPECT_EQ(run(path() + " --seconds 5"), 2);
+  EXPECT_EQ(run(path() + " --no-such-option"), 2);
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_EQ(run("--version"), 0);
+}
+
+TEST_F(DoctorTool, NavdataWithoutOdometryIsUsableAndItsReplayLineRuns) {
+  laps().write({}, path("whole.bag"));
+  dropOdometry(path("whole.bag"), path());
+  EXPECT_EQ(run(path() + " --json " + path("report.json")), 0) << output() << errors();
+  EXPECT_NE(output().find("observer_mode: navdata"), std::string::npos) << output();
+  const auto json = nlohmann::json::parse(readWhole(path("report.json")));
+  EXPECT_EQ(json["parameters"]["mapper/observer_mode"]["value"], "navdata");
+  for (const auto& check : json["checks"]) {
+    if (check["check"] == "topics" || check["verdict"] == "not checked") continue;
+    EXPECT_EQ(check["verdict"], "ok") << check;
+  }
+  std::string line = json["replay"];
+  const auto replaced = [&line](const std::string& from, const std::string& to) {
+    const auto at = line.find(from);
+    ASSERT_NE(at, std::string::npos) << line;
+    line.replace(at, from.size(), to);
+  };
+  replaced("rosrun ardrone_vslam replay", ARDRONE_VSLAM_REPLAY);
+  replaced("$(rospack find ardrone_vslam)", ARDRONE_VSLAM_SOURCE_DIR);
+  replaced("--out driver_run", "--frames 0:20 --out " + path("run"));
+  line += " > " + path("output") + " 2> " + path("errors");
+  EXPECT_EQ(std::system(line.c_str()), 0) << line << "\n" << errors();
+}
+
+TEST_F(DoctorTool, ReplayOfATurnedCameraNamesDoctorAndThatOfASoundOneDoesNot) {
+  longLaps().write(driverFaultsNamed({"released"}), path());
+  turnCameras(path(), path("turned.bag"), rotationOf(Eigen::Vector3d(0, 0, M_PI)));
+  const auto replay = [this](const std::string& name) {
+    const std::string command = ARDRONE_VSLAM_REPLAY " " + path(name) + " --out " + path("run") +
+                                " --config " ARDRONE_VSLAM_SOURCE_DIR "/config/ardrone.yaml > " +
+                                path("output") + " 2> " + path("errors");
+    EXPECT_EQ(std::system(command.c_str()), 0) << errors();
+    return errors();
+  };
+  EXPECT_NE(replay("turned.bag").find("rosrun ardrone_vslam doctor " + path("turned.bag")),
+            std::string::npos)
+      << errors();
+  EXPECT_EQ(replay("driver.bag").find("rosrun ardrone_vslam doctor"), std::string::npos)
+      << errors();
+}
+
+TEST_F(DoctorTool, WithoutAMasterLiveSaysSo) {
+  EXPECT_EQ(std::system(("ROS_MASTER_URI=http://localhost:9 " ARDRONE_VSLAM_DOCTOR
+                         " --live --seconds 1 2> " +
+                         path("errors") + " > " + path("output"))
+                            .c_str()) >>
+                8,
+            1);
+  EXPECT_NE(errors().find("no ROS master"), std::string::npos) << errors();
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
