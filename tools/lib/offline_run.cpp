@@ -138,7 +138,11 @@ void BackEnd::takeNextObserver() {
 }
 
 std::optional<double> BackEnd::heightAt(const ObserverState& state) {
-  while (next_range_ < ranges_.size() && heights_.newestStamp_ns() < state.stamp_ns)
+  const auto isWanted = [&](const RangeReading& next) {  // all of a burst
+    const std::int64_t newest_ns = heights_.newestStamp_ns();
+    return newest_ns < state.stamp_ns || next.stamp_ns == newest_ns;
+  };
+  while (next_range_ < ranges_.size() && isWanted(ranges_[next_range_]))
     heights_.push(ranges_[next_range_++]);
   return heights_.at(state);
 }
