@@ -147,8 +147,7 @@ Eigen::Vector2d CameraModel::distort(const Eigen::Vector2d& plane) const {
 
 Eigen::Vector2d CameraModel::undistortRadial(const Eigen::Vector2d& distorted) const {
   const double r_distorted = distorted.norm();
-  if (std::isinf(widest_radius_) || r_distorted == 0)
-    return distorted;
+  if (std::isinf(widest_radius_) || r_distorted == 0) return distorted;
   return distorted * (undistortedRadius(intrinsics_, r_distorted, widest_radius_) / r_distorted);
 }
 
