@@ -156,9 +156,10 @@ std::optional<Eigen::Vector2d> CameraModel::undistortTangential(const Eigen::Vec
   constexpr double kTolerance = 1e-12;
   constexpr int kSteps = 30;
   const CameraIntrinsics& c = intrinsics_;
+  const double widest2 = widest_radius_ * widest_radius_;
   for (int i = 0; i < kSteps; ++i) {
     const Eigen::Vector2d error = distort(plane) - distorted;
-    if (error.norm() < kTolerance) return plane;
+    if (error.squaredNorm() < kTolerance * kTolerance) return plane;
     const double x = plane.x();
     const double y = plane.y();
     const double r2 = plane.squaredNorm();
@@ -170,7 +171,7 @@ std::optional<Eigen::Vector2d> CameraModel::undistortTangential(const Eigen::Vec
     jacobian(1, 0) = jacobian(0, 1);
     jacobian(1, 1) = radial + slope * y * y + 6 * c.p1 * y + 2 * c.p2 * x;
     plane -= jacobian.inverse() * error;
-    if (!plane.allFinite() || plane.norm() > widest_radius_) return std::nullopt;
+    if (!(plane.squaredNorm() <= widest2)) return std::nullopt;
   }
   return std::nullopt;
 }
