@@ -2,6 +2,7 @@
 #include "attitude_input.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ardrone_vslam/scene_turn.hpp"
 #include "conversions.hpp"
@@ -13,8 +14,9 @@ constexpr std::uint32_t kQueue = 200;
 
 }  // namespace
 
-AttitudeInput::AttitudeInput(ros::NodeHandle nh)
+AttitudeInput::AttitudeInput(ros::NodeHandle nh, double image_time_offset_s)
     : mounting_(nh),
+      image_time_offset_ns_(std::llround(image_time_offset_s * 1e9)),
       buffer_(ObserverBufferConfig{}),
       topic_(nh.resolveName("attitude")),
       subscriber_(nh.subscribe("attitude", kQueue, &AttitudeInput::onAttitude, this)) {}
@@ -32,17 +34,17 @@ void AttitudeInput::onAttitude(const nav_msgs::Odometry& message) {
 std::optional<float> AttitudeInput::sceneTurn_rad(std::int64_t stamp_ns,
                                                   const std::string& camera_frame) {
   fault_.clear();
-  const auto turn_rad = find(stamp_ns, camera_frame);
+  const auto turn_rad = find(stamp_ns + image_time_offset_ns_, camera_frame);
   if (!turn_rad) ++images_without_;
   return turn_rad;
 }
 
-std::optional<float> AttitudeInput::find(std::int64_t stamp_ns, const std::string& camera_frame) {
+std::optional<float> AttitudeInput::find(std::int64_t exposed_ns, const std::string& camera_frame) {
   ObserverState state;
   const std::int64_t newest_ns = buffer_.newestStamp_ns();
-  if (buffer_.empty() || stamp_ns - newest_ns > kOldest_ns ||
-      buffer_.at(std::min(stamp_ns, newest_ns), state) != ObserverBuffer::Lookup::kFound) {
-    fault_ = "no attitude at the image's stamp on " + topic_ +
+  if (buffer_.empty() || exposed_ns - newest_ns > kOldest_ns ||
+      buffer_.at(std::min(exposed_ns, newest_ns), state) != ObserverBuffer::Lookup::kFound) {
+    fault_ = "no attitude at the image's exposure on " + topic_ +
              ": remap it to the observer's odometry, or switch use_attitude off";
     return std::nullopt;
   }

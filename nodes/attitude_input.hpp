@@ -18,9 +18,10 @@ class AttitudeInput {
  public:
   static constexpr std::int64_t kOldest_ns = 100'000'000;
 
-  explicit AttitudeInput(ros::NodeHandle nh);
+  /// @param image_time_offset_s  an image is exposed at its stamp plus this
+  AttitudeInput(ros::NodeHandle nh, double image_time_offset_s);
 
-  /// @return nothing when the latest attitude is more than kOldest_ns older than the image, the
+  /// @return nothing when the latest attitude is more than kOldest_ns older than the exposure, the
   ///   camera's mounting is not known, or gravity does not say (sceneTurn_rad)
   std::optional<float> sceneTurn_rad(std::int64_t stamp_ns, const std::string& camera_frame);
 
@@ -30,9 +31,10 @@ class AttitudeInput {
 
  private:
   void onAttitude(const nav_msgs::Odometry& message);
-  std::optional<float> find(std::int64_t stamp_ns, const std::string& camera_frame);
+  std::optional<float> find(std::int64_t exposed_ns, const std::string& camera_frame);
 
   Mounting mounting_;
+  std::int64_t image_time_offset_ns_;
   ObserverBuffer buffer_;
   std::string base_frame_;
   std::string topic_;

@@ -20,6 +20,7 @@
 #include "ardrone_vslam/observer_buffer.hpp"
 #include "ardrone_vslam/odometry_faults.hpp"
 #include "ardrone_vslam/slam.hpp"
+#include "ardrone_vslam/time_offset.hpp"
 #include "camera_info_conversion.hpp"
 #include "checked.hpp"
 
@@ -85,6 +86,8 @@ PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isome
 /// Fills the state and the counts of one frame; leaves stage times and totals alone.
 void toStatus(const FrameResult& result, const std::string& map_frame, Status& status);
 void toStatus(const OdometryFaultCounts& faults, Status& status);
+/// @param used_s  the parameter image_time_offset_s
+void toStatus(const TimeOffset& estimate, double used_s, Status& status);
 
 /// Landmarks as a cloud: x y z [m], deviation [m], times_seen, id.
 sensor_msgs::PointCloud2 toCloud(const LandmarkMap& map, const std::string& map_frame,

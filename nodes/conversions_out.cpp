@@ -225,6 +225,12 @@ void toStatus(const OdometryFaultCounts& faults, Status& status) {
   status.odometry_fault_count.assign(faults.begin(), faults.end());
 }
 
+void toStatus(const TimeOffset& estimate, double used_s, Status& status) {
+  status.image_time_offset = used_s;
+  status.image_time_offset_estimate = estimate.offset_s;
+  status.image_time_offset_deviation = estimate.deviation_s;
+}
+
 sensor_msgs::PointCloud2 toCloud(const LandmarkMap& map, const std::string& map_frame,
                                  std::int64_t stamp_ns) {
   using sensor_msgs::PointField;

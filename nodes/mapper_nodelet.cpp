@@ -64,12 +64,6 @@ void MapperNodelet::subscribeObserver() {
   odometry_sub_ = navdata_->subscriber();
 }
 
-OdometryFaultCounts MapperNodelet::odometryFaults() const {
-  OdometryFaultCounts faults = adapter_->faults();
-  if (navdata_) add(navdata_->faults(), faults);
-  return faults;
-}
-
 void MapperNodelet::readParameters() {
   ParamReader reader(getPrivateNodeHandle());
   reader.read(node_config_);
@@ -250,17 +244,12 @@ Eigen::Isometry3d MapperNodelet::mapToOdomOfTf(const FrameResult& result) const 
   return T_odom_base ? result.T_map_base * T_odom_base->inverse() : slam_->T_map_odom();
 }
 
-void MapperNodelet::refuseResult(const FrameResult& result, const Features& features) {
-  ++totals_.results_not_finite;
-  publishStatus(result, features);
-  beginMapAnew(explain(result.state));  // last: it ends the life of the result
-}
-
 void MapperNodelet::restartAt(std::int64_t stamp_ns, const std::string& topic) {
   // Features and odometry come apart: whichever is first finds the other's old run, the second
   // only its own.
   const std::int64_t limit_ns = stamp_ns + StampGuard::kRestart_ns - 1;
   const bool was_waiting = matcher_->forgetAfter(limit_ns);
+  mounting_->tf().clear();  // a bag without /clock: tf cannot know
   if (slam_ && answered_ns_ > limit_ns) {
     beginMapAnew("stamps on " + topic + " jumped back (a bag plays again?)");
   } else if (was_waiting) {

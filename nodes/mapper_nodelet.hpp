@@ -53,6 +53,8 @@ class MapperNodelet : public nodelet::Nodelet {
   OdometryFaultCounts odometryFaults() const;
   /// Says what the adapter has found since this was called last.
   void noteOdometryFaults();
+  /// Says once that the odometry's frame is not the one that tf has.
+  void noteOdomFrame();
   /// What of a message is ready goes to the matcher. @return the sentence when it is not used
   std::string takeOdometry(const ObserverState& message);
   void takeFrameNames(const nav_msgs::Odometry& odometry);
@@ -115,6 +117,7 @@ class MapperNodelet : public nodelet::Nodelet {
   Status latest_;  // as published last
   WarningLimiter limiter_;
   std::string covariance_fault_;  // of the odometry, since the first such message
+  std::string odom_frame_fault_;  // since it was seen
   int seconds_waiting_ = 0;
   bool is_time_offset_told_ = false;
   bool has_features_ = false;  // within this second

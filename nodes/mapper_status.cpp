@@ -49,6 +49,12 @@ void MapperNodelet::noteTimeOffset() {
   NODELET_WARN_STREAM(advice);
 }
 
+OdometryFaultCounts MapperNodelet::odometryFaults() const {
+  OdometryFaultCounts faults = adapter_->faults();
+  if (navdata_) add(navdata_->faults(), faults);
+  return faults;
+}
+
 void MapperNodelet::noteOdometryFaults() {
   const OdometryFaultCounts faults = odometryFaults();
   for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
@@ -59,6 +65,13 @@ void MapperNodelet::noteOdometryFaults() {
     if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
   }
   odometry_faults_ = faults;
+}
+
+void MapperNodelet::noteOdomFrame() {
+  if (!odom_frame_fault_.empty() || frames_.odom.empty() || frames_.base.empty()) return;
+  odom_frame_fault_ =
+      odomFrameFault(mounting_->tf().core(), frames_.map, frames_.odom, frames_.base);
+  if (!odom_frame_fault_.empty()) NODELET_WARN_STREAM(odom_frame_fault_);
 }
 
 void MapperNodelet::publishStatus(const FrameResult& result, const Features& features) {
@@ -84,6 +97,12 @@ void MapperNodelet::publishStatus(const FrameResult& result, const Features& fea
   latest_ = status;
 }
 
+void MapperNodelet::refuseResult(const FrameResult& result, const Features& features) {
+  ++totals_.results_not_finite;
+  publishStatus(result, features);
+  beginMapAnew(explain(result.state));  // last: it ends the life of the result
+}
+
 void MapperNodelet::publishWaiting() {
   Status status;
   status.header.stamp = ros::Time::now();
@@ -105,7 +124,8 @@ void MapperNodelet::publishWaiting() {
     status.reason =
         navdata_ && miss == ObserverBuffer::Lookup::kEmpty
             ? "no navdata has come on " + odometry_sub_.getTopic() +
-                  " (ardrone_autonomy/Navdata): start the driver, or remap `navdata` to its topic"
+                  " (ardrone_autonomy/Navdata): start the driver, or remap `navdata` to its topic "
+                  "(launch files: navdata:=TOPIC)"
             : explain(miss, odometry_sub_.getTopic());
   }
   if (isReminderDue(++seconds_waiting_)) {
@@ -134,11 +154,8 @@ void MapperNodelet::fillTotals(Status& status) const {
   status.heights_rejected = totals_.heights_rejected;
   status.odometry_steps = totals_.odometry_steps;
   toStatus(odometryFaults(), status);
-  status.image_time_offset = config_.image_time_offset_s;
-  if (time_offset_) {
-    status.image_time_offset_estimate = time_offset_->estimate().offset_s;
-    status.image_time_offset_deviation = time_offset_->estimate().deviation_s;
-  }
+  toStatus(time_offset_ ? time_offset_->estimate() : TimeOffset{}, config_.image_time_offset_s,
+           status);
   status.results_not_finite = totals_.results_not_finite;
   status.restarts = totals_.restarts;
   status.camera_changes = totals_.camera_changes;
@@ -152,6 +169,7 @@ void MapperNodelet::remindOfHeights() {
 
 void MapperNodelet::onSecond() {
   remindOfHeights();
+  noteOdomFrame();
   if (has_answer_) {
     seconds_waiting_ = 0;
   } else {
@@ -172,7 +190,7 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
        latest_.state == Status::TRACKING || latest_.state == Status::RESTING ||
        latest_.state == Status::ROTATING || latest_.state == Status::RELOCATED ||
        latest_.state == Status::OBSERVER_ONLY) &&
-      speed_.absurd_m_s() == 0 && heights_->missing().empty();
+      speed_.absurd_m_s() == 0 && odom_frame_fault_.empty() && heights_->missing().empty();
   const auto level = is_stuck  ? DiagnosticStatus::ERROR
                      : is_well ? DiagnosticStatus::OK
                                : DiagnosticStatus::WARN;
@@ -194,6 +212,9 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
     wrapper.add("odometry speed",
                 explainSpeed("the odometry on " + odometry_sub_.getTopic(), speed_.absurd_m_s()));
   }
+  if (!odom_frame_fault_.empty()) wrapper.add("odometry frame", odom_frame_fault_);
+  wrapper.add("tf transforms with a stamp that was there", mounting_->tf().repeated());
+  wrapper.add("tf transforms older than all kept", mounting_->tf().tooOld());
   if (heights_->isUsed()) {
     wrapper.add("heights refused", heights_->refused());
     wrapper.add("images without a height", heights_->input().missing());

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mounting.hpp"
 
+#include <tf2/exceptions.h>
+
 #include "ardrone_vslam/slam.hpp"
 #include "conversions.hpp"
 
 namespace ardrone_vslam {
 namespace {
-
-const ros::Duration kCache(10.0);
 
 Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
@@ -21,8 +21,7 @@ Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
 
 }  // namespace
 
-// Without the buffer's debug service, whose name two nodelets in one manager would share.
-Mounting::Mounting(ros::NodeHandle& nh) : buffer_(kCache, false), listener_(buffer_, nh) {}
+Mounting::Mounting(const ros::NodeHandle& nh) : tf_(nh) {}
 
 std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
                                                 const std::string& camera_frame,
@@ -32,8 +31,8 @@ std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
   const auto known = T_base_cam_.find(camera_frame);
   if (known != T_base_cam_.end()) return known->second;
   try {
-    const Eigen::Isometry3d T_base_cam =
-        toIsometry(buffer_.lookupTransform(base_frame, camera_frame, ros::Time(0)).transform);
+    const Eigen::Isometry3d T_base_cam = toIsometry(
+        tf_.buffer().core().lookupTransform(base_frame, camera_frame, ros::Time(0)).transform);
     const std::string wrong = mountingFault(T_base_cam);
     if (wrong.empty()) return T_base_cam_[camera_frame] = T_base_cam;
     fault = "transform from " + base_frame + " to " + camera_frame + ": " + wrong;
@@ -49,10 +48,11 @@ std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
 std::optional<Eigen::Isometry3d> Mounting::T_odom_base(const std::string& odom_frame,
                                                        const std::string& base_frame,
                                                        std::int64_t stamp_ns) const {
+  const tf2::BufferCore& tf = tf_.buffer().core();
   for (const ros::Time& time : {toRosTime(stamp_ns), ros::Time(0)}) {
-    if (!buffer_.canTransform(odom_frame, base_frame, time)) continue;
+    if (!tf.canTransform(odom_frame, base_frame, time)) continue;
     try {
-      return toIsometry(buffer_.lookupTransform(odom_frame, base_frame, time).transform);
+      return toIsometry(tf.lookupTransform(odom_frame, base_frame, time).transform);
     } catch (const tf2::TransformException&) {  // forgotten meanwhile
     }
   }

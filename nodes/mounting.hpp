@@ -2,7 +2,6 @@
 #pragma once
 
 #include <ros/node_handle.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -10,12 +9,15 @@
 #include <optional>
 #include <string>
 
+#include "tf_input.hpp"
+
 namespace ardrone_vslam {
 
-/// Where the cameras sit on the drone, from tf. Taken as rigid: once found they are kept.
+/// Where the cameras sit on the drone, from tf. Taken as rigid: once found they are kept. And what
+/// else the mapper asks of tf.
 class Mounting {
  public:
-  explicit Mounting(ros::NodeHandle& nh);
+  explicit Mounting(const ros::NodeHandle& nh);
 
   /// The latest transform, whatever its stamp: drivers stamp the mounting later than the image.
   /// @param fault  set, with the remedy, when there is none or none that can be (mountingFault)
@@ -28,9 +30,11 @@ class Mounting {
                                                const std::string& base_frame,
                                                std::int64_t stamp_ns) const;
 
+  TfBuffer& tf() { return tf_.buffer(); }
+  const TfBuffer& tf() const { return tf_.buffer(); }
+
  private:
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  TfInput tf_;
   std::string base_frame_;
   std::map<std::string, Eigen::Isometry3d> T_base_cam_;  // by camera frame
 };

@@ -19,6 +19,7 @@ struct TrackerNodeConfig {
   ImageTransport image_transport = ImageTransport::kRaw;
   bool rectified = false;
   bool rescale_calibration = false;
+  double image_time_offset_s = 0;
   int queue_size = 5;
 };
 
@@ -34,6 +35,8 @@ void visitParameters(TrackerNodeConfig& c, Visitor&& visit) {
                       "camera_info's K may be of another size than the images (half, double), as "
                       "ardrone_autonomy does not rescale it: its middle tells"},
         c.rescale_calibration);
+  visit(ParameterInfo{"image_time_offset_s", "s", -5, 5, "as the mapper's, for use_attitude"},
+        c.image_time_offset_s);
   visit(ParameterInfo{"queue_size", "images", 1, 10000,
                       "images kept while the tracker is busy; the oldest go first"},
         c.queue_size);

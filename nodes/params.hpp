@@ -47,7 +47,8 @@ class ParamReader {
       if constexpr (std::is_enum_v<T>) {
         readChoice(info, given, value);
       } else if (!convert(given, value)) {
-        wrongType(info, given, typeName(value));
+        const bool is_text = std::is_same_v<T, std::string>;
+        wrongType(info, given, typeName(value) + (is_text ? std::string(": ") + info.unit : ""));
       }
     }
     std::ostringstream text;

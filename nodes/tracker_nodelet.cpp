@@ -47,7 +47,8 @@ void TrackerNodelet::onInit() {
   diagnostics_->add("tracker", this, &TrackerNodelet::diagnose);
   timer_ = getNodeHandle().createWallTimer(ros::WallDuration(1.0),
                                            [this](const ros::WallTimerEvent&) { onSecond(); });
-  if (config_.use_attitude) attitude_ = std::make_unique<AttitudeInput>(getNodeHandle());
+  if (config_.use_attitude)
+    attitude_ = std::make_unique<AttitudeInput>(getNodeHandle(), node_config_.image_time_offset_s);
   subscribe();
 }
 

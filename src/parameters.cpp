@@ -2,6 +2,7 @@
 #include "ardrone_vslam/parameters.hpp"
 
 #include <algorithm>
+#include <iomanip>
 #include <numeric>
 #include <sstream>
 
@@ -58,8 +59,8 @@ ConfigError::ConfigError(const std::vector<std::string>& faults)
 void detail::RangeCheck::check(const ParameterInfo& info, double value) const {
   if (value >= info.min && value <= info.max) return;  // false for NaN, as it must be
   std::ostringstream fault;
-  fault << info.name << " is " << value << " but must be between " << info.min << " and "
-        << info.max << " [" << info.unit << "]";
+  fault << std::setprecision(10) << info.name << " is " << value << " but must be between "
+        << info.min << " and " << info.max << " [" << info.unit << "]";
   faults->push_back(fault.str());
 }
 

@@ -25,6 +25,7 @@ FakeDriverConfig readConfig(const ros::NodeHandle& private_nh) {
   reader.read(config);
   for (const auto& sentence : reader.unknownKeys()) ROS_WARN_STREAM(sentence);
   reader.finish();
+  checkNames(config);
   ROS_INFO_STREAM("fake_driver: " << reader.summary());
   return config;
 }
@@ -36,7 +37,15 @@ int run(const ros::NodeHandle& nh) {
         "rosparam set /use_sim_time false");
     return 1;
   }
-  FakeDriver driver(nh, readConfig(ros::NodeHandle("~")));
+  const FakeDriverConfig config = readConfig(ros::NodeHandle("~"));
+  const DriverFaults faults = faultsOf(config);
+  if (!hasAutopilot(config) &&
+      faults.count(DriverFault::kEpochDt) + faults.count(DriverFault::kTogglecam) > 0) {
+    ROS_INFO(
+        "fake_driver: without an autopilot the fault epoch_dt strikes at each call of the service "
+        "ardrone/restart_driver, togglecam at each of ardrone/togglecam");
+  }
+  FakeDriver driver(nh, config);
   ros::AsyncSpinner spinner(1);
   spinner.start();
   driver.run();

@@ -16,6 +16,7 @@
 #include "progress_line.hpp"
 #include "run_all.hpp"
 #include "run_observers.hpp"
+#include "run_page.hpp"
 #include "run_print.hpp"
 #include "run_report.hpp"
 #include "run_verdict.hpp"
@@ -42,6 +43,7 @@ struct Options {
   std::string seeds;
   std::string frames;
   bool ping_pong = false;
+  bool report = false;
   int threads = 2;
 #ifdef ARDRONE_VSLAM_WITH_ROS
   BagOptions bag;
@@ -81,6 +83,8 @@ void addOptions(CLI::App& app, Options& o) {
       ->excludes(o.seed_option);
   app.add_option("--frames", o.frames, "A:B:STEP, frames A up to but without B");
   app.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
+  app.add_flag("--report", o.report,
+               "also report.html, a page with tables and plots (docs/evaluate.md)");
   app.add_option("--threads", o.threads,
                  "2: decode ahead, spread the seeds; results do not depend on it")
       ->check(CLI::Range(1, 256));
@@ -191,6 +195,7 @@ int run(const Options& o) {
   }
   const std::vector<RunObserver> observers = observersOf(*sequence, o);
   makeFolder(o.out);
+  const std::string evaluate_script = o.report ? findEvaluateScript() : "";
   std::vector<RunResult> results;
   {
     ProgressLine progress("replay", sequence->size());
@@ -222,6 +227,7 @@ int run(const Options& o) {
     printSeeds(all, std::cout);
   }
   std::cout << "written to " << o.out << '\n';
+  if (o.report) writeRunPage(evaluate_script, o.out);
   for (const std::string& text : faults) std::cerr << "replay: " << text << '\n';
   return faults.empty() ? 0 : 1;
 }

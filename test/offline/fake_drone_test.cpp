@@ -128,6 +128,32 @@ TEST(FakeDrone, NoneIsNoAutopilotAndNoFault) {
   EXPECT_EQ(nameList(faultsOf(config)), "mirrored_yaw, bursts");
 }
 
+std::string refusalOf(const FakeDriverConfig& config) {
+  try {
+    checkNames(config);
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+  return {};
+}
+
+TEST(FakeDrone, NamesTheParameterWithAnUnknownNameAndWhatIsKnown) {
+  FakeDriverConfig config;
+  EXPECT_EQ(refusalOf(config), "");
+  config.autopilot = "fly";
+  std::string said = refusalOf(config);
+  EXPECT_EQ(said.find("autopilot: there is no flight 'fly'; known are laps,"), 0U) << said;
+  EXPECT_NE(said.find(", none"), std::string::npos) << said;
+  config = {};
+  config.faults = "bursts,foo";
+  said = refusalOf(config);
+  EXPECT_EQ(said.find("faults: the driver has no fault 'foo'; known are all,"), 0U) << said;
+  EXPECT_NE(said.find(", none"), std::string::npos) << said;
+  config = {};
+  config.camera = "rear";
+  EXPECT_EQ(refusalOf(config).find("camera: there is no camera 'rear'; known are front,"), 0U);
+}
+
 TEST(FakeDrone, RefusesWhatCannotBe) {
   FakeDroneOptions options = calm();
   options.start = FlightStart{3.9, 0, 0};

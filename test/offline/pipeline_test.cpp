@@ -75,6 +75,35 @@ TEST(Pipeline, ThreadsDoNotMatter) {
   }
 }
 
+std::vector<ImageFeatures> featuresOf(Sequence& sequence, const FrontEndAttitude& attitude) {
+  TrackerConfig config;
+  config.use_attitude = true;
+  std::vector<ImageFeatures> features;
+  runFrontEnd(sequence, config, attitude, 1,
+              [&features](const TrackedFrame& frame) { features.push_back(frame.features); });
+  return features;
+}
+
+TEST(Pipeline, TheAttitudeIsThatOfTheExposure) {
+  const auto sequence = laps(2, 10);
+  const ObserverRun observer = simulateObserver(
+      sequence->truth(),
+      loadObserverProfile("drone", ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml"), 1);
+  // Images are stamped 100 ms late on the odometry's clock.
+  std::vector<ObserverState> earlier = observer.states;
+  for (ObserverState& state : earlier) state.stamp_ns -= 100'000'000;
+  const auto in_time = featuresOf(*sequence, {&observer.states, 0});
+  const auto late = featuresOf(*sequence, {&earlier, -0.1});
+  const auto not_known = featuresOf(*sequence, {&earlier, 0});
+  ASSERT_GT(in_time.size(), 15U);
+  bool differs = false;
+  for (std::size_t i = 0; i < in_time.size(); ++i) {
+    EXPECT_EQ(late[i].descriptor, in_time[i].descriptor) << i;
+    differs = differs || not_known[i].descriptor != in_time[i].descriptor;
+  }
+  EXPECT_TRUE(differs);
+}
+
 TEST(Pipeline, ImagesThatTravelAreToldFromAnObserverThatStandsStill) {
   const auto sequence = laps(10, 10);
   std::vector<ObserverState> rest(2);

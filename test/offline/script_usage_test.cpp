@@ -35,7 +35,7 @@ class ScriptUsage : public testing::Test {
 };
 
 TEST_F(ScriptUsage, EachSaysItsVersionAndRefusesUnknownOptions) {
-  for (const std::string name : {"test", "demo", "benchmark", "install_dependencies", "plot_run",
+  for (const std::string name : {"test", "demo", "benchmark", "install_dependencies", "evaluate",
                                  "record_run", "measure_latency"}) {
     EXPECT_EQ(script(name + " --version"), 0) << name << output();
     expectOutput({name + " (ardrone_vslam) 0."});
@@ -56,18 +56,6 @@ TEST_F(ScriptUsage, DemoNamesTheValueThatIsMissing) {
   }
   EXPECT_EQ(script("demo --seconds ten"), 2);
   expectOutput({"demo: --seconds 'ten'", "number"});
-}
-
-TEST_F(ScriptUsage, PlotRunNamesThePictureThatCannotBeWritten) {
-  folder_.write("frames.csv", "stamp_ns,landmark_candidates,landmark_matches\n0,1,1\n1000,2,1\n");
-  EXPECT_EQ(script("plot_run " + folder_.path() + " --out " + folder_.file("run.foo")), 2);
-  expectOutput({"plot_run: error: --out", "run.foo", "png"});
-  EXPECT_EQ(script("plot_run " + folder_.path() + " --out " + folder_.file("none/run.png")), 1);
-  expectOutput({"plot_run: ", "none/run.png", "cannot be written"});
-  EXPECT_EQ(output().find("Traceback"), std::string::npos);
-  EXPECT_EQ(script("plot_run " + folder_.path() + " --out " + folder_.file("run.png")), 0)
-      << output();
-  EXPECT_TRUE(std::filesystem::exists(folder_.file("run.png")));
 }
 
 TEST_F(ScriptUsage, PlayBagNamesTheBagThatIsNotThere) {

@@ -36,12 +36,15 @@ class Attitude(unittest.TestCase):
         self.assertIsNotNone(warning)
         self.assertIsNotNone(diagnostics.wait(lambda a: images_without(a) == WITHOUT))
 
-        # The drone rolled by a quarter of a turn, the image as before: the pattern turns.
+        # When the image was exposed, half a period before its stamp, the drone was rolled by a quarter of a turn, the image
+        # is as before: the pattern turns.
         for _ in range(WITH):
             stamp = drone.next()
             message = drone.odometry()
+            message.header.stamp -= rospy.Duration(0, 50000000)
             message.pose.pose.orientation.x = message.pose.pose.orientation.w = 0.5 ** 0.5
             attitude.publish(message)
+            attitude.publish(drone.odometry())
             rospy.sleep(0.05)  # the tracker does not wait for it
             drone.send(drone.odometry(), drone.image(), drone.info())
             self.assertIsNotNone(drone.answered(stamp))

@@ -41,7 +41,7 @@ check_runs() {
     for program in tracker_node mapper_node observer_fusion_node replay make_bag make_world doctor fake_driver; do
       rosrun ardrone_vslam "$program" --version | grep -q ardrone_vslam || fail "rosrun $program --version"
     done
-    for script in plot_run record_run measure_latency; do
+    for script in evaluate record_run measure_latency; do
       rosrun ardrone_vslam "$script" --help > /dev/null || fail "rosrun $script --help"
       rosrun ardrone_vslam "$script" --version | grep -q 'ardrone_vslam) [0-9]' || fail "rosrun $script --version"
     done

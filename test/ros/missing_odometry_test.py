@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is missing is said by name, with the remedy, in `status` and in the diagnostics: first the
 features, then the odometry, then the camera's mounting; once all is there, poses come. Odometry that
-is not in metres is said, too."""
+is not in metres, or in a frame that tf does not have above the base, is said, too."""
 import os
 import sys
 import time
@@ -12,6 +12,8 @@ import rospy
 import rostest
 from ardrone_vslam.msg import Status
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import TransformStamped
+from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from drone import Drone, Recorder  # noqa: E402
@@ -92,6 +94,20 @@ class MissingOdometry(unittest.TestCase):
                        for s in array.status)
         self.assertIsNotNone(diagnostics.wait(is_told))
         self.assertIsNotNone(drone.log.wait(lambda log: "/odometry moves at 300 m/s" in log.msg))
+
+        # tf has a prefix that the odometry lacks, and the driver sends it in a burst.
+        tf = rospy.Publisher("/tf", TFMessage, queue_size=10, latch=True)
+        transform = TransformStamped()
+        transform.header.stamp = drone.stamp()
+        transform.header.frame_id, transform.child_frame_id = "drone1/odom", "base_link"
+        transform.transform.rotation.w = 1.0
+        tf.publish(TFMessage([transform] * 6))
+        self.assertIsNotNone(drone.log.wait(lambda log: "set tf_prefix to drone1" in log.msg))
+
+        def is_counted(array):
+            return any(v.key == "tf transforms with a stamp that was there" and v.value == "5"
+                       for s in array.status for v in s.values)
+        self.assertIsNotNone(diagnostics.wait(is_counted))
 
 
 if __name__ == "__main__":

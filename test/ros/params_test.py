@@ -84,6 +84,46 @@ class Params(unittest.TestCase):
             self.assertIn("/vslam/%s/map_frame: world" % node, dumped)
             self.assertIn("/vslam/%s/base_frame: body" % node, dumped)
 
+    def roslaunch(self, launch, *arguments):
+        """Of a launch that ends by itself."""
+        return subprocess.run(["roslaunch", rospy.get_param("~" + launch), *arguments],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=30)
+
+    def test_launch_arguments_that_cannot_be_are_named(self):
+        for arguments, said in [
+                (["fake:=yes"], "fake:=yes: it is a switch: give true or false"),
+                (["rviz:=2"], "rviz:=2: it is a switch"),
+                (["fake:=true", "driver:=1"], "driver:=true fake:=true: the one is a real drone's driver"),
+                (["navdata:=/ardrone/navdata", "observer_mode:=twist"],
+                 "observer_mode:=twist: navdata is used by observer_mode navdata alone")]:
+            ended = self.roslaunch("ardrone_launch", *arguments)
+            self.assertEqual(ended.returncode, 1, arguments)
+            self.assertIn(said, ended.stdout)
+            self.assertNotIn("started with pid", ended.stdout)
+
+    def test_observer_mode_navdata_listens_to_the_drivers_navdata(self):
+        arguments = subprocess.run(
+            ["roslaunch", "--args", "/vslam/mapper", rospy.get_param("~ardrone_launch"), "observer_mode:=navdata"],
+            stdout=subprocess.PIPE, text=True, timeout=30, check=True).stdout
+        self.assertIn("navdata:=/ardrone/navdata imu:=/ardrone/imu", arguments)
+
+    def test_the_fake_driver_begins_with_the_camera_that_is_asked_for(self):
+        for camera, first in [("/ardrone", "front"), ("/ardrone/front", "front"), ("/ardrone/bottom", "bottom")]:
+            self.assertIn("/ardrone_driver/camera: " + first,
+                          self.roslaunch("ardrone_launch", "--dump-params", "fake:=true", "camera:=" + camera).stdout)
+
+    def test_a_launch_ends_with_the_name_of_the_bad_parameter(self):
+        """Also when only one of its nodelets cannot start."""
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as config:
+            config.write("mapper: {estimator: kalman}")
+            config.flush()
+            ended = self.roslaunch("launch", "config:=" + config.name)
+        self.assertIn("/vslam/mapper/estimator is 'kalman' but must be one of: thesis", ended.stdout)
+        self.assertIn("REQUIRED process [vslam/mapper", ended.stdout)
+        ended = self.roslaunch("launch", "ns:=other", "queue_size:=abc")
+        self.assertIn("/queue_size is 'abc' but must be a whole number", ended.stdout)
+        self.assertIn("REQUIRED process [other/", ended.stdout)
+
     def test_help_and_version(self):
         for executable in ["tracker_node", "mapper_node", "observer_fusion_node"]:
             for argument, code, said in [("--help", 0, "Usage"), ("--version", 0, "ardrone_vslam "),

@@ -117,6 +117,19 @@ TEST(ResultConversion, StatusNamesAndCountsTheOdometrysFaults) {
     EXPECT_EQ(status.odometry_fault_count[i], status.odometry_fault[i] == "burst" ? 7U : 0U) << i;
 }
 
+TEST(ResultConversion, StatusHasTheTimeOffsetInUseAndWhatItSeemsToBe) {
+  Status status;
+  status.image_time_offset_estimate = status.image_time_offset_deviation = 9;
+  toStatus(TimeOffset{}, 0.25, status);
+  EXPECT_EQ(status.image_time_offset, 0.25);
+  EXPECT_EQ(status.image_time_offset_estimate, 0) << "not known";
+  EXPECT_EQ(status.image_time_offset_deviation, 0);
+  toStatus(TimeOffset{TimeOffsetState::kKnown, -0.0875, 0.003}, -0.1, status);
+  EXPECT_EQ(status.image_time_offset, -0.1);
+  EXPECT_EQ(status.image_time_offset_estimate, -0.0875);
+  EXPECT_EQ(status.image_time_offset_deviation, 0.003);
+}
+
 TEST(ResultConversion, EveryOtherStateHasAReason) {
   const std::vector<std::pair<SlamState, std::uint8_t>> states{
       {SlamState::kBuildingMap, Status::BUILDING_MAP},

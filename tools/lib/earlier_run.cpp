@@ -29,6 +29,7 @@ bool isOurs(const Json& summary) {
 void removeFiles(const std::string& folder) {
   std::error_code ignored;  // what cannot be removed cannot be overwritten, which is told then
   for (const char* name : kRunFiles) std::filesystem::remove(folder + "/" + name, ignored);
+  for (const char* name : kPageFiles) std::filesystem::remove(folder + "/" + name, ignored);
 }
 
 }  // namespace

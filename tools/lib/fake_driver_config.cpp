@@ -26,12 +26,30 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
   return names;
 }
 
+/// Calls what reads a parameter's text; a refusal gets the parameter's name.
+template <class Read>
+void naming(const std::string& parameter, const std::string& also_known, Read read) {
+  try {
+    read();
+  } catch (const std::invalid_argument& e) {
+    throw std::invalid_argument(parameter + ": " + e.what() + also_known);
+  }
+}
+
 template <class T>
 std::optional<T> unlessEmpty(const std::string& text, const T& value) {
   return text.empty() ? std::nullopt : std::optional<T>(value);
 }
 
 }  // namespace
+
+void checkNames(const FakeDriverConfig& config) {
+  naming("autopilot", ", none (it obeys commands)", [&config] {
+    if (hasAutopilot(config)) flightInfo(config.autopilot);
+  });
+  naming("faults", ", none", [&config] { faultsOf(config); });
+  naming("camera", "", [&config] { cameraNamed(config.camera); });
+}
 
 // roslaunch takes no empty argument.
 bool hasAutopilot(const FakeDriverConfig& config) {

@@ -81,6 +81,9 @@ void visitParameters(FakeDriverConfig& c, Visitor&& visit) {
         c.render_threads);
 }
 
+/// @throws std::invalid_argument that names the parameter whose text is not known, and what is
+void checkNames(const FakeDriverConfig& config);
+
 /// What the texts mean. @throws std::invalid_argument, UsageError or std::runtime_error naming what
 /// is not known and what is
 bool hasAutopilot(const FakeDriverConfig& config);

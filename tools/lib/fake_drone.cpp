@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "../../nodes/checked.hpp"  // no ROS
+
 namespace ardrone_vslam {
 namespace {
 
@@ -36,12 +38,10 @@ FlightStart startIn(const World& world, const std::optional<FlightStart>& asked)
   const Eigen::AlignedBox3d space = spaceIn(world.extent());
   if (!std::isfinite(asked->yaw_rad) ||
       !space.contains(Eigen::Vector3d(asked->x_m, asked->y_m, 0))) {
-    throw std::invalid_argument(
-        "the start must be inside the world and " + std::to_string(kRadius_m).substr(0, 4) +
-        " m from its walls: X within " + std::to_string(space.min().x()).substr(0, 5) + " and " +
-        std::to_string(space.max().x()).substr(0, 5) + ", Y within " +
-        std::to_string(space.min().y()).substr(0, 5) + " and " +
-        std::to_string(space.max().y()).substr(0, 5) + " m");
+    throw std::invalid_argument(text("start: it must be inside the world and ", kRadius_m,
+                                     " m from its walls: X within ", space.min().x(), " and ",
+                                     space.max().x(), ", Y within ", space.min().y(), " and ",
+                                     space.max().y(), " m"));
   }
   return *asked;
 }
@@ -72,13 +72,15 @@ FakeDrone::FakeDrone(World world, const FakeDroneOptions& options)
 }
 
 std::string FakeDrone::refusal(const std::string& what) const {
-  return what + " is ignored: the autopilot flies " + options_.autopilot;
+  return what + " is ignored: the autopilot flies " + options_.autopilot +
+         "; start with autopilot none to fly it by hand";
 }
 
 std::string FakeDrone::takeOff() {
   if (flight_) return refusal("takeoff");
-  if (emergency_) return "takeoff is ignored: the drone is in emergency; reset it first";
-  if (model_.phase() != DroneModel::Phase::kLanded) return "takeoff is ignored: not landed";
+  if (emergency_) return "takeoff is ignored: the drone is in emergency; send ardrone/reset first";
+  if (model_.phase() != DroneModel::Phase::kLanded)
+    return "takeoff is ignored: the drone is not on the floor";
   command_ = {};
   model_.takeOff();
   return {};

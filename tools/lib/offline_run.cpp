@@ -26,21 +26,27 @@ ImageView viewOf(const cv::Mat& image) {
 /// The image's turn at ascending stamps, from odometry.
 class SceneTurns {
  public:
-  explicit SceneTurns(const std::vector<ObserverState>& attitude) : attitude_(attitude) {}
+  explicit SceneTurns(const FrontEndAttitude& attitude)
+      : attitude_(attitude.states != nullptr ? *attitude.states : kNone),
+        image_time_offset_ns_(std::llround(attitude.image_time_offset_s * 1e9)) {}
 
   std::optional<float> at(std::int64_t stamp_ns, const Eigen::Matrix3d& R_base_cam) {
-    while (next_ < attitude_.size() && attitude_[next_].stamp_ns < stamp_ns) ++next_;
+    const std::int64_t exposed_ns = stamp_ns + image_time_offset_ns_;
+    while (next_ < attitude_.size() && attitude_[next_].stamp_ns < exposed_ns) ++next_;
     if (next_ == attitude_.size()) return std::nullopt;
     const ObserverState& after = attitude_[next_];
-    if (next_ == 0 && after.stamp_ns > stamp_ns) return std::nullopt;
+    if (next_ == 0 && after.stamp_ns > exposed_ns) return std::nullopt;
     const ObserverState& before = attitude_[next_ == 0 ? 0 : next_ - 1];
     const ObserverState state =
-        after.stamp_ns == stamp_ns ? after : interpolate(before, after, stamp_ns);
+        after.stamp_ns == exposed_ns ? after : interpolate(before, after, exposed_ns);
     return sceneTurn_rad(state.T_odom_base.linear() * R_base_cam);
   }
 
  private:
+  inline static const std::vector<ObserverState> kNone;
+
   const std::vector<ObserverState>& attitude_;
+  std::int64_t image_time_offset_ns_;
   std::size_t next_ = 0;
 };
 
@@ -60,9 +66,8 @@ void StageTimer::enter(Stage stage) {
   since_ns_ = now;
 }
 
-void runFrontEnd(Sequence& sequence, const TrackerConfig& config,
-                 const std::vector<ObserverState>& attitude, int threads,
-                 const std::function<void(const TrackedFrame& frame)>& consume) {
+void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEndAttitude& attitude,
+                 int threads, const std::function<void(const TrackedFrame& frame)>& consume) {
   std::optional<Tracker> tracker;
   std::size_t which = 0;
   SequenceCamera camera;
@@ -133,7 +138,11 @@ void BackEnd::takeNextObserver() {
 }
 
 std::optional<double> BackEnd::heightAt(const ObserverState& state) {
-  while (next_range_ < ranges_.size() && heights_.newestStamp_ns() < state.stamp_ns)
+  const auto isWanted = [&](const RangeReading& next) {  // all of a burst
+    const std::int64_t newest_ns = heights_.newestStamp_ns();
+    return newest_ns < state.stamp_ns || next.stamp_ns == newest_ns;
+  };
+  while (next_range_ < ranges_.size() && isWanted(ranges_[next_range_]))
     heights_.push(ranges_[next_range_++]);
   return heights_.at(state);
 }

@@ -65,13 +65,18 @@ std::int64_t countDistrusted(const RunResult& run);
 /// Called with the number of images done, from the calling thread.
 using Progress = std::function<void(std::size_t)>;
 
+/// With `use_attitude`: poses whose orientation turns the descriptors' pattern, for images exposed
+/// at their stamps plus the offset.
+struct FrontEndAttitude {
+  const std::vector<ObserverState>* states = nullptr;
+  double image_time_offset_s = 0;
+};
+
 /// Images -> features; images are decoded ahead by a thread of their own when `threads` is 2 or
 /// more.
 /// @param consume  gets each frame in order; `frame` is reused for the next one
-/// @param attitude  with `use_attitude`: poses whose orientation turns the descriptors' pattern
-void runFrontEnd(Sequence& sequence, const TrackerConfig& config,
-                 const std::vector<ObserverState>& attitude, int threads,
-                 const std::function<void(const TrackedFrame& frame)>& consume);
+void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEndAttitude& attitude,
+                 int threads, const std::function<void(const TrackedFrame& frame)>& consume);
 
 /// Features + observer -> poses and map, as the nodelets do it: odometry through an
 /// ObserverAdapter, interpolated at the image's stamp by an ObserverBuffer, ranges by a

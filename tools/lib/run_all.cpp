@@ -52,11 +52,11 @@ std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
   std::size_t done = 0;
   // The front end runs once for all seeds. With `use_attitude` it takes the first seed's: attitudes
   // of one profile differ by no more than the pattern's steps of 1.4 degrees.
-  runFrontEnd(sequence, config.tracker, observers.front().run.states, threads,
-              [&](const TrackedFrame& frame) {
-                back_ends.process(frame);
-                if (progress) progress(++done);
-              });
+  const FrontEndAttitude attitude{&observers.front().run.states, config.mapper.image_time_offset_s};
+  runFrontEnd(sequence, config.tracker, attitude, threads, [&](const TrackedFrame& frame) {
+    back_ends.process(frame);
+    if (progress) progress(++done);
+  });
   std::vector<RunResult> results = back_ends.finish();
   for (RunResult& result : results) add(sequence.observerFaults(), result.odometry_faults);
   return results;

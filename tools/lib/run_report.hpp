@@ -55,6 +55,9 @@ nlohmann::ordered_json summaryOfSeeds(const std::vector<nlohmann::ordered_json>&
 constexpr std::array<const char*, 6> kRunFiles{"observer.tum", "fused.tum",     "truth.tum",
                                                "frames.csv",   "landmarks.csv", "summary.json"};
 
+/// What scripts/evaluate writes beside them when it is asked for a report of the folder.
+constexpr std::array<const char*, 2> kPageFiles{"report.html", "evaluation.json"};
+
 /// Where the files of one of several seeds go.
 std::string seedFolder(const std::string& folder, std::uint64_t seed);
 

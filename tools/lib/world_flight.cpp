@@ -116,7 +116,8 @@ std::unique_ptr<Flight> makeFlight(const std::string& name,
                                    const std::optional<FlightStart>& start) {
   flightInfo(name);
   const bool is_fixed = name == "table" || name == "corridor" || name == "corridor_turn";
-  if (start && is_fixed) throw std::invalid_argument(name + ": has a start of its own");
+  if (start && is_fixed)
+    throw std::invalid_argument("the flight " + name + " has a start of its own: leave start out");
   if (start) checkStart(*start);
   if (name == "laps_then_hover") return std::make_unique<LapsThenHover>(start);
   if (name == "mapping_turn") return std::make_unique<TurnThenLaps>(start);

@@ -260,7 +260,7 @@ void FakeDriver::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
                    "this computer is too slow to render all images: lower rate, or shutter");
     ROS_WARN_STREAM_THROTTLE(kWarnPeriod_s,
                              counts.lost << " images were not rendered in time and are left out ("
-                                         << counts.rendered << " were)");
+                                         << counts.rendered << " were): lower rate, or shutter");
   } else {
     status.summary(DiagnosticStatus::OK, "in time");
   }

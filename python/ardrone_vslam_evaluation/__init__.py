@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How accurate, consistent and cheap trajectories and runs are; scripts/evaluate is its command."""
