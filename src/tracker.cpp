@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "corner_edges.hpp"
-
 namespace ardrone_vslam {
 namespace {
 
@@ -31,14 +29,12 @@ struct Tracker::State {
         std::uint32_t first_track_id)
       : camera(intrinsics, config.undistort),
         detector(config.corners),
-        edge_ratio(config.edge_ratio),
         describer(config.freak),
         frame_tracker(config.tracks, first_track_id),
         use_attitude(config.use_attitude) {}
 
   CameraModel camera;
   CornerDetector detector;
-  double edge_ratio;
   FreakDescriber describer;
   FrameTracker frame_tracker;
   bool use_attitude;
@@ -46,11 +42,11 @@ struct Tracker::State {
   std::vector<Corner> corners;            // in the describable part of the image
   std::vector<Eigen::Vector3f> bearings;  // of the keypoints
   std::vector<std::uint8_t> scores;       // of the keypoints
-  std::vector<FreakKeypoint> keypoints;   // corners that are used
+  std::vector<FreakKeypoint> keypoints;   // corners that have a bearing
   std::vector<int> described;             // indices into keypoints
 
   void reserve(std::size_t budget);
-  void keepUsefulCorners(const ImageView& image);
+  void keepCornersWithBearing();
   void collect(const ImageView& image, std::int64_t stamp_ns, ImageFeatures& features) const;
 };
 
@@ -102,7 +98,7 @@ void Tracker::process(const ImageView& image, std::int64_t stamp_ns, ImageFeatur
 
   enter(Stage::kDetect);
   s.detector.detect(describablePart(image), s.corners);
-  s.keepUsefulCorners(image);
+  s.keepCornersWithBearing();
 
   enter(Stage::kDescribe);
   s.describer.describe(image, s.keypoints, s.described, features.descriptor, nullptr,
@@ -114,15 +110,13 @@ void Tracker::process(const ImageView& image, std::int64_t stamp_ns, ImageFeatur
   enter(Stage::kIdle);
 }
 
-/// Those that lie on no edge and have a bearing.
-void Tracker::State::keepUsefulCorners(const ImageView& image) {
+void Tracker::State::keepCornersWithBearing() {
   keypoints.clear();
   bearings.clear();
   scores.clear();
   for (const Corner& corner : corners) {
     const int x_px = corner.x_px + kCut_px;
     const int y_px = corner.y_px + kCut_px;
-    if (edge_ratio > 0 && liesOnEdge(image, x_px, y_px, edge_ratio)) continue;
     const auto bearing = camera.bearing({x_px, y_px});
     if (!bearing) continue;
     keypoints.push_back({x_px, y_px});

@@ -15,7 +15,6 @@ namespace ardrone_vslam {
 
 struct TrackerConfig {
   CornerDetectorConfig corners;
-  double edge_ratio = 0;
   FreakConfig freak;
   FrameTrackerConfig tracks;
   UndistortMethod undistort = UndistortMethod::kTable;
@@ -30,11 +29,6 @@ struct EnumNames<UndistortMethod> {
 template <class Visitor>
 void visitParameters(TrackerConfig& c, Visitor&& visit) {
   visitParameters(c.corners, visit);
-  visit(ParameterInfo{"edge_ratio", "-", 0, 1,
-                      "corners around which the image changes across by less than this fraction of "
-                      "along (eigenvalues of the structure tensor) lie on an edge, on which they "
-                      "slide (parquet): left out; 0: all are kept"},
-        c.edge_ratio);
   visitParameters(c.freak, visit);
   visitParameters(c.tracks, visit);
   visit(ParameterInfo{"undistort", "choice", 0, 0,
@@ -61,8 +55,8 @@ class Tracker {
 
   /// Allocates in the first call only, and if `features` has no room for the corner budget.
   /// @param image  as large as the camera's calibration says (asserted)
-  /// @param features  cleared and filled; corners on edges, and those whose descriptor or
-  /// bearing does not exist, are left out
+  /// @param features  cleared and filled; corners whose descriptor or bearing does not exist are
+  /// left out
   /// @param hook  told which stage begins; may be empty
   /// @param scene_turn_rad  with `use_attitude`: sceneTurn_rad() of the camera's attitude; nothing
   ///   where it is not known: then, as without `use_attitude`, each corner's own orientation
