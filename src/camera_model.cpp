@@ -4,42 +4,15 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "brown_model.hpp"
+#include "lens_table.hpp"
+
 namespace ardrone_vslam {
 namespace {
-
-constexpr double kWidestRadius =
-    10.0;  // on the plane z = 1: 84 degrees off the axis, wider than Brown's model serves
-constexpr double kInverseTolerance = 1e-12;
-constexpr int kNewtonSteps = 30;
-
-/// Brown's radial factor 1 + k1 r^2 + k2 r^4 + k3 r^6 (5.3).
-double radialFactor(const CameraIntrinsics& c, double r2) {
-  return 1 + r2 * (c.k1 + r2 * (c.k2 + r2 * c.k3));
-}
-
-/// Derivative of r * radialFactor with respect to r.
-double radialSlope(const CameraIntrinsics& c, double r2) {
-  return 1 + r2 * (3 * c.k1 + r2 * (5 * c.k2 + r2 * 7 * c.k3));
-}
-
-double findFoldRadius(const CameraIntrinsics& c) {
-  constexpr double kStep = 1e-3;
-  for (double low = 0; low < kWidestRadius; low += kStep) {
-    double high = low + kStep;
-    if (radialSlope(c, high * high) > 0) continue;
-    for (int i = 0; i < 50; ++i) {
-      const double middle = 0.5 * (low + high);
-      (radialSlope(c, middle * middle) > 0 ? low : high) = middle;
-    }
-    return low;
-  }
-  return std::numeric_limits<double>::infinity();
-}
 
 /// Sizes and focal lengths. @return the fault
 std::string pinholeFault(const CameraIntrinsics& c) {
@@ -87,6 +60,12 @@ std::string lensFault(const CameraIntrinsics& c) {
   return fault.str();
 }
 
+/// Unit direction of a point of the image plane.
+std::optional<Eigen::Vector3d> directionOf(const std::optional<Eigen::Vector2d>& plane) {
+  if (!plane) return std::nullopt;
+  return Eigen::Vector3d(plane->x(), plane->y(), 1).normalized();
+}
+
 }  // namespace
 
 std::string calibrationFault(const CameraIntrinsics& intrinsics) {
@@ -108,26 +87,44 @@ CameraModel::CameraModel(const CameraIntrinsics& intrinsics, UndistortMethod met
   if (!fault.empty()) throw std::invalid_argument("camera calibration: " + fault);
   focal_length_px_ = std::sqrt(intrinsics.fx_px * intrinsics.fy_px);
   fold_radius_ = findFoldRadius(intrinsics);
-  fold_radius_distorted_ =
-      std::isinf(fold_radius_)
-          ? fold_radius_
-          : fold_radius_ * radialFactor(intrinsics, fold_radius_ * fold_radius_);
+  const double k1 = intrinsics.k1;
+  const double k2 = intrinsics.k2;
+  const double k3 = intrinsics.k3;
+  tangential_ = intrinsics.p1 != 0 || intrinsics.p2 != 0;
+  const bool radial = k1 != 0 || k2 != 0 || k3 != 0;
+  if (!radial && !tangential_) return;
+
+  widest_radius_ = std::min(fold_radius_, kWidestRadius);
+  const double widest_distorted =
+      widest_radius_ * radialFactor(intrinsics, widest_radius_ * widest_radius_);
+  widest_distorted2_ = widest_distorted * widest_distorted;
+  closed_form_ = {-k1, 3 * k1 * k1 - k2, -12 * k1 * k1 * k1 + 8 * k1 * k2 - k3};  // (5.6-5.8)
+  if (method == UndistortMethod::kTable && radial) {
+    table_ = std::make_shared<const LensTable>(intrinsics, widest_radius_);
+  }
 }
 
 std::optional<Eigen::Vector3d> CameraModel::bearing(const Eigen::Vector2d& pixel_px) const {
   const Eigen::Vector2d distorted((pixel_px.x() - intrinsics_.cx_px) / intrinsics_.fx_px,
                                   (pixel_px.y() - intrinsics_.cy_px) / intrinsics_.fy_px);
-  if (!(distorted.norm() < fold_radius_distorted_)) return std::nullopt;
-  const auto plane = method_ == UndistortMethod::kExact ? undistortExact(distorted)
-                                                        : undistortClosedForm(distorted);
-  if (!plane) return std::nullopt;
-  return Eigen::Vector3d(plane->x(), plane->y(), 1).normalized();
+  const double distorted2 = distorted.squaredNorm();
+  if (!(distorted2 < widest_distorted2_)) return std::nullopt;
+  if (table_ && table_->covers(distorted2)) {
+    const Eigen::Array2d found = table_->at(distorted2);
+    const double scale = found.x();
+    const double z = found.y();
+    if (!tangential_) return Eigen::Vector3d(distorted.x() * scale, distorted.y() * scale, z);
+    return directionOf(undistortTangential(distorted, distorted * (scale / z)));
+  }
+  if (method_ == UndistortMethod::kClosedForm) return directionOf(undistortClosedForm(distorted));
+  const Eigen::Vector2d plane = undistortRadial(distorted);
+  return directionOf(tangential_ ? undistortTangential(distorted, plane) : plane);
 }
 
 std::optional<Eigen::Vector2d> CameraModel::project(const Eigen::Vector3d& point_cam) const {
   if (!(point_cam.z() > 0)) return std::nullopt;
   const Eigen::Vector2d plane = point_cam.head<2>() / point_cam.z();
-  if (!(plane.norm() < fold_radius_)) return std::nullopt;
+  if (!(plane.norm() < widest_radius_)) return std::nullopt;
   const Eigen::Vector2d distorted = distort(plane);
   return Eigen::Vector2d(intrinsics_.fx_px * distorted.x() + intrinsics_.cx_px,
                          intrinsics_.fy_px * distorted.y() + intrinsics_.cy_px);
@@ -148,55 +145,41 @@ Eigen::Vector2d CameraModel::distort(const Eigen::Vector2d& plane) const {
           y * radial + intrinsics_.p1 * (r2 + 2 * y * y) + 2 * intrinsics_.p2 * x * y};
 }
 
-std::optional<Eigen::Vector2d> CameraModel::undistortExact(const Eigen::Vector2d& distorted) const {
-  const CameraIntrinsics& c = intrinsics_;
-  // The radius alone first, kept inside the bracket where the model is monotonic, so that Newton
-  // cannot cross the fold.
+Eigen::Vector2d CameraModel::undistortRadial(const Eigen::Vector2d& distorted) const {
   const double r_distorted = distorted.norm();
-  double low = 0;
-  double high = std::min(fold_radius_, kWidestRadius);
-  double r = std::min(r_distorted, high);
-  for (int i = 0; i < kNewtonSteps; ++i) {
-    const double error = r * radialFactor(c, r * r) - r_distorted;
-    if (std::abs(error) < kInverseTolerance) break;
-    (error > 0 ? high : low) = r;
-    const double newton = r - error / radialSlope(c, r * r);
-    r = newton > low && newton < high ? newton : 0.5 * (low + high);
-  }
-  Eigen::Vector2d plane =
-      r_distorted > 0 ? Eigen::Vector2d(distorted * (r / r_distorted)) : distorted;
-  if (c.p1 == 0 && c.p2 == 0) return plane;
+  if (std::isinf(widest_radius_) || r_distorted == 0) return distorted;
+  return distorted * (undistortedRadius(intrinsics_, r_distorted, widest_radius_) / r_distorted);
+}
 
-  for (int i = 0; i < kNewtonSteps; ++i) {
+std::optional<Eigen::Vector2d> CameraModel::undistortTangential(const Eigen::Vector2d& distorted,
+                                                                Eigen::Vector2d plane) const {
+  constexpr double kTolerance = 1e-12;
+  constexpr int kSteps = 30;
+  const CameraIntrinsics& c = intrinsics_;
+  const double widest2 = widest_radius_ * widest_radius_;
+  for (int i = 0; i < kSteps; ++i) {
     const Eigen::Vector2d error = distort(plane) - distorted;
-    if (error.norm() < kInverseTolerance) return plane;
+    if (error.squaredNorm() < kTolerance * kTolerance) return plane;
     const double x = plane.x();
     const double y = plane.y();
     const double r2 = plane.squaredNorm();
     const double radial = radialFactor(c, r2);
-    const double slope = 2 * (c.k1 + r2 * (2 * c.k2 + r2 * 3 * c.k3));  // d(radial)/d(r2) * 2
+    const double slope = 2 * radialFactorSlope(c, r2);
     Eigen::Matrix2d jacobian;
     jacobian(0, 0) = radial + slope * x * x + 2 * c.p1 * y + 6 * c.p2 * x;
     jacobian(0, 1) = slope * x * y + 2 * c.p1 * x + 2 * c.p2 * y;
     jacobian(1, 0) = jacobian(0, 1);
     jacobian(1, 1) = radial + slope * y * y + 6 * c.p1 * y + 2 * c.p2 * x;
     plane -= jacobian.inverse() * error;
-    if (!plane.allFinite() || plane.norm() > std::min(fold_radius_, kWidestRadius))
-      return std::nullopt;
+    if (!(plane.squaredNorm() <= widest2)) return std::nullopt;
   }
   return std::nullopt;
 }
 
-std::optional<Eigen::Vector2d> CameraModel::undistortClosedForm(
-    const Eigen::Vector2d& distorted) const {
-  const double k1 = intrinsics_.k1;
-  const double k2 = intrinsics_.k2;
-  const double inverse1 = -k1;                                                // (5.6)
-  const double inverse2 = 3 * k1 * k1 - k2;                                   // (5.7)
-  const double inverse3 = -12 * k1 * k1 * k1 + 8 * k1 * k2 - intrinsics_.k3;  // (5.8)
+Eigen::Vector2d CameraModel::undistortClosedForm(const Eigen::Vector2d& distorted) const {
   const double r2 = distorted.squaredNorm();
-  return Eigen::Vector2d(distorted *
-                         (1 + r2 * (inverse1 + r2 * (inverse2 + r2 * inverse3))));  // (5.9-5.11)
+  const auto& [inverse1, inverse2, inverse3] = closed_form_;
+  return distorted * (1 + r2 * (inverse1 + r2 * (inverse2 + r2 * inverse3)));  // (5.9-5.11)
 }
 
 }  // namespace ardrone_vslam

@@ -42,6 +42,7 @@ void WindowState::start(const ObserverState& observer) {
   R_mounting_.setIdentity();
   inflation_ = 1;
   velocity_bias_m_s_.setZero();
+  odometry_way_m_ = observer.T_odom_base.translation().norm();  // at least
   scale_error_ = 0;
   floor_map_m_ = 0;
   anchors_.clear();
@@ -142,6 +143,7 @@ void WindowState::propagate(const ObserverState& observer,
   position.middleRows<3>(to) = position.middleRows<3>(from) + F * position.topRows<kGlobals>();
   P.middleRows<3>(to) = position.transpose();
   P.diagonal().segment<3>(to).array() += walkVariance_m2(observer, dt_s, way_m);
+  odometry_way_m_ += way_m;
   if (step_in_it) {
     // Nothing but where the drone is now is in doubt: odometry that had stood still may catch up.
     const Eigen::Vector3d jump_map = R_map_odom_ * step_in_it->step_odom_m;
@@ -170,11 +172,14 @@ double WindowState::walkVariance_m2(const ObserverState& observer, double dt_s,
   const std::optional<double> then = positionVariance_m2(observer_);
   const std::optional<double> now = positionVariance_m2(observer);
   if (!then || !now || !(*now > *then)) return configured_m2;
-  // Of what the observer says of itself the slow velocity error is a state of its own here. Taken
-  // for white noise a second time, it would leave the camera hardly anything to go by.
+  // Of what the observer says of itself the slow velocity error and that of the scale, which grows
+  // with the square of the way, are states of their own here. Taken for white noise a second time,
+  // they would leave the camera hardly anything to go by.
   const double by_bias_m2 =
       2 * squared(config_.velocity_bias_m_s) * config_.velocity_bias_time_s * dt_s;
-  const double rest_m2 = *now - *then - by_bias_m2;
+  const double by_scale_m2 = squared(config_.scale_deviation) *
+                             (squared(odometry_way_m_ + way_m) - squared(odometry_way_m_));
+  const double rest_m2 = *now - *then - by_bias_m2 - by_scale_m2;
   return std::max(rest_m2, std::min(configured_m2, *now - *then));
 }
 

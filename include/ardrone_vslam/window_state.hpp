@@ -146,6 +146,7 @@ class WindowState {
   Eigen::Matrix3d R_map_odom_ = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d R_mounting_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d velocity_bias_m_s_ = Eigen::Vector3d::Zero();
+  double odometry_way_m_ = 0;  // since it began
   double scale_error_ = 0;
   double floor_map_m_ = 0;
   std::vector<WindowPose> frames_;

@@ -37,16 +37,81 @@ double largestRoundTripError_px(const CameraModel& camera) {
   return worst;
 }
 
-TEST(CameraModel, projectUndoesBearingOnTheWholeImage) {
-  EXPECT_LT(largestRoundTripError_px(CameraModel(ardroneFront())), 1e-6);
+class ExactUndistortion : public testing::TestWithParam<UndistortMethod> {};
+
+TEST_P(ExactUndistortion, projectUndoesBearingOnTheWholeImage) {
+  EXPECT_LT(largestRoundTripError_px(CameraModel(ardroneFront(), GetParam())), 1e-6);
 }
 
-TEST(CameraModel, projectUndoesBearingWithTangentialTerms) {
+TEST_P(ExactUndistortion, projectUndoesBearingWithTangentialTerms) {
   CameraIntrinsics c = ardroneFront();
   c.p1 = 0.002;
   c.p2 = -0.001;
   c.k3 = -0.02;
-  EXPECT_LT(largestRoundTripError_px(CameraModel(c)), 1e-6);
+  EXPECT_LT(largestRoundTripError_px(CameraModel(c, GetParam())), 1e-6);
+}
+
+TEST_P(ExactUndistortion, projectUndoesBearingWhereNewtonsStepsWouldGoToAndFro) {
+  CameraIntrinsics c = ardroneFront();
+  c.fx_px = c.fy_px = 240;  // radius 1.38 at a distorted 1.38; slope 0.6 there, 1 in the middle
+  c.k1 = 0.233571;
+  c.k2 = 0.391884;
+  c.k3 = -0.18387;
+  const CameraModel camera(c, GetParam());
+  for (double x = 320; x < 800; x += 0.1) {
+    const auto ray = camera.bearing({x, 180});
+    ASSERT_TRUE(ray) << x;
+    ASSERT_NEAR(camera.project(*ray)->x(), x, 1e-6);
+  }
+}
+
+TEST_P(ExactUndistortion, theWidestPinholeIsOneUpToItsCorners) {
+  CameraIntrinsics c = ardroneFront();
+  c.fx_px = c.fy_px = kShortestFocal * c.width_px;
+  c.k1 = c.k2 = 0;
+  EXPECT_LT(largestRoundTripError_px(CameraModel(c, GetParam())), 1e-6);
+}
+
+TEST_P(ExactUndistortion, refusesWhatIsMoreThan84DegreesOffTheAxisOfADistortingLens) {
+  CameraIntrinsics c = ardroneFront();
+  c.fx_px = c.fy_px = kShortestFocal * c.width_px;
+  c.k1 = 1e-6;
+  c.k2 = 0;
+  const CameraModel camera(c, GetParam());
+  EXPECT_TRUE(camera.bearing({320 + 319, 180}));
+  EXPECT_FALSE(camera.bearing({320 + 321, 180}));
+  EXPECT_TRUE(camera.project({9.99, 0, 1}));
+  EXPECT_FALSE(camera.project({10.01, 0, 1}));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ExactUndistortion,
+                         testing::Values(UndistortMethod::kTable, UndistortMethod::kExact));
+
+TEST(CameraModel, theTableIsTheExactInverseOfTheShippedCameras) {
+  CameraIntrinsics wide = ardroneFront();
+  wide.fx_px = wide.fy_px = 470.5;
+  wide.k1 = -0.53;
+  wide.k2 = 0.28;
+  CameraIntrinsics bottom;
+  bottom.width_px = 320;
+  bottom.height_px = 240;
+  bottom.fx_px = bottom.fy_px = 316.8;
+  bottom.cx_px = 160;
+  bottom.cy_px = 120;
+  bottom.k1 = 0.12;
+  bottom.k2 = -0.24;
+  for (const CameraIntrinsics& c : {ardroneFront(), wide, bottom}) {
+    const CameraModel table(c, UndistortMethod::kTable);
+    const CameraModel exact(c, UndistortMethod::kExact);
+    for (int y = 0; y < c.height_px; ++y) {
+      for (int x = 0; x < c.width_px; ++x) {
+        const auto a = table.bearing({x, y});
+        const auto b = exact.bearing({x, y});
+        ASSERT_TRUE(a && b);
+        ASSERT_LT(c.fx_px * (a->head<2>() / a->z() - b->head<2>() / b->z()).norm(), 1e-6);
+      }
+    }
+  }
 }
 
 TEST(CameraModel, closedFormIsAsFarOffAsDesignedForTheDronesLens) {

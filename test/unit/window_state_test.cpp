@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "../../tools/lib/random_source.hpp"
 #include "ardrone_vslam/rotation.hpp"
@@ -73,6 +74,34 @@ TEST(WindowState, TheObserversOwnCovarianceIsUsedWhereItGivesOne) {
     return state.covariance()(at, at) - state.covariance()(at - 6, at - 6);
   };
   EXPECT_GT(grown(4.0) - grown(0), 3.9);
+}
+
+TEST(WindowState, ErrorsThatAreStatesAreNoWhiteNoiseInTheObserversCovariance) {
+  const ObserverNoiseConfig config;
+  constexpr double kSpeed_m_s = 1;
+  constexpr double kWhite_m_per_sqrt_s = 0.05;
+  const auto observer = [&config](int frame) {
+    const double t_s = 0.1 * frame;
+    ObserverState state = observerAt(frame, {kSpeed_m_s * t_s, 0, 0});
+    const double time_s = config.velocity_bias_time_s;
+    const double by_bias_m2 = 2 * std::pow(config.velocity_bias_m_s, 2) * time_s *
+                              (t_s + time_s * std::expm1(-t_s / time_s));
+    const double by_scale_m2 = std::pow(config.scale_deviation * kSpeed_m_s * t_s, 2);
+    state.covariance.diagonal().head<3>().setConstant(1e-6 + by_bias_m2 + by_scale_m2 +
+                                                      std::pow(kWhite_m_per_sqrt_s, 2) * t_s);
+    return state;
+  };
+  WindowState state(config);
+  state.start(observer(0));
+  for (int frame = 1; frame <= 600; ++frame) {
+    state.propagate(observer(frame));
+    if (state.frames().size() > 2) state.removeFrame(0);
+  }
+  const double after_a_minute_m2 =
+      state.relativeCovariance(state.frameCoordinate(0), state.frameCoordinate(1))(1, 1);
+  // Across the way, 0.1 s: white noise, and what velocity bias and attitude leave in doubt there.
+  EXPECT_LT(after_a_minute_m2, 2 * std::pow(kWhite_m_per_sqrt_s, 2) * 0.1);
+  EXPECT_GT(after_a_minute_m2, std::pow(config.walk_m_per_sqrt_s, 2) * 0.1);
 }
 
 TEST(WindowState, AnUpdateIsTheKalmanUpdateInCoordinatesThatItDoesNotTurn) {
