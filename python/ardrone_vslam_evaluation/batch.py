@@ -69,6 +69,12 @@ def sequences_of(arguments):
     return sequences + (batch_jobs.kitti_sequences(arguments.kitti) if arguments.kitti else [])
 
 
+def selection_name(arguments):
+    if arguments.selection:
+        return os.path.basename(arguments.selection)
+    return "`--quick`" if arguments.quick else "all"
+
+
 def judge(rows, before, margin):
     """Prints. @return whether all is as good as before"""
     worse, better, compared = baseline.compare(rows, before, margin)
@@ -96,7 +102,8 @@ def run(arguments, source):
     programs = Programs(os.path.abspath(arguments.programs), os.path.join(source, "config"))
     folders, faults = run_jobs(jobs, programs, work, arguments.jobs, arguments.sshlogin)
     rows = [batch_results.row_of(job, folder) for job, folder in folders.items()]
-    write(os.path.join(work, "results.md"), batch_results.page(rows))
+    table = batch_results.page(rows, selection_name(arguments))
+    write(os.path.join(work, "results.md"), table)
     write(os.path.join(work, "times.md"), batch_results.times_page(rows))
     print(batch_results.markdown(rows, batch_results.COLUMNS))
     for text in faults:
@@ -104,7 +111,7 @@ def run(arguments, source):
     if not arguments.update:
         return judge(rows, before, arguments.margin) and not faults
     if not faults:
-        write(os.path.join(source, "docs", "results.md"), batch_results.page(rows))
+        write(os.path.join(source, "docs", "results.md"), table)
         write(path, baseline.as_json(rows))
     return not faults
 

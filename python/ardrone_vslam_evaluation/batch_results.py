@@ -45,8 +45,8 @@ def markdown(rows, columns, names=("sequence", "frames", "profile", "estimator",
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def page(rows):
-    return f"# Results\n\n{NOTE}\n\n{markdown(rows, COLUMNS)}"
+def page(rows, selection):
+    return f"# Results\n\n{NOTE}\n\nSelection: {selection}.\n\n{markdown(rows, COLUMNS)}"
 
 
 def times_page(rows):
