@@ -45,6 +45,9 @@ struct Options {
   bool ping_pong = false;
   bool report = false;
   int threads = 2;
+  ComputerSpeed speed;
+  CLI::Option* budget_option = nullptr;
+  CLI::Option* cpu_factor_option = nullptr;
 #ifdef ARDRONE_VSLAM_WITH_ROS
   BagOptions bag;
 #endif
@@ -85,6 +88,16 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
   app.add_flag("--report", o.report,
                "also report.html, a page with tables and plots (docs/evaluate.md)");
+  o.budget_option =
+      app.add_option("--budget-ms", o.speed.budget_ms,
+                     "emulate a computer that needs so long for an image; of those that arrive "
+                     "meanwhile the newest waits, the others are dropped. The same each time")
+          ->check(CLI::Range(0.0, 1e6));
+  o.cpu_factor_option =
+      app.add_option("--cpu-factor", o.speed.cpu_factor,
+                     "emulate one that needs so many times what an image takes here (decoding "
+                     "left out), or what --budget-ms says")
+          ->check(CLI::Range(0.0, 1e6));
   app.add_option("--threads", o.threads,
                  "2: decode ahead, spread the seeds; results do not depend on it")
       ->check(CLI::Range(1, 256));
@@ -109,6 +122,17 @@ std::unique_ptr<Sequence> openInput(const Options& o, const PipelineConfig& conf
   throw std::runtime_error(
       o.input + ": is no folder, and this replay was built without ROS, so it reads no bags");
 #endif
+}
+
+/// Nothing: a computer that has time for all images.
+std::optional<ComputerSpeed> speedOf(const Options& o) {
+  if (o.budget_option->count() + o.cpu_factor_option->count() == 0) return {};
+  if (!o.speed.budget_ms && !o.seeds.empty()) {
+    throw UsageError(
+        "--cpu-factor: what an image takes differs from seed to seed, but --seeds share the "
+        "images; give one --seed, or --budget-ms");
+  }
+  return o.speed;
 }
 
 std::vector<std::uint64_t> seedsOf(const Options& o) {
@@ -178,6 +202,7 @@ int run(const Options& o) {
                      "--observer-profile; set it to pose or twist");
   }
   if (!o.observer_profile.empty()) profileOfOption(o.observer_profile);
+  const std::optional<ComputerSpeed> speed = speedOf(o);
   const FrameSelection selection =
       asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
   const auto sequence = select(openInput(o, config), selection);
@@ -199,8 +224,9 @@ int run(const Options& o) {
   std::vector<RunResult> results;
   {
     ProgressLine progress("replay", sequence->size());
-    results = runAll(*sequence, config, observers, o.threads,
-                     [&progress](std::size_t done) { progress.update(done); });
+    results = runAll(
+        *sequence, config, observers, o.threads,
+        [&progress](std::size_t done) { progress.update(done); }, speed);
   }
 
   removeEarlierRun(o.out);

@@ -14,6 +14,7 @@ from .faults import MachineFault, reason
 from .plot_errors import draw_error_over_length, draw_error_over_time, draw_nees, draw_nis
 from .plot_frames import draw_error_against_matches, draw_histogram_of_matches, draw_matches_over_time, draw_stage_times
 from .plot_paths import draw_maps, draw_trajectories
+from .plot_rates import draw_error_against_rate, has_several_rates
 from .plot_style import LeftOut
 from .table import tables
 
@@ -28,8 +29,11 @@ class Figure:
     left_out: str = ""  # why there is none
 
 
-def all_figures():
-    return [
+def all_figures(rows):
+    """Those that compare rates only where there are several."""
+    rates = Figure("error_against_rate", "Accuracy against images used a second", "A dot is a run, the lines go through the medians. Fewer images "
+                   "than there are: replay --budget-ms or --cpu-factor.", draw_error_against_rate)
+    return ([rates] if has_several_rates(rows) else []) + [
         Figure("trajectories", "Trajectories", "From above. The dot is the start.", draw_trajectories),
         Figure("error_over_time", "Position error over time", "Thick: mean over 5 s (poses without stamps: over 50). The "
                "smallest hundredth of the errors is below the picture.", draw_error_over_time),
@@ -48,7 +52,7 @@ def all_figures():
 
 
 def draw(rows):
-    figures = all_figures()
+    figures = all_figures(rows)
     for figure in figures:
         try:
             figure.picture = figure.draw(rows)

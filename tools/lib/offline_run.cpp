@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -52,6 +53,10 @@ class SceneTurns {
 
 }  // namespace
 
+double total_ms(const StageTimes_ms& times_ms) {
+  return std::accumulate(times_ms.begin(), times_ms.end(), 0.0);
+}
+
 StageTimer::StageTimer(StageTimes_ms& times_ms) : times_ms_(times_ms) {}
 
 StageHook StageTimer::hook() {
@@ -67,7 +72,8 @@ void StageTimer::enter(Stage stage) {
 }
 
 void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEndAttitude& attitude,
-                 int threads, const std::function<void(const TrackedFrame& frame)>& consume) {
+                 int threads, const std::function<void(const TrackedFrame& frame)>& consume,
+                 const NextImage& next_image) {
   std::optional<Tracker> tracker;
   std::size_t which = 0;
   SequenceCamera camera;
@@ -79,7 +85,7 @@ void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEnd
   TrackedFrame frame;
   std::future<cv::Mat> next;
   if (sequence.size() > 0) next = load(0);
-  for (std::size_t i = 0; i < sequence.size(); ++i) {
+  for (std::size_t i = 0; i < sequence.size();) {
     const cv::Mat image = next.get();
     if (i + 1 < sequence.size()) next = load(i + 1);
     frame.other_camera.reset();
@@ -95,6 +101,12 @@ void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEnd
     tracker->process(viewOf(image), sequence.stamp_ns(i), frame.features, timer.hook(),
                      turns.at(sequence.stamp_ns(i), camera.T_base_cam.linear()));
     consume(frame);
+    const std::size_t decoded = i + 1;
+    i = next_image ? next_image(i) : decoded;
+    if (i != decoded && i < sequence.size()) {
+      next = {};  // a sequence gives one image at a time
+      next = load(i);
+    }
   }
 }
 
@@ -159,12 +171,12 @@ void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   ++run_.camera_changes;
 }
 
-void BackEnd::process(const TrackedFrame& frame) {
+double BackEnd::process(const TrackedFrame& frame) {
   if (frame.other_camera) changeCamera(*frame.other_camera);
   ObserverState state;
   if (!observerAt(frame.features.stamp_ns + image_time_offset_ns_, state)) {
     ++run_.frames_without_observer;
-    return;
+    return total_ms(frame.times_ms);
   }
   watch_.see(frame.features, Eigen::Isometry3d((state.T_odom_base * T_base_cam_).linear()));
   standstill_.see(frame.features, state.T_odom_base * T_base_cam_);
@@ -177,6 +189,7 @@ void BackEnd::process(const TrackedFrame& frame) {
   StageTimer timer(run_frame.times_ms);
   run_frame.result = slam_.process(frame.features, state, timer.hook());
   run_.frames.push_back(std::move(run_frame));
+  return total_ms(run_.frames.back().times_ms);
 }
 
 RunResult BackEnd::finish() {

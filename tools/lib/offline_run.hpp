@@ -24,6 +24,8 @@ namespace ardrone_vslam {
 
 using StageTimes_ms = std::array<double, kStageCount>;
 
+double total_ms(const StageTimes_ms& times_ms);
+
 /// One image after the front end.
 struct TrackedFrame {
   ImageFeatures features;
@@ -44,6 +46,7 @@ struct RunResult {
   std::vector<Landmark> landmarks;
   int frames_without_observer =
       0;  ///< no odometry at the image's stamp: before the first state, in a gap, or after the last
+  int frames_dropped_slow = 0;      ///< that the emulated slower computer had no time for
   int observer_states_refused = 0;  ///< not finite, out of bounds, duplicate or backward stamps
   OdometryFaultCounts odometry_faults{};
   std::uint64_t ranges_refused = 0;
@@ -72,11 +75,16 @@ struct FrontEndAttitude {
   double image_time_offset_s = 0;
 };
 
+/// The image after one that is done; a sequence's size ends the run.
+using NextImage = std::function<std::size_t(std::size_t index)>;
+
 /// Images -> features; images are decoded ahead by a thread of their own when `threads` is 2 or
 /// more.
 /// @param consume  gets each frame in order; `frame` is reused for the next one
+/// @param next_image  asked after each; nothing: all images
 void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEndAttitude& attitude,
-                 int threads, const std::function<void(const TrackedFrame& frame)>& consume);
+                 int threads, const std::function<void(const TrackedFrame& frame)>& consume,
+                 const NextImage& next_image = {});
 
 /// Features + observer -> poses and map, as the nodelets do it: odometry through an
 /// ObserverAdapter, interpolated at the image's stamp by an ObserverBuffer, ranges by a
@@ -86,7 +94,8 @@ class BackEnd {
   BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
           const std::vector<ObserverState>& observer, std::vector<RangeReading> ranges = {});
   /// @throws std::runtime_error when the camera changes and mounting_deviation_deg forbids it
-  void process(const TrackedFrame& frame);
+  /// @return what the image has cost, front end included [ms]
+  double process(const TrackedFrame& frame);
   RunResult finish();
 
  private:

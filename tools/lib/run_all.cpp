@@ -30,8 +30,11 @@ void BackEnds::add(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam
   scale_errors_.push_back(observer.run.scale_error);
 }
 
-void BackEnds::process(const TrackedFrame& frame) {
-  forEach(back_ends_.size(), threads_, [&](std::size_t i) { back_ends_[i]->process(frame); });
+double BackEnds::process(const TrackedFrame& frame) {
+  std::vector<double> costs_ms(back_ends_.size(), 0.0);
+  forEach(back_ends_.size(), threads_,
+          [&](std::size_t i) { costs_ms[i] = back_ends_[i]->process(frame); });
+  return costs_ms.empty() ? 0.0 : *std::max_element(costs_ms.begin(), costs_ms.end());
 }
 
 std::vector<RunResult> BackEnds::finish() {
@@ -45,20 +48,29 @@ std::vector<RunResult> BackEnds::finish() {
 
 std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
                               const std::vector<RunObserver>& observers, int threads,
-                              const Progress& progress) {
+                              const Progress& progress, const std::optional<ComputerSpeed>& speed) {
   BackEnds back_ends(threads);
   for (const RunObserver& observer : observers)
     back_ends.add(config.mapper, sequence.T_base_cam(), observer, sequence.ranges());
+  SlowComputer computer(speed.value_or(ComputerSpeed{}));
+  NextImage next_image;
+  double cost_ms = 0;
+  if (speed) next_image = [&](std::size_t i) { return computer.next(sequence, i, cost_ms); };
   std::size_t done = 0;
   // The front end runs once for all seeds. With `use_attitude` it takes the first seed's: attitudes
   // of one profile differ by no more than the pattern's steps of 1.4 degrees.
   const FrontEndAttitude attitude{&observers.front().run.states, config.mapper.image_time_offset_s};
-  runFrontEnd(sequence, config.tracker, attitude, threads, [&](const TrackedFrame& frame) {
-    back_ends.process(frame);
-    if (progress) progress(++done);
-  });
+  const auto consume = [&](const TrackedFrame& frame) {
+    cost_ms = back_ends.process(frame);
+    ++done;
+    if (progress) progress(done + static_cast<std::size_t>(computer.dropped()));
+  };
+  runFrontEnd(sequence, config.tracker, attitude, threads, consume, next_image);
   std::vector<RunResult> results = back_ends.finish();
-  for (RunResult& result : results) add(sequence.observerFaults(), result.odometry_faults);
+  for (RunResult& result : results) {
+    add(sequence.observerFaults(), result.odometry_faults);
+    result.frames_dropped_slow = computer.dropped();
+  }
   return results;
 }
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "config_file.hpp"
 #include "offline_run.hpp"
 #include "run_observers.hpp"
 #include "sequence.hpp"
+#include "slow_computer.hpp"
 
 namespace ardrone_vslam {
 
@@ -19,7 +21,8 @@ class BackEnds {
   /// @param observer  must outlive this
   void add(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
            const RunObserver& observer, const std::vector<RangeReading>& ranges = {});
-  void process(const TrackedFrame& frame);
+  /// @return what the image has cost where it cost most [ms]
+  double process(const TrackedFrame& frame);
   /// In the order of add().
   std::vector<RunResult> finish();
 
@@ -31,8 +34,10 @@ class BackEnds {
 
 /// The sequence with each of the observers; the front end runs once for all.
 /// @param threads  for decoding and for the observers; the results do not depend on it
+/// @param speed  of the computer that is emulated; nothing: it has time for all images
 std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
                               const std::vector<RunObserver>& observers, int threads,
-                              const Progress& progress);
+                              const Progress& progress,
+                              const std::optional<ComputerSpeed>& speed = {});
 
 }  // namespace ardrone_vslam

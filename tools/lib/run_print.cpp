@@ -51,6 +51,9 @@ void printSeeds(const Json& summary, std::ostream& out) {
   for (const Json& run : summary["runs"]) printRow(run["seed"].dump(), run, out);
   for (const char* kind : {"median", "worst"})
     printRow(kind, summary.value(kind, Json::object()), out);
+  const int dropped = summary["runs"].front().value("frames_dropped_slow", 0);
+  if (dropped > 0)
+    out << "frames: " << summary["frames"] << ", and " << dropped << " dropped as too slow\n";
 }
 
 }  // namespace ardrone_vslam

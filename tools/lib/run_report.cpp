@@ -27,12 +27,6 @@ Json orNull(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-double total_ms(const RunFrame& frame) {
-  double sum = 0;
-  for (const double ms : frame.times_ms) sum += ms;
-  return sum;
-}
-
 template <class Value>
 std::vector<double> collect(const RunResult& run, Value&& value) {
   std::vector<double> values;
@@ -125,7 +119,8 @@ void addScale(const RunResult& run, Json& summary) {
 }
 
 void addCost(const RunResult& run, Json& summary) {
-  const std::vector<double> totals = collect(run, [](const RunFrame& f) { return total_ms(f); });
+  const std::vector<double> totals =
+      collect(run, [](const RunFrame& f) { return total_ms(f.times_ms); });
   summary["ms_per_frame_median"] = quantile(totals, 0.5);
   summary["ms_per_frame_p95"] = quantile(totals, 0.95);
   double sum_ms = 0;
@@ -182,7 +177,7 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
     cell(valueAt(e.camera_error_m, i));
     cell(valueAt(e.nees, i));
     for (const double ms : run.frames[i].times_ms) cell(ms);
-    cell(total_ms(run.frames[i]));
+    cell(total_ms(run.frames[i].times_ms));
     out << '\n';
   }
 }
@@ -245,6 +240,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   Json summary;
   summary["sequence"] = label.sequence;
   summary["frames"] = run.frames.size();
+  summary["frames_dropped_slow"] = run.frames_dropped_slow;
   summary["camera_changes"] = run.camera_changes;
   summary["frames_without_observer"] = run.frames_without_observer;
   summary["observer_states_refused"] = run.observer_states_refused;
