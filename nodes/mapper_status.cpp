@@ -68,6 +68,8 @@ void MapperNodelet::noteOdometryFaults() {
 }
 
 void MapperNodelet::noteOdomFrame() {
+  // The own observer's frame is in no tf: what is there is the driver's other integration.
+  if (navdata_) return;
   if (!odom_frame_fault_.empty() || frames_.odom.empty() || frames_.base.empty()) return;
   odom_frame_fault_ =
       odomFrameFault(mounting_->tf().core(), frames_.map, frames_.odom, frames_.base);

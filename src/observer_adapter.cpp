@@ -76,6 +76,7 @@ bool ObserverAdapter::isBeyondAllJumps(const ObserverState& message) {
 
 void ObserverAdapter::beginAnew() {
   whole_metres_ = {};
+  height_steps_ = {};
   is_bursting_ = false;
   held_.clear();
   newest_ns_ = 0;
@@ -227,6 +228,10 @@ Push ObserverAdapter::adapt(const ObserverState& message, std::vector<ObserverSt
       position_m.z() = position_odom_m_.z() + way_m.z();
     } else if (whole_metres_.isWhole()) {
       position_m.z() = heightByTwist_m(message, way_m.z());
+    } else {
+      if (height_steps_.see(message.stamp_ns, position_m.z(), way_m.z()))
+        count(OdometryFault::kTableStep);
+      position_m.z() += height_steps_.offset_m();
     }
   }
   if (whole_metres_.isWhole() && positionVariance_m2(state)) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "ardrone_vslam/height_steps.hpp"
 #include "ardrone_vslam/observer_buffer.hpp"
 #include "ardrone_vslam/odometry_faults.hpp"
 #include "ardrone_vslam/parameters.hpp"
@@ -40,9 +41,11 @@ void visitParameters(ObserverAdapterConfig& c, Visitor&& visit) {
                     "observer of the AR.Drone's topics `navdata` and `imu` takes the odometry's "
                     "place. observer_fusion needs the same"},
       c.mode);
-  visit(ParameterInfo{"observer_height", "choice", 0, 0,
-                      "observer_mode twist: z is the pose's, or integrated like x and y"},
-        c.height);
+  visit(
+      ParameterInfo{"observer_height", "choice", 0, 0,
+                    "observer_mode twist: z is the pose's, without steps that no climb explains (a "
+                    "table below), or integrated like x and y"},
+      c.height);
 }
 
 /// Odometry messages -> the states that ObserverBuffer is given. Recognises what drivers do wrong,
@@ -79,6 +82,7 @@ class ObserverAdapter {
   ObserverAdapterConfig config_;
   OdometryFaultCounts faults_{};
   WholeMetresWatch whole_metres_;
+  HeightSteps height_steps_;  // observer_mode twist with the pose's height
 
   bool is_bursting_ = false;  // a burst has been seen since the stamps began
   std::vector<ObserverState> held_;

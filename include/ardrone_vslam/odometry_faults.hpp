@@ -19,7 +19,7 @@ enum class OdometryFault {
   kBurst,         ///< several messages with one stamp
   kHole,          ///< nothing for so long that the twist no longer tells the way
   kNoTwist,       ///< metres on end that the poses moved with a twist of zeros
-  kTableStep,     ///< observer_mode navdata: another floor below, told from climbing
+  kTableStep,     ///< observer_mode twist, navdata: another floor below, told from climbing
 };
 template <>
 struct EnumNames<OdometryFault> {

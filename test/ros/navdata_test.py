@@ -11,8 +11,11 @@ import numpy as np
 import rospy
 import rostest
 from ardrone_vslam.msg import Navdata, Status
+from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Imu
+from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from drone import Recorder, TIMEOUT_S  # noqa: E402
@@ -38,6 +41,8 @@ class NavdataTest(unittest.TestCase):
         self.imu = rospy.Publisher("/imu", Imu, queue_size=1000)
         self.odometry = Recorder("/observer_odometry", Odometry)
         self.status = Recorder("/status", Status)
+        self.log = Recorder("/rosout", Log)
+        self.tf = rospy.Publisher("/tf", TFMessage, queue_size=100)
         end_s = time.monotonic() + TIMEOUT_S
         while not (self.navdata.get_num_connections() and self.imu.get_num_connections()
                    and self.odometry.connected() and self.status.connected()):
@@ -67,12 +72,21 @@ class NavdataTest(unittest.TestCase):
             self.imu.publish(imu)
             time.sleep(0.001)
 
+    def send_drivers_tf(self, i):
+        """The driver has an odom of its own."""
+        transform = TransformStamped()
+        transform.header.stamp = rospy.Time.from_sec(BEGIN_S + i / RATE_HZ)
+        transform.header.frame_id, transform.child_frame_id = "odom", "ardrone_base_link"
+        transform.transform.rotation.w = 1
+        self.tf.publish(TFMessage([transform]))
+
     def at(self, i):
         odometry = self.odometry.wait(lambda o: o.header.stamp == self.packet(i)[0].header.stamp)
         self.assertIsNotNone(odometry, "no observer_odometry of packet %d" % i)
         return odometry
 
     def test_navdata(self):
+        self.send_drivers_tf(0)
         self.send(range(400))
         bad, imu = self.packet(400)
         bad.vx = float("nan")
@@ -97,6 +111,9 @@ class NavdataTest(unittest.TestCase):
                                   and s.odometry_fault_count[s.odometry_fault.index("table_step")] == 1
                                   and s.odometry_refused == 2)
         self.assertIsNotNone(status, "the status counts neither the table nor what was refused")
+        # That the driver's tf has another odom is meant so. The mapper looks at it every second.
+        time.sleep(1.5)
+        self.assertFalse([m.msg for m in self.log.all() if "beside tf's tree" in m.msg])
 
 
 if __name__ == "__main__":

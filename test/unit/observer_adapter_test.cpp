@@ -169,6 +169,30 @@ TEST_F(ObserverAdapterTest, AHeightThatBeginsAnewWithTheJumpGoesOn) {
   }
 }
 
+TEST_F(ObserverAdapterTest, ATableBelowIsNoClimb) {
+  // The drone's own height reaches the other floor within some tenths of a second.
+  const auto messages = [](bool twist_climbs) {
+    auto sent = messagesOf({});
+    double below_m = 0;
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+      const bool above_table = i > 3000 && i < 5000;
+      below_m += ((above_table ? 0.7 : 0) - below_m) * 0.05;
+      sent[i].T_odom_base.translation().z() -= below_m;
+      if (!twist_climbs) sent[i].twist_base[2] = 0;  // as some firmwares leave it
+    }
+    return sent;
+  };
+  feed(messages(true), ObserverMode::kPose);
+  EXPECT_GT(worstHeight_m(), 0.65) << "the pose is believed";
+  feed(messages(true), ObserverMode::kTwist);
+  EXPECT_LT(worstHeight_m(), 0.15) << "what is seen before a step is told";
+  EXPECT_LT(std::abs(errorOf_m(states_.back()).z()), 0.03);
+  EXPECT_EQ(count(OdometryFault::kTableStep), 2U);
+  feed(messages(false), ObserverMode::kTwist);
+  EXPECT_LT(std::abs(errorOf_m(states_.back()).z()), 0.35) << "climbs during the steps are lost";
+  EXPECT_EQ(count(OdometryFault::kTableStep), 2U);
+}
+
 TEST_F(ObserverAdapterTest, OdometryThatHasJumpedBeforeBeginsAtItsOrigin) {
   Faults faults;
   faults.epoch_at_s = 20;
