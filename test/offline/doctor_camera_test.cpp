@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "doctor_examination.hpp"
 #include "doctor_frames.hpp"
 #include "support/doctor_recordings.hpp"
 #include "world_camera.hpp"
@@ -48,6 +49,29 @@ TEST(DoctorCamera, FindsAKThatWasNotRescaled) {
     EXPECT_EQ(findings.size(), 1U);  // its lens is not judged
     EXPECT_FALSE(isPlausible(camera));
   }
+}
+
+TEST(DoctorCamera, RescalesAKWhereThatMakesItPlausible) {
+  DoctorRecording recording = goodRecording();
+  DoctorCalibration& calibration = recording.calibrations[0];
+  calibration.rescaled = calibration.camera;
+  EXPECT_FALSE(needsRescaling(calibration));
+  calibration.camera.fx_px = calibration.camera.fy_px = 1140;
+  calibration.camera.cx_px = 640;
+  calibration.camera.cy_px = 360;
+  calibration.fault = "the principal point lies outside";
+  EXPECT_TRUE(needsRescaling(calibration));
+  const Findings findings = checkCalibrations(recording);
+  EXPECT_EQ(verdictOf(findings, "calibration"), Verdict::kWarning);
+  EXPECT_NE(findings[0].remedy.find("rescale_calibration"), std::string::npos);
+  EXPECT_EQ(verdictOf(findings, "lens"), Verdict::kOk);
+  const DoctorReport report = examine(recording, {});
+  EXPECT_NE(report.replay.find("--set tracker/rescale_calibration=true"), std::string::npos)
+      << textOf(report);
+  // What is implausible rescaled, too, stays a fault.
+  calibration.rescaled->cx_px = 500;
+  EXPECT_FALSE(needsRescaling(calibration));
+  EXPECT_EQ(verdictOf(checkCalibrations(recording), "calibration"), Verdict::kFault);
 }
 
 TEST(DoctorCamera, FindsAnotherSizeAndWhatTheTrackerRefuses) {

@@ -97,7 +97,7 @@ TEST(DoctorNavdata, StandsInForOdometry) {
   EXPECT_EQ(report.parameters.front().value, "navdata");
   EXPECT_EQ(report.replay,
             "rosrun ardrone_vslam replay good.bag --out good_run --config $(rospack find "
-            "ardrone_vslam)/config/ardrone_front.yaml --set mapper/observer_mode=navdata");
+            "ardrone_vslam)/config/ardrone.yaml --set mapper/observer_mode=navdata");
   // It comes from the circle's side to the other one.
   const auto states = observeNavdata(recording).states;
   ASSERT_GT(states.size(), 1100U);

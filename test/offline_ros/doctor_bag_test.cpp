@@ -8,6 +8,8 @@
 
 #include "ardrone_vslam/rotation.hpp"
 #include "bag_recipe.hpp"
+#include "config_file.hpp"
+#include "config_path.hpp"
 #include "doctor_examination.hpp"
 #include "doctor_flights.hpp"
 
@@ -27,13 +29,34 @@ Names found(const DoctorReport& report) {
   return names;
 }
 
+std::set<Verdict> verdictsOf(const DoctorReport& report, const std::string& check) {
+  std::set<Verdict> verdicts;
+  for (const Finding& finding : report.findings) {
+    if (finding.check == check) verdicts.insert(finding.verdict);
+  }
+  return verdicts;
+}
+
+/// What replay runs with by the report's command.
+PipelineConfig configOf(const DoctorReport& report) {
+  std::vector<std::string> overrides;
+  for (const SuggestedParameter& p : report.parameters)
+    overrides.push_back(p.section + "/" + p.key + "=" + p.value);
+  return loadConfig(findConfigFile(report.config_file), overrides);
+}
+
 TEST_F(DoctorBag, TheDriverWithoutFaultsHasNone) {
   const DoctorReport report = examineFlight({}, longLaps());
   for (const Finding& finding : report.findings) {
     EXPECT_EQ(finding.verdict, Verdict::kOk) << finding.check << ": " << finding.text;
   }
-  EXPECT_EQ(report.config_file, "ardrone_front.yaml");
-  EXPECT_TRUE(report.parameters.empty());
+  EXPECT_EQ(report.config_file, "ardrone.yaml");
+  // All that has to be changed of what is made for the released driver.
+  ASSERT_EQ(report.parameters.size(), 2U) << textOf(report);
+  for (const SuggestedParameter& parameter : report.parameters) {
+    EXPECT_EQ(parameter.key + "=" + parameter.value, "image_time_offset_s=0");
+  }
+  EXPECT_NE(report.parameters[0].section, report.parameters[1].section);
 }
 
 TEST_F(DoctorBag, NamesEachFaultOfTheDriverAndNothingElse) {
@@ -52,17 +75,24 @@ TEST_F(DoctorBag, NamesEachFaultOfTheDriverAndNothingElse) {
   for (const DriverFaultInfo& info : driverFaults()) {
     const DoctorReport report = examineFlight({info.fault});
     EXPECT_EQ(found(report), wanted.at(info.fault)) << info.name << "\n" << textOf(report);
-    EXPECT_EQ(report.canWork(), info.fault != DriverFault::kUnscaledCameraInfo) << info.name;
+    EXPECT_TRUE(report.canWork()) << info.name;
+    EXPECT_NE(report.replay.find("/config/ardrone.yaml"), std::string::npos) << report.replay;
   }
 }
 
 TEST_F(DoctorBag, NamesAllFaultsTogether) {
-  // What shows behind whole metres needs a table, what shows in the tracks a calibration.
+  // What shows behind whole metres needs a table.
   const Names wanted{"odometry_yaw",       "odometry_jumps", "odometry_covariance",
                      "odometry_turn_rate", "height_metres",  "odometry_frames",
                      "odometry_bursts",    "navdata_bursts", "imu_bursts",
                      "calibration",        "camera_switch"};
-  EXPECT_EQ(found(examineFlight(driverFaultsNamed({"all"}))), wanted);
+  const DoctorReport report = examineFlight(driverFaultsNamed({"all"}));
+  EXPECT_EQ(found(report), wanted);
+  EXPECT_TRUE(report.canWork()) << textOf(report);
+  // K is rescaled, so that the camera is looked at.
+  EXPECT_EQ(verdictsOf(report, "images_tracked"), std::set<Verdict>{Verdict::kOk});
+  EXPECT_EQ(verdictsOf(report, "camera_direction").count(Verdict::kNotChecked), 0U)
+      << textOf(report);
   DriverFlight("table", 30).write(driverFaultsNamed({"all"}), path());
   const Names over_table = found(examineBag(path()));
   EXPECT_EQ(over_table.count("height_metres"), 1U);
@@ -76,11 +106,28 @@ TEST_F(DoctorBag, NamesTheReleasedDriversFaultsAndSuggestsTheirRemedies) {
                    "odometry_bursts", "navdata_bursts", "imu_bursts", "image_time_offset"}))
       << textOf(report);
   EXPECT_TRUE(report.canWork());
+  // The configuration made for the driver has them all.
+  EXPECT_EQ(report.config_file, "ardrone.yaml");
+  EXPECT_TRUE(report.parameters.empty()) << textOf(report);
   std::map<std::string, std::string> values;
-  for (const auto& parameter : report.parameters) values[parameter.key] = parameter.value;
+  for (const auto& parameter : report.configured) values[parameter.key] = parameter.value;
   EXPECT_EQ(values["observer_mode"], "twist");
   // The video is 75 to 100 ms late.
   EXPECT_NEAR(std::stod(values["image_time_offset_s"]), -0.0875, 0.01);
+  const PipelineConfig config = configOf(report);
+  EXPECT_EQ(config.mapper.observer_adapter.mode, ObserverMode::kTwist);
+  EXPECT_NEAR(config.mapper.image_time_offset_s, -0.0875, 0.01);
+}
+
+TEST_F(DoctorBag, AFlightTooShortToTellTheDriversFaultsGetsItsConfigurationAllTheSame) {
+  DriverFlight("laps", 3).write(driverFaultsNamed({"all"}), path());
+  const DoctorReport report = examineBag(path());
+  EXPECT_EQ(found(report).count("odometry_yaw"), 0U) << textOf(report);
+  EXPECT_TRUE(report.canWork()) << textOf(report);
+  const PipelineConfig config = configOf(report);
+  EXPECT_EQ(config.mapper.observer_adapter.mode, ObserverMode::kTwist);
+  EXPECT_TRUE(config.rescale_calibration);
+  EXPECT_TRUE(config.mapper.height_input.use_navdata_height);
 }
 
 TEST_F(DoctorBag, FindsATurnedCameraAndPrintsTheRightTransform) {

@@ -21,6 +21,19 @@ class DoctorTool : public DoctorBag {
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
+  /// Of a bag's first images.
+  void expectToRun(std::string line) const {
+    const auto replaced = [&line](const std::string& from, const std::string& to) {
+      const auto at = line.find(from);
+      ASSERT_NE(at, std::string::npos) << line;
+      line.replace(at, from.size(), to);
+    };
+    replaced("rosrun ardrone_vslam replay", ARDRONE_VSLAM_REPLAY);
+    replaced("$(rospack find ardrone_vslam)", ARDRONE_VSLAM_SOURCE_DIR);
+    replaced("--out driver_run", "--frames 0:20 --out " + path("run"));
+    line += " > " + path("output") + " 2> " + path("errors");
+    EXPECT_EQ(std::system(line.c_str()), 0) << line << "\n" << errors();
+  }
   std::string output() const { return readWhole(path("output")); }
   std::string errors() const { return readWhole(path("errors")); }
 };
@@ -28,7 +41,9 @@ class DoctorTool : public DoctorBag {
 TEST_F(DoctorTool, ExitCodesTellUsableFromNotAndFromWrongUsage) {
   laps().write(driverFaultsNamed({"released"}), path());
   EXPECT_EQ(run(path() + " --json " + path("report.json")), 0) << errors();
-  EXPECT_NE(output().find("observer_mode: twist"), std::string::npos) << output();
+  EXPECT_NE(output().find("set observer_mode to twist"), std::string::npos) << output();
+  EXPECT_NE(output().find("config/ardrone.yaml, which has mapper/observer_mode"), std::string::npos)
+      << output();
   const auto json = nlohmann::json::parse(readWhole(path("report.json")));
   EXPECT_TRUE(json["usable"].get<bool>());
   EXPECT_EQ(run(path() + " --json -"), 0);
@@ -65,17 +80,13 @@ TEST_F(DoctorTool, NavdataWithoutOdometryIsUsableAndItsReplayLineRuns) {
     if (check["check"] == "topics" || check["verdict"] == "not checked") continue;
     EXPECT_EQ(check["verdict"], "ok") << check;
   }
-  std::string line = json["replay"];
-  const auto replaced = [&line](const std::string& from, const std::string& to) {
-    const auto at = line.find(from);
-    ASSERT_NE(at, std::string::npos) << line;
-    line.replace(at, from.size(), to);
-  };
-  replaced("rosrun ardrone_vslam replay", ARDRONE_VSLAM_REPLAY);
-  replaced("$(rospack find ardrone_vslam)", ARDRONE_VSLAM_SOURCE_DIR);
-  replaced("--out driver_run", "--frames 0:20 --out " + path("run"));
-  line += " > " + path("output") + " 2> " + path("errors");
-  EXPECT_EQ(std::system(line.c_str()), 0) << line << "\n" << errors();
+  expectToRun(json["replay"]);
+}
+
+TEST_F(DoctorTool, AllFaultsOfTheDriverAreUsableAndTheReplayLineRuns) {
+  laps().write(driverFaultsNamed({"all"}), path());
+  EXPECT_EQ(run(path() + " --json " + path("report.json")), 0) << output() << errors();
+  expectToRun(nlohmann::json::parse(readWhole(path("report.json")))["replay"]);
 }
 
 TEST_F(DoctorTool, ReplayOfATurnedCameraNamesDoctorAndThatOfASoundOneDoesNot) {

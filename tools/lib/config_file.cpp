@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "../../nodes/node_config.hpp"  // the structs alone: no ROS
 #include "ardrone_vslam/late_fusion.hpp"
@@ -117,6 +118,27 @@ void addNames(Config config, std::set<std::string>& names) {
   visitParameters(config, [&](const ParameterInfo& info, auto&) { names.insert(info.name); });
 }
 
+/// Writes the value of one parameter.
+struct ValueWriter {
+  std::string key;
+  std::ostringstream* out;
+
+  template <class T>
+  void operator()(const ParameterInfo& info, const T& value) const {
+    if (key != info.name) return;
+    if constexpr (std::is_enum_v<T>) {
+      *out << nameOf(value);
+    } else {
+      *out << std::boolalpha << value;
+    }
+  }
+};
+
+template <class Config>
+void writeDefault(Config config, const std::string& key, std::ostringstream& out) {
+  visitParameters(config, ValueWriter{key, &out});
+}
+
 /// Over tracker and mapper, whose keys are often put into the wrong one; observer_fusion's own.
 std::string hintFor(const std::string& section, const std::string& written) {
   std::set<std::string> names;
@@ -203,6 +225,23 @@ PipelineConfig loadConfig(const std::string& path, const std::vector<std::string
   }
   if (!faults.empty()) throw ConfigError(faults);
   return config;
+}
+
+std::string configuredValue(const std::string& path, const std::string& section,
+                            const std::string& key) {
+  std::vector<std::string> faults;
+  Section values = readSections(path, faults)[section];
+  if (!faults.empty()) throw ConfigError(faults);
+  if (values.count(key) > 0) return values[key];
+  std::ostringstream text;
+  if (section == "tracker") {
+    writeDefault(TrackerConfig{}, key, text);
+    writeDefault(TrackerNodeConfig{}, key, text);
+  } else {
+    writeDefault(SlamConfig{}, key, text);
+    writeDefault(MapperNodeConfig{}, key, text);
+  }
+  return text.str();
 }
 
 }  // namespace ardrone_vslam

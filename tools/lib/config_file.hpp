@@ -26,4 +26,9 @@ struct PipelineConfig {
 /// ones of both sections), wrong type, range
 PipelineConfig loadConfig(const std::string& path, const std::vector<std::string>& overrides);
 
+/// A parameter of `tracker` or `mapper`, as the file writes it, else its default.
+/// @throws ConfigError for a file that cannot be read
+std::string configuredValue(const std::string& path, const std::string& section,
+                            const std::string& key);
+
 }  // namespace ardrone_vslam

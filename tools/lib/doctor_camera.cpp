@@ -59,6 +59,17 @@ Finding judgeCentre(const CameraIntrinsics& c, const std::string& which) {
   return finding;
 }
 
+Finding judgeRescaled(const DoctorCalibration& calibration, const std::string& which) {
+  const CameraIntrinsics& told = calibration.camera;
+  Finding finding = judgeCentre(usedCamera(calibration), which + "rescaled to ");
+  finding.verdict = Verdict::kWarning;
+  finding.text += text("; its K's centre, (", told.cx_px, ", ", told.cy_px,
+                       "), would suit an image of about ", std::lround(2 * told.cx_px), "x",
+                       std::lround(2 * told.cy_px), ", so K was made at another size");
+  finding.remedy = text("set rescale_calibration to true; or ", kCalibrate);
+  return finding;
+}
+
 /// Whether all pixels have a bearing.
 Finding judgeLens(const CameraIntrinsics& c, const std::string& which) {
   const CameraModel model(c);
@@ -118,6 +129,15 @@ bool isPlausible(const CameraIntrinsics& camera) {
   return offCentre(camera) <= kFarOffCentre;
 }
 
+bool needsRescaling(const DoctorCalibration& calibration) {
+  const bool is_usable = calibration.fault.empty() && isPlausible(calibration.camera);
+  return !is_usable && calibration.rescaled && isPlausible(*calibration.rescaled);
+}
+
+const CameraIntrinsics& usedCamera(const DoctorCalibration& calibration) {
+  return needsRescaling(calibration) ? *calibration.rescaled : calibration.camera;
+}
+
 Finding checkPairing(const DoctorRecording& recording) {
   Finding finding{"camera_info", Verdict::kOk, {}, {}};
   if (recording.images.empty() || recording.camera_info_topic.empty()) {
@@ -148,13 +168,20 @@ Findings checkCalibrations(const DoctorRecording& recording) {
     const DoctorCalibration& calibration = recording.calibrations[i];
     const std::string which =
         recording.calibrations.size() == 1 ? "" : text("calibration ", i + 1, ": ");
-    if (!calibration.fault.empty()) {
+    const bool is_rescaled = needsRescaling(calibration);
+    if (!calibration.fault.empty() && !is_rescaled) {
       findings.push_back({"calibration", Verdict::kFault, which + calibration.fault, kCalibrate});
       continue;
     }
     const Finding size = judgeSize(recording, i, which);
-    findings.push_back(size.check.empty() ? judgeCentre(calibration.camera, which) : size);
-    if (isPlausible(calibration.camera)) findings.push_back(judgeLens(calibration.camera, which));
+    if (!size.check.empty()) {
+      findings.push_back(size);
+    } else {
+      findings.push_back(is_rescaled ? judgeRescaled(calibration, which)
+                                     : judgeCentre(calibration.camera, which));
+    }
+    const CameraIntrinsics& camera = usedCamera(calibration);
+    if (isPlausible(camera)) findings.push_back(judgeLens(camera, which));
   }
   return findings;
 }

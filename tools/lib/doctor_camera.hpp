@@ -11,12 +11,18 @@ namespace ardrone_vslam {
 Finding checkPairing(const DoctorRecording& recording);
 
 /// What the tracker refuses, another size than the images', a principal point that is not near the
-/// middle as K was made at another size (`calibration`), a lens model that folds back within the
-/// image (`lens`).
+/// middle as K was made at another size (`calibration`; a warning where rescale_calibration helps),
+/// a lens model that folds back within the image (`lens`).
 Findings checkCalibrations(const DoctorRecording& recording);
 
 /// Whether it may be right for its size: a principal point near the middle.
 bool isPlausible(const CameraIntrinsics& camera);
+
+/// Whether it can be used by rescale_calibration only.
+bool needsRescaling(const DoctorCalibration& calibration);
+
+/// As the checks take it: rescaled where it needs to be.
+const CameraIntrinsics& usedCamera(const DoctorCalibration& calibration);
 
 /// Whether frame, size or calibration change in the recording (`camera_switch`).
 Finding checkCameraSwitch(const DoctorRecording& recording);

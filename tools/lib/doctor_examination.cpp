@@ -3,10 +3,16 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "../../nodes/checked.hpp"  // no ROS
+#include "config_file.hpp"
+#include "config_path.hpp"
 #include "doctor_camera.hpp"
 #include "doctor_frames.hpp"
 #include "doctor_height.hpp"
@@ -53,7 +59,7 @@ void nameVehicle(const DoctorRecording& recording, const std::vector<ObserverSta
   if (!recording.navdata_topic.empty() ||
       recording.base_frame.find("ardrone_base_link") != std::string::npos) {
     report.vehicle = "an AR.Drone";
-    report.config_file = "ardrone_front.yaml";
+    report.config_file = "ardrone.yaml";
   } else if (meanSpeed_m_s(odometry) > kCar_m_s) {
     report.vehicle = "a car";
     report.config_file = "kitti.yaml";
@@ -63,6 +69,48 @@ void nameVehicle(const DoctorRecording& recording, const std::vector<ObserverSta
         std::remove_if(report.parameters.begin(), report.parameters.end(), isNoise),
         report.parameters.end());
   }
+}
+
+std::optional<double> numberIn(const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  return text.empty() || *end != '\0' ? std::nullopt : std::optional<double>(number);
+}
+
+/// @param path  of a configuration; empty: the defaults
+bool isConfigured(const std::string& path, const SuggestedParameter& parameter) {
+  const std::string value = configuredValue(path, parameter.section, parameter.key);
+  const auto has = numberIn(value), wanted = numberIn(parameter.value);
+  const bool is_near = has && wanted && std::abs(*has - *wanted) <= parameter.tolerance;
+  return value == parameter.value || is_near;
+}
+
+/// What the configuration that is named, or the defaults, have already.
+void setApartConfigured(DoctorReport& report) {
+  const std::string path =
+      report.config_file.empty() ? std::string() : findConfigFile(report.config_file);
+  const auto isMissing = [&path](const auto& p) { return !isConfigured(path, p); };
+  const auto isOwn = [](const auto& p) { return !isConfigured({}, p); };
+  auto& parameters = report.parameters;
+  const auto configured = std::stable_partition(parameters.begin(), parameters.end(), isMissing);
+  std::copy_if(configured, parameters.end(), std::back_inserter(report.configured), isOwn);
+  parameters.erase(configured, parameters.end());
+}
+
+bool isFound(const Findings& findings, const std::string& check) {
+  return std::any_of(findings.begin(), findings.end(), [&check](const Finding& finding) {
+    return finding.check == check && finding.verdict == Verdict::kWarning;
+  });
+}
+
+/// Of the scale, for which a configuration may take navdata's.
+void suggestHeights(const DoctorRecording& recording, const Findings& findings,
+                    std::vector<SuggestedParameter>& parameters) {
+  const bool has_none = recording.navdata.empty();
+  if (!has_none && !isFound(findings, "navdata_height")) return;
+  const std::string reason = has_none ? "there is no navdata" : "navdata's height is no use";
+  parameters.push_back({"mapper", "use_navdata_height", "false", reason});
+  parameters.push_back({"mapper", "floor_points", "false", "they need a height"});
 }
 
 std::string shellWord(const std::string& word) {
@@ -124,15 +172,20 @@ DoctorReport examine(const DoctorRecording& recording,
   findings.push_back(checkClock(recording));
   findings.push_back(checkPairing(recording));
   append(findings, checkCalibrations(recording));
+  if (std::any_of(recording.calibrations.begin(), recording.calibrations.end(), needsRescaling)) {
+    parameters.push_back(
+        {"tracker", "rescale_calibration", "true", "K was made at another size than the images'"});
+  }
   findings.push_back(checkCameraSwitch(recording));
   findings.push_back(checkOdometryFrames(recording, parameters));
   append(findings, checkCameraTf(recording, report.static_transform));
   append(findings, checkOdometryValues(recording));
   append(findings, checkOdometryFields(recording, parameters));
   findings.push_back(checkOdometryYaw(recording, parameters));
-  const bool is_mirrored = !parameters.empty() && parameters.back().key == "observer_mode";
+  const bool is_mirrored = isFound(findings, "odometry_yaw") && parameters.back().value == "twist";
   append(findings, checkHeight(recording, parameters));
   append(findings, checkNavdataValues(recording));
+  suggestHeights(recording, findings, parameters);
   if (isNavdataTheObserver(recording)) {
     parameters.push_back(
         {"mapper", "observer_mode", "navdata", "there is no odometry; navdata and IMU make one"});
@@ -148,11 +201,17 @@ DoctorReport examine(const DoctorRecording& recording,
   const auto mountings = estimateMountings(recording, tracks, odometry.states);
   append(findings, checkDirections(mountings, recording.base_frame, report.static_transform));
   findings.push_back(checkTimeOffset(mountings, parameters));
+  if (!parameters.empty() && parameters.back().key == "image_time_offset_s") {
+    SuggestedParameter of_tracker = parameters.back();  // for use_attitude
+    of_tracker.section = "tracker";
+    parameters.push_back(of_tracker);
+  }
   nameVehicle(recording, odometry.states, report);
   if (isCompressed(recording)) {
     parameters.push_back({"tracker", "image_transport", "compressed", "there are no raw images"});
   }
   removeRepeated(parameters);
+  setApartConfigured(report);
   if (!recording.is_live && report.canWork()) report.replay = replayLine(recording, report);
   return report;
 }

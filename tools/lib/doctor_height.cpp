@@ -178,6 +178,7 @@ Findings checkHeight(const DoctorRecording& recording,
   const bool climbs =
       std::any_of(samples.begin(), samples.end(), [](const auto& s) { return s.climbed_m != 0; });
   if (!climbs) {
+    parameters.push_back({"mapper", "observer_height", "pose", "there is no vertical velocity"});
     return {metres,
             {"height_ground", Verdict::kNotChecked, "because there is no vertical velocity", {}}};
   }

@@ -222,13 +222,17 @@ Finding checkTimeOffset(const std::vector<CameraMounting>& mountings,
   const std::string offset_ms = text(rounded(std::abs(offset_s) * 1000, 0), " ms (deviation ",
                                      rounded(best->offset.deviation_s * 1000, 1), ")");
   finding.text = text("images ", offset_s < 0 ? "late" : "early", " by ", offset_ms);
-  if (std::abs(offset_s) < kSameTime_s) return finding;
+  if (std::abs(offset_s) < kSameTime_s) {
+    parameters.push_back({"mapper", "image_time_offset_s", "0",
+                          "images are stamped by the odometry's clock", kSameTime_s});
+    return finding;
+  }
   finding.verdict = Verdict::kWarning;
   finding.text = text("images are stamped ", offset_s < 0 ? "late" : "early", " by ", offset_ms,
                       " against the odometry");
   finding.remedy = "set image_time_offset_s";
   parameters.push_back({"mapper", "image_time_offset_s", rounded(offset_s, 3),
-                        "images are stamped by another clock, or late"});
+                        "images are stamped by another clock, or late", kSameTime_s});
   return finding;
 }
 

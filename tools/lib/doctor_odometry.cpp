@@ -211,8 +211,10 @@ Findings checkOdometryFields(const DoctorRecording& recording,
   if (has_none || !fault.empty()) {
     covariance.verdict = Verdict::kWarning;
     covariance.text = has_none ? "all zero" : fault;
-    covariance.remedy = "set walk_m_per_sqrt_m and walk_m_per_sqrt_s to how well it is known";
     const ObserverNoiseConfig noise;
+    covariance.remedy =
+        text("set walk_m_per_sqrt_m and walk_m_per_sqrt_s to how well it is known; the defaults, ",
+             noise.walk_m_per_sqrt_m, " and ", noise.walk_m_per_sqrt_s, ", are a drone's");
     parameters.push_back({"mapper", "walk_m_per_sqrt_m", text(noise.walk_m_per_sqrt_m),
                           "the odometry gives no covariance; a drone's"});
     parameters.push_back({"mapper", "walk_m_per_sqrt_s", text(noise.walk_m_per_sqrt_s), "so, too"});
@@ -245,6 +247,7 @@ Finding checkOdometryYaw(const DoctorRecording& recording,
     return !state->twist_base.head<3>().isZero(0);
   });
   if (!has_twist) {
+    parameters.push_back({"mapper", "observer_mode", "pose", "there is no twist"});
     return {"odometry_yaw", Verdict::kNotChecked, "because there is no twist", {}};
   }
   const std::vector<Ways> windows = waysOf(states);
@@ -274,6 +277,7 @@ Finding checkOdometryYaw(const DoctorRecording& recording,
                         " of way");
     if (unturned_m < kAgrees * wrong_m) finding.text += ", as the twist is in the axes of odom";
     finding.remedy = "keep observer_mode at pose; the twist must be in axes of base";
+    parameters.push_back({"mapper", "observer_mode", "pose", "the twist is not the pose's"});
   } else if (telling_m < kTelling_m) {
     return {"odometry_yaw",
             Verdict::kNotChecked,

@@ -36,8 +36,10 @@ struct DoctorImage {
 struct DoctorCalibration {
   CameraIntrinsics camera;  ///< as it stands there, zeros for an uncalibrated one
   std::string fault;        ///< why the tracker refuses it; empty: it does not
+  /// What rescale_calibration makes of it; nothing: the tracker refuses that, too.
+  std::optional<CameraIntrinsics> rescaled = std::nullopt;
   bool operator==(const DoctorCalibration& o) const {
-    return camera == o.camera && fault == o.fault;
+    return camera == o.camera && fault == o.fault && rescaled == o.rescaled;
   }
 };
 

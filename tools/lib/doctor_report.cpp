@@ -34,6 +34,14 @@ std::string yamlOf(const std::vector<SuggestedParameter>& parameters) {
   return yaml.str();
 }
 
+std::string configuredOf(const std::vector<SuggestedParameter>& parameters) {
+  std::string list;
+  for (const SuggestedParameter& parameter : parameters) {
+    list += (list.empty() ? ", which has " : ", ") + parameter.section + "/" + parameter.key;
+  }
+  return list;
+}
+
 }  // namespace
 
 const char* nameOf(Verdict verdict) {
@@ -70,7 +78,7 @@ std::string textOf(const DoctorReport& report) {
   }
   if (!report.vehicle.empty()) {
     text << "\nLooks like " << report.vehicle << ": begin with config/" << report.config_file
-         << '\n';
+         << configuredOf(report.configured) << '\n';
   }
   if (!report.parameters.empty()) text << "\nParameters:\n" << yamlOf(report.parameters);
   if (!report.replay.empty()) text << "\nReplay:\n" << report.replay << '\n';

@@ -32,6 +32,7 @@ struct SuggestedParameter {
   std::string key;
   std::string value;
   std::string reason;
+  double tolerance = 0;  ///< of a number: a configuration that is so near has it already
 };
 
 struct DoctorReport {
@@ -39,7 +40,8 @@ struct DoctorReport {
   Findings findings;    ///< in the order of the checks
   std::string vehicle;  ///< what the topics look like; empty: unknown
   std::string config_file;
-  std::vector<SuggestedParameter> parameters;
+  std::vector<SuggestedParameter> parameters;  ///< in which that file is to be changed
+  std::vector<SuggestedParameter> configured;  ///< the file's own that are asked for
   std::string replay;            ///< command line with all of this; empty: it cannot work, or live
   std::string static_transform;  ///< command line that corrects the mounting; empty: none
 

@@ -121,13 +121,13 @@ void chooseTopics(const DoctorTopicNames& names, DoctorRecording& recording) {
   }
   recording.odometry_topic =
       best(recording, {"--odometry-topic", {kOdometry}}, names.odometry, isObserver);
-  // Without odometry they are the observer, else replay does not look at them.
+  // Without odometry they are the observer, else replay looks at navdata's height only.
   const bool is_observer = recording.odometry_topic.empty();
   const auto option = [is_observer](const char* name) {
     return is_observer ? std::string(name) : std::string();
   };
-  recording.navdata_topic = best(recording, {option("--navdata-topic"), {kNavdata, kOwnNavdata}},
-                                 names.navdata, anyTopic);
+  recording.navdata_topic =
+      best(recording, {"--navdata-topic", {kNavdata, kOwnNavdata}}, names.navdata, anyTopic);
   if (recording.navdata_topic.empty() && names.imu.empty()) {
     recording.imu_topic.clear();
     return;

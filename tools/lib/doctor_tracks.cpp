@@ -88,8 +88,10 @@ Tracks trackImages(const DoctorRecording& recording,
     const auto calibration = calibrationOf(recording, i);
     if (!image.fault.empty() || !calibration || image.time.stamp_ns <= newest_ns) continue;
     const DoctorCalibration& c = recording.calibrations[*calibration];
-    if (!c.fault.empty() || !isPlausible(c.camera) || c.camera.width_px != image.width_px ||
-        c.camera.height_px != image.height_px) {
+    const CameraIntrinsics& intrinsics = usedCamera(c);
+    const bool is_refused = !c.fault.empty() && !needsRescaling(c);
+    if (is_refused || !isPlausible(intrinsics) || intrinsics.width_px != image.width_px ||
+        intrinsics.height_px != image.height_px) {
       continue;
     }
     const cv::Mat grey = recording.grey(i);
@@ -98,7 +100,7 @@ Tracks trackImages(const DoctorRecording& recording,
       continue;
     }
     newest_ns = image.time.stamp_ns;
-    camera.see(grey, image.frame, c.camera, newest_ns, tracks.cameras);
+    camera.see(grey, image.frame, intrinsics, newest_ns, tracks.cameras);
     ++tracks.looked_at;
   }
   return tracks;

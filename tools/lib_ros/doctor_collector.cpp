@@ -56,6 +56,9 @@ void DoctorCollector::see(const sensor_msgs::CameraInfo& message, std::int64_t r
   DoctorCalibration calibration;
   calibration.camera = checked.value.value_or(rawIntrinsics(message));
   calibration.fault = checked.fault;
+  CameraInfoUse rescaling;
+  rescaling.rescale = true;
+  calibration.rescaled = toIntrinsics(message, rescaling).value;
   auto& known = recording_.calibrations;
   auto same = std::find(known.begin(), known.end(), calibration);
   if (same == known.end()) same = known.insert(known.end(), calibration);
