@@ -193,10 +193,13 @@ DoctorReport examine(const DoctorRecording& recording,
 
   const Tracks tracks = trackImages(recording, progress);
   findings.push_back(aboutTracks(recording, tracks));
+  // Whole metres are no motion to hold against the images.
+  const ObserverHeight height =
+      isFound(findings, "height_metres") ? ObserverHeight::kTwist : ObserverHeight::kPose;
   const AdaptedOdometry odometry =
       isNavdataTheObserver(recording)
           ? observeNavdata(recording)
-          : adapt(recording, is_mirrored ? ObserverMode::kTwist : ObserverMode::kPose);
+          : adapt(recording, is_mirrored ? ObserverMode::kTwist : ObserverMode::kPose, height);
   findings.push_back(checkMoves(recording, tracks, odometry.states));
   const auto mountings = estimateMountings(recording, tracks, odometry.states);
   append(findings, checkDirections(mountings, recording.base_frame, report.static_transform));

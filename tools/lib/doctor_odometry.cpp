@@ -147,9 +147,10 @@ Finding checkUnit(const DoctorRecording& recording) {
 
 }  // namespace
 
-AdaptedOdometry adapt(const DoctorRecording& recording, ObserverMode mode) {
+AdaptedOdometry adapt(const DoctorRecording& recording, ObserverMode mode, ObserverHeight height) {
   ObserverAdapterConfig config;
   config.mode = mode;
+  config.height = height;
   ObserverAdapter adapter(config);
   AdaptedOdometry adapted;
   std::vector<ObserverState> ready;

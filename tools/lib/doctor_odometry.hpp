@@ -15,7 +15,8 @@ struct AdaptedOdometry {
   std::size_t refused = 0;  ///< messages that are not finite or out of bounds
   std::size_t refused_imu = 0;
 };
-AdaptedOdometry adapt(const DoctorRecording& recording, ObserverMode mode);
+AdaptedOdometry adapt(const DoctorRecording& recording, ObserverMode mode,
+                      ObserverHeight height = ObserverHeight::kPose);
 
 /// Numbers that are none or cannot be (`odometry_values`), positions that jump or begin anew
 /// (`odometry_jumps`), that are not in metres (`odometry_unit`).
