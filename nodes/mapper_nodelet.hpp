@@ -25,7 +25,7 @@
 namespace ardrone_vslam {
 
 /// Features and odometry in, fused pose and map out. All callbacks run in the nodelet's
-/// single-threaded queue, so nothing here is locked; only tf's listener has a thread of its own.
+/// single-threaded queue, so nothing here is locked; only TfInput has a thread of its own.
 class MapperNodelet : public nodelet::Nodelet {
  private:
   void onInit() override;

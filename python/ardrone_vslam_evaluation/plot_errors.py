@@ -77,7 +77,7 @@ def draw_nees(rows):
 def draw_nis(rows):
     known = [row for row in rows if row.numbers.get("nis")]
     if not known:
-        raise LeftOut("frames.csv lacks fix_nis (the filter of the thesis has no fixes in that sense)")
+        raise LeftOut("frames.csv lacks fix_nis (record_run does not write it; the filter of the thesis has no fixes in that sense)")
     look = looks(rows)
     figure, (axes,) = panels(1, 3.2)
     axes.axhline(1, color=TRUTH, linewidth=1, linestyle="--", label="honest: 1")

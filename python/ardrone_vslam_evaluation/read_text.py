@@ -55,16 +55,21 @@ def numbers(path, number, words):
     return values
 
 
+def append_stamp(stamps, path, number, word):
+    """Stamps must ascend."""
+    try:
+        stamps.append(stamp_ns(word))
+    except ValueError:
+        raise fault(path, number, f"the stamp '{word}' is no number") from None
+    if len(stamps) > 1 and stamps[-1] <= stamps[-2]:
+        raise fault(path, number, f"the stamp {word} s does not come after the one before")
+
+
 def read_times(path):
     """A stamp [s] a line, ascending; nanoseconds."""
     stamps = []
     for number, words in lines_of(path):
-        try:
-            stamps.append(stamp_ns(words[0]))
-        except ValueError:
-            raise fault(path, number, f"the stamp '{words[0]}' is no number") from None
-        if len(stamps) > 1 and stamps[-1] <= stamps[-2]:
-            raise fault(path, number, f"the stamp {words[0]} s does not come after the one before")
+        append_stamp(stamps, path, number, words[0])
     return np.array(stamps, dtype=np.int64)
 
 
@@ -83,12 +88,7 @@ def read_tum(path):
     for number, words in lines_of(path):
         if len(words) != TUM_VALUES:
             raise fault(path, number, f"{len(words)} values where 8 are expected: stamp tx ty tz qx qy qz qw")
-        try:
-            stamps.append(stamp_ns(words[0]))
-        except ValueError:
-            raise fault(path, number, f"the stamp '{words[0]}' is no number") from None
-        if len(stamps) > 1 and stamps[-1] <= stamps[-2]:
-            raise fault(path, number, f"the stamp {words[0]} s does not come after the one before")
+        append_stamp(stamps, path, number, words[0])
         row = numbers(path, number, words[1:])
         norm = math.hypot(*row[3:])
         if abs(norm - 1) > 0.01:
