@@ -105,8 +105,8 @@ def task_of_sequence(sequence, programs, work):
                 f"rm -rf {quoted}" + (f" && mkdir {quoted}" if sequence.bag else ""))
 
 
-def task_of_job(job, sequence_folder, sequence_key, programs, work):
-    folder = os.path.join(work, "runs", *job.parts())
+def task_of_job(job, sequence_folder, sequence_key, programs, runs):
+    folder = os.path.join(runs, *job.parts())
     options = ["--observer-profile", job.profile, "--estimator", job.estimator, "--seeds", job.seeds, *job.sequence.replay]
     options += [word for setting in job.settings for word in ("--set", setting)]
     command = [programs.replay, job.sequence.output_in(sequence_folder), *options, "--threads", "1", "--out", folder]
@@ -148,14 +148,14 @@ def run_tasks(tasks, what, work, jobs, logins):
     return failed
 
 
-def run_jobs(jobs, programs, work, parallel_jobs, logins):
-    """Renders what lacks, then runs. @return ({job: its folder}, texts about what failed)"""
+def run_jobs(jobs, programs, work, parallel_jobs, logins, runs="runs"):
+    """Renders what lacks, then runs, into a folder of that name. @return ({job: its folder}, texts about what failed)"""
     sequences = {job.sequence.name: job.sequence for job in jobs}.values()
     rendering = {s.name: task_of_sequence(s, programs, work) for s in sequences if s.flight}
     faults = run_tasks(list(rendering.values()), "sequences to render", work, parallel_jobs, logins)
     places = {s.name: (s.folder, fingerprint_of_folder(s.folder)) for s in sequences if not s.flight}
     places.update({name: (task.folder, task.key) for name, task in rendering.items() if task not in faults})
-    tasks = {job: task_of_job(job, *places[job.sequence.name], programs, work) for job in jobs if job.sequence.name in places}
+    tasks = {job: task_of_job(job, *places[job.sequence.name], programs, os.path.join(work, runs)) for job in jobs if job.sequence.name in places}
     faults = faults + run_tasks(list(tasks.values()), "runs", work, parallel_jobs, logins)
     return ({job: task.folder for job, task in tasks.items() if task not in faults},
             [f"{task.name}: failed, see {task.log()}" for task in faults])

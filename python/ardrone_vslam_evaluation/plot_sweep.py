@@ -64,6 +64,11 @@ def legend_above(figure, shown):
     figure.legend(shown.values(), shown.keys(), loc="upper center", ncol=max(len(shown), 1), fontsize=8, frameon=False)
 
 
+def label_rows(axes, text):
+    for one in axes[::COLUMNS]:
+        one.set_ylabel(text, fontsize=7)
+
+
 def draw_errors(group, results, colours):
     figure, axes = panels(len(group.panels), PANEL_HEIGHT_IN, COLUMNS)
     shown = {}
@@ -85,24 +90,26 @@ def draw_errors(group, results, colours):
              "default": plt.Line2D([], [], color=TRUTH, linewidth=0.9, linestyle=":")}
     shown.update(marks)
     legend_above(figure, shown)
-    figure.supylabel("position error,\ntimes that at the defaults", fontsize=8, ha="center")
+    label_rows(axes, "error, times\nthe default's")
     return figure
 
 
-def draw_costs(chosen, cases, results, colours):
+def draw_costs(costs, colours):
+    """@param costs {(panel, case, point): ms of an image}"""
+    chosen = list(dict.fromkeys(panel for panel, _, _ in costs))
     figure, axes = panels(len(chosen), PANEL_HEIGHT_IN, COLUMNS)
     shown = {}
     for one, panel in zip(axes, chosen):
         prepare(one, panel)
         for case, points in panel.lines:
-            known = [point for point in points if (case, point) in results]
-            if case.name in cases and known:
-                one.plot(positions(panel, known), [results[case, point].ms for point in known], "o-", color=colours[case.name], markersize=4,
+            known = [point for point in points if (panel, case, point) in costs]
+            if known:
+                one.plot(positions(panel, known), [costs[panel, case, point] for point in known], "o-", color=colours[case.name], markersize=4,
                          linewidth=1.2)
                 shown[case.name] = plt.Line2D([], [], color=colours[case.name], marker="o", markersize=4)
-        one.set_ylim(bottom=0)
+        one.set_ylim(0, 1.1 * one.get_ylim()[1])
+    label_rows(axes, "an image,\nmedian [ms]")
     legend_above(figure, shown)
-    figure.supylabel("an image,\nmedian [ms]", fontsize=8, ha="center")
     return figure
 
 

@@ -75,7 +75,6 @@ class Measured:
     ratios: tuple
     relative: tuple
     outside: float
-    ms: float
 
     def ratio(self):
         return float(np.median(self.ratios))
@@ -191,6 +190,17 @@ def measure(groups, folders):
             for point, (values, runs) in ratios.items():
                 outside = [run.get("outside_3_sigma") for run in runs]
                 result[case, point] = Measured(tuple(values), tuple(v / b for v, b in zip(values, base)),
-                                               None if None in outside else float(np.median(outside)),
-                                               float(np.median([run["ms_per_frame_median"] for run in runs])))
+                                               None if None in outside else float(np.median(outside)))
     return result
+
+
+def cost_jobs(plan):
+    """{(panel, case, point): job} of what takes time: one seed, as they run alone."""
+    panels = [panel for name in plan.cost_parameters for group in plan.groups for panel in group.panels if panel.name == name]
+    return {(panel, case, point): replace(point.job, seeds="1:1") for panel in panels for case, points in panel.lines
+            if case.name in plan.cost_cases for point in points}
+
+
+def costs(jobs, folders):
+    """{(panel, case, point): ms of an image}"""
+    return {key: read_summary(os.path.join(folders[job], "summary.json"))["ms_per_frame_median"] for key, job in jobs.items() if job in folders}

@@ -47,6 +47,9 @@ def run_tuning(arguments, source, work):
     known = of_replay(read_page(programs.parameters_page()))
     plan = sweep.read_plan(os.path.join(source, "docs", "tuning_sweep.json"), known, os.environ.get("ARDRONE_VSLAM_DATA"), arguments.seeds, config)
     results, faults = measured(plan.groups, programs, work, arguments)
+    timed = sweep.cost_jobs(plan)
+    timed_folders, timed_faults = run_jobs(list(dict.fromkeys(timed.values())), programs, work, "1", [], "timed")
+    costs, faults = sweep.costs(timed, timed_folders), faults + timed_faults
     docs = os.path.join(source, "docs") if arguments.update and not faults else os.path.join(work, "docs")
     os.makedirs(docs, exist_ok=True)
     pictures = {group.name: f"images/tuning_{group.name}.png" for group in plan.groups}
@@ -54,8 +57,7 @@ def run_tuning(arguments, source, work):
     colours = plot_sweep.colours_of(plan.groups)
     for group in plan.groups:
         plot_sweep.save(plot_sweep.draw_errors(group, results, colours), os.path.join(docs, pictures[group.name]))
-    chosen = [panel for name in plan.cost_parameters for group in plan.groups for panel in group.panels if panel.name == name]
-    plot_sweep.save(plot_sweep.draw_costs(chosen, plan.cost_cases, results, colours), os.path.join(docs, pictures["cost"]))
+    plot_sweep.save(plot_sweep.draw_costs(costs, colours), os.path.join(docs, pictures["cost"]))
     write(os.path.join(work, "tuning_runs.md"), f"# All runs of the sweep\n\n{sweep_page.full_table(plan.groups, results)}")
     path = os.path.join(source, "docs", "tuning.md")
     try:

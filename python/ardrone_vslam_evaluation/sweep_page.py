@@ -9,6 +9,7 @@ from .faults import InputFault
 from .parameters import is_same
 
 SMALLEST_CLEAR = 0.05  # an error that changes by less, in the median of the seeds, counts as none
+ENOUGH, OTHERWISE_CLEAR = 40, 0.1  # so many runs tell the scatter; with fewer, chosen to have an effect, it is taken for this
 DEVIATIONS = 2.5  # nor does one within so many deviations of what a case's error changes with most parameters
 BEGIN, END = "<!-- measured: written by scripts/evaluate_all --tuning --update -->", "<!-- end of what is measured -->"
 
@@ -45,16 +46,18 @@ def scatter(results):
         changes.setdefault(case.name, [])
         if not point.is_base and measured.change() not in (0, 1):
             changes[case.name].append(abs(np.log(measured.change())))
-    return {name: max(1 + SMALLEST_CLEAR, float(np.exp(DEVIATIONS * 1.4826 * np.median(values)))) if values else 1 + SMALLEST_CLEAR
+    return {name: max(1 + SMALLEST_CLEAR, float(np.exp(DEVIATIONS * 1.4826 * np.median(values)))) if len(values) >= ENOUGH else 1 + OTHERWISE_CLEAR
             for name, values in changes.items()}
 
 
 def effects(panel, results, limits):
-    """(change, value, case's name) of those beyond the scatter, in all seeds on the same side."""
+    """(change, value, case's name) of those beyond the scatter, with no seed that goes clearly the other way."""
     found = []
     for case, point in ((case, point) for case, points in panel.lines for point in points if not point.is_base):
-        measured = results.get((case, point))
-        if measured is not None and (min(measured.relative) > 1 or max(measured.relative) < 1) and size(measured.change()) > limits[case.name]:
+        measured, limit = results.get((case, point)), limits.get(case.name)
+        if measured is None or size(measured.change()) <= limit:
+            continue
+        if min(measured.relative) > 1 / limit if measured.change() > 1 else max(measured.relative) < limit:
             found.append((measured.change(), point.value, case.name))
     return found
 
@@ -109,8 +112,8 @@ def names(panels):
 
 def cases_table(groups, results, limits):
     cases = list(dict.fromkeys(case for group in groups for panel in group.panels for case, _ in panel.lines))
-    bases = {}
-    for case, point in results:
+    bases = {}  # those without a panel's own settings
+    for case, point in sorted(results, key=lambda key: len(key[0].job.settings)):
         if point.is_base:
             bases.setdefault(case.name, results[case, point])
     text = head(["on", "what it is", "odometry", "fused / observer", "images outside 3 sigma [%]", "a clear change is beyond"], 3)

@@ -96,8 +96,8 @@ class ResultsTest(unittest.TestCase):
             folders[job] = f"{self.folders.name}/{len(folders)}"
             os.makedirs(folders[job], exist_ok=True)
             with open(f"{folders[job]}/summary.json", "w") as file:
-                json.dump({"runs": [{"ratio_scale_removed": v, "outside_3_sigma": outside if job.settings == ("threshold=20",) else 0,
-                                     "ms_per_frame_median": 2} for v in values]}, file)
+                share = outside if job.settings == ("threshold=20",) else 0
+                json.dump({"runs": [{"ratio_scale_removed": value, "outside_3_sigma": share} for value in values]}, file)
         return sweep.measure([self.group], folders)
 
     def test_change_is_that_of_each_seed(self):
@@ -109,16 +109,22 @@ class ResultsTest(unittest.TestCase):
         self.assertTrue(by_value["threshold", "20"].is_overconfident())
         threshold, oriented = self.group.panels
         limits = sweep_page.scatter(results)
-        self.assertAlmostEqual(limits["room drone constraint"], 1.5 ** (2.5 * 1.4826), msg="of the one change that there is")
-        self.assertEqual(sweep_page.effects(threshold, results, {"room drone constraint": 1.05}), [], "one seed of two did not change")
+        self.assertEqual(limits, {"room drone constraint": 1.1}, "too few to tell")
+        self.assertEqual(sweep_page.effects(threshold, results, limits), [(1.5, "20", "room drone constraint")])
         self.assertEqual(sweep_page.overconfident(threshold, results), "20 (room drone constraint)")
         self.assertTrue(sweep_page.changes_nothing(oriented, results))
         table = sweep_page.table_of_group(self.group, results, limits)
-        self.assertIn("| `threshold` | 35 | 20, 50 | - | - | 20 (room drone constraint) |", table)
+        self.assertIn("| `threshold` | 35 | 20, 50 | - | 1.50: 20 (room drone constraint) | 20 (room drone constraint) |", table)
         self.assertNotIn("oriented", table)
         self.assertIn("| `threshold` | room drone constraint | 50 | - |", sweep_page.full_table([self.group], results))
 
-    def test_clear_effects_are_beyond_the_scatter_in_all_seeds(self):
+    def test_scatter_is_that_of_most_runs(self):
+        many = {(case(), sweep.Point(str(i), case().job, False)): sweep.Measured((1,), (1.02 ** (-1) ** i,), 0) for i in range(60)}
+        self.assertAlmostEqual(sweep_page.scatter(many)["room"], 1.02 ** (2.5 * 1.4826))
+        few_strong = {(case(), sweep.Point(str(i), case().job, False)): sweep.Measured((1,), (3.0,), 0) for i in range(100, 120)}
+        self.assertAlmostEqual(sweep_page.scatter({**many, **few_strong})["room"], 1.02 ** (2.5 * 1.4826))
+
+    def test_clear_effects_are_beyond_the_scatter_and_no_seed_contradicts(self):
         results = self.measured({(): [0.1, 0.4], ("threshold=20",): [0.2, 0.5], ("threshold=50",): [0.09, 0.2], ("oriented=false",): [0.101, 0.4]})
         limits = {"room drone constraint": 1.3}
         threshold, oriented = self.group.panels
@@ -129,6 +135,9 @@ class ResultsTest(unittest.TestCase):
         self.assertIn("| `threshold` | 35 | 20, 50 | 0.70: 50 (room drone constraint) | 1.62: 20 (room drone constraint) | - |",
                       sweep_page.table_of_group(self.group, results, limits))
         self.assertEqual(sweep_page.effects(threshold, results, {"room drone constraint": 1.7}), [])
+        contradicting = self.measured({(): [0.1, 0.4], ("threshold=20",): [0.3, 0.3]})
+        self.assertEqual(sweep_page.effects(threshold, contradicting, {"room drone constraint": 1.3}), [])
+        self.assertEqual(len(sweep_page.effects(threshold, contradicting, {"room drone constraint": 1.4})), 1)
 
     def test_only_the_measured_part_of_the_page_changes(self):
         page = f"before\n{sweep_page.BEGIN}\nold\n{sweep_page.END}\nafter\n"
