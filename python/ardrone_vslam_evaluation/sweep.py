@@ -171,16 +171,21 @@ def jobs_of(groups):
                               for job in (case.job, *(point.job for point in points))))
 
 
+def runs_in(folder):
+    """What summary.json says of each seed."""
+    summary = read_summary(os.path.join(folder, "summary.json"))
+    return summary.get("runs", [summary])
+
+
 def measure(groups, folders):
     """{(case, point): Measured} of what could be run and has a ratio in all seeds."""
-    summaries = {job: read_summary(os.path.join(folder, "summary.json")) for job, folder in folders.items()}
+    runs_of_job = {job: runs_in(folder) for job, folder in folders.items()}
     result = {}
     for group in groups:
         for case, points in (line for panel in group.panels for line in panel.lines):
             ratios = {}
             for point in points:
-                summary = summaries.get(point.job)
-                runs = [] if summary is None else summary.get("runs", [summary])
+                runs = runs_of_job.get(point.job, [])
                 values = [run.get(case.measure) for run in runs]
                 if values and None not in values:
                     ratios[point] = values, runs
@@ -203,4 +208,4 @@ def cost_jobs(plan):
 
 def costs(jobs, folders):
     """{(panel, case, point): ms of an image}"""
-    return {key: read_summary(os.path.join(folders[job], "summary.json"))["ms_per_frame_median"] for key, job in jobs.items() if job in folders}
+    return {key: runs_in(folders[job])[0]["ms_per_frame_median"] for key, job in jobs.items() if job in folders}
