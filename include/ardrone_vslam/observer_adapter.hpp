@@ -52,6 +52,7 @@ void visitParameters(ObserverAdapterConfig& c, Visitor&& visit) {
 /// repairs what it can and counts it. Deterministic: the stamps are its only clock.
 class ObserverAdapter {
  public:
+  /// @throws ConfigError listing every parameter out of its range
   explicit ObserverAdapter(const ObserverAdapterConfig& config);
 
   /// One message, as it came: its position may be out of bounds. From the first burst of equal
@@ -67,6 +68,7 @@ class ObserverAdapter {
   /// nonsense.
   static bool isBeyondAllJumps(const ObserverState& message);
 
+  /// What was wrong with the messages so far, by cause.
   const OdometryFaultCounts& faults() const { return faults_; }
 
  private:
