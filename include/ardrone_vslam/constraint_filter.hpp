@@ -217,11 +217,11 @@ class ConstraintFilter {
   double scaleDeviation() const;
   /// Of the last frame's height.
   HeightOutcome heightOutcome() const { return height_outcome_; }
-  /// Of the last frame: tracks with enough parallax, and those of them that agreed and were used.
+  /// Of the last frame: tracks with enough parallax.
   int candidates() const { return candidates_; }
   /// Whether the newest frame is a keyframe.
   bool isKeyframe() const { return newest_is_keyframe_; }
-  /// Those of candidates() that agreed.
+  /// Those of candidates() that agreed and were used.
   int used() const { return static_cast<int>(used_.size()); }
   /// Squared deviations of the fixes over what the covariance says of them, mean of the last ten or
   /// so: 1 is honest.

@@ -100,7 +100,7 @@ struct PositionFix {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();    ///< of it [m^2]
 };
 
-/// The thesis's localisation (ch. 6): weighted mean of the positions that each landmark gives,
+/// The thesis's localisation (chapter 6): weighted mean of the positions that each landmark gives,
 /// fused with the observer's prediction by a Kalman filter. Orientation is the observer's, taken as
 /// drift-free.
 class ThesisFilter {
