@@ -28,9 +28,8 @@ struct CameraIntrinsics {
   bool operator==(const CameraIntrinsics& other) const;
 };
 
-/// Focal lengths of cameras, in image widths: fields of view of 169 and 1.1 degrees.
-constexpr double kShortestFocal = 0.05;
-constexpr double kLongestFocal = 50;
+constexpr double kShortestFocal = 0.05;  ///< [image widths], a field of view of 169 degrees
+constexpr double kLongestFocal = 50;     ///< [image widths], a field of view of 1.1 degrees
 
 /// What cannot be a camera, and what helps: size, values not finite, focal length, principal point
 /// outside the image, distortion that folds back or moves pixels by more than a fifth already

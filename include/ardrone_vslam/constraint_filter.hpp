@@ -156,17 +156,17 @@ struct UsedTrack {
   std::uint32_t anchor_id = 0;  ///< the frame whose error the point shares
   /// Of the point beside its anchor, by the noise of the rays and the errors of the frames.
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
-  /// By what share the odometry's velocity error may have stretched the baseline, and so all that
-  /// was seen along it.
+  /// Share by which the odometry's velocity error may have stretched the baseline.
   double stretch_deviation = 0;
 };
 
+/// What became of the landmarks of earlier visits that a frame shows.
 enum class FixOutcome {
-  kNone,
-  kNotNeeded,
-  kApplied,
+  kNone,       ///< too few of them agree
+  kNotNeeded,  ///< they agree with the pose, whose drift since the last fix is too small to matter
+  kApplied,    ///< they corrected the pose
   kRelocated,  ///< applied, by landmarks found in wide windows
-  kRejected
+  kRejected    ///< they disagree with the pose by more than the gate
 };
 
 /// Fuses the observer with the camera: every track constrains, once, the frames that saw it,

@@ -109,7 +109,11 @@ class DroneFilter {
     kSize = 17
   };
   /// Where attitude and force of a time come from: of a hole they are guessed.
-  enum class Known { kMeasured, kCommanded, kInterpolated };
+  enum class Known {
+    kMeasured,     ///< a packet's
+    kCommanded,    ///< what cmd_vel told the drone to do
+    kInterpolated  ///< between the packets around the hole
+  };
   /// Means, placed by Index.
   using State = Eigen::Matrix<double, kSize, 1>;
   /// Of the State's errors, placed by Index.

@@ -62,8 +62,12 @@ struct RangeReading {
 /// The height of base above the floor at image stamps.
 class HeightInput {
  public:
-  /// Whether a reading is taken, and why not: no echo, or a stamp that goes back.
-  enum class Push { kAccepted, kOutOfRange, kNotAscending };
+  /// Whether a reading is taken, and why not.
+  enum class Push {
+    kAccepted,
+    kOutOfRange,   ///< no echo: not finite, or outside the sensor's own bounds
+    kNotAscending  ///< its stamp is not after the one before
+  };
 
   /// @param buffer_s  ranges are kept for so long
   HeightInput(const HeightInputConfig& config, double buffer_s);

@@ -13,13 +13,22 @@
 
 namespace ardrone_vslam {
 
-enum class ObserverMode { kPose, kTwist, kNavdata };
+/// What of the observer is believed.
+enum class ObserverMode {
+  kPose,    ///< the odometry's pose
+  kTwist,   ///< its twist, integrated anew, and its orientation
+  kNavdata  ///< the drone's own packets (DroneObserver)
+};
 template <>
 struct EnumNames<ObserverMode> {
   static constexpr std::array<const char*, 3> kNames{"pose", "twist", "navdata"};
 };
 
-enum class ObserverHeight { kPose, kTwist };
+/// Where z comes from with ObserverMode::kTwist.
+enum class ObserverHeight {
+  kPose,  ///< the pose's, without the steps of furniture below
+  kTwist  ///< integrated as x and y are
+};
 template <>
 struct EnumNames<ObserverHeight> {
   static constexpr std::array<const char*, 2> kNames{"pose", "twist"};

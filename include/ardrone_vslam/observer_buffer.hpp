@@ -74,9 +74,21 @@ void visitParameters(ObserverBufferConfig& c, Visitor&& visit) {
 class ObserverBuffer {
  public:
   /// Whether a state is taken, and why not.
-  enum class Push { kAccepted, kNotFinite, kOutOfRange, kDuplicateStamp, kBackwardStamp };
-  /// Whether there is a state at a stamp, and why not: see at().
-  enum class Lookup { kFound, kEmpty, kTooOld, kNotYet, kGap };
+  enum class Push {
+    kAccepted,
+    kNotFinite,       ///< a number of it
+    kOutOfRange,      ///< rangeFault() says what
+    kDuplicateStamp,  ///< that of the state before
+    kBackwardStamp    ///< before that of the state before
+  };
+  /// Whether there is a state at a stamp, and why not.
+  enum class Lookup {
+    kFound,
+    kEmpty,   ///< no state has come
+    kTooOld,  ///< the stamp is before the first state kept
+    kNotYet,  ///< no state at or after the stamp has come
+    kGap      ///< the states on both sides are further apart than max_gap_s
+  };
 
   /// @throws ConfigError listing every parameter out of its range
   explicit ObserverBuffer(const ObserverBufferConfig& config);

@@ -11,6 +11,7 @@
 #include "ardrone_vslam/slam_config.hpp"
 #include "ardrone_vslam/stages.hpp"
 
+/// The library: from images and odometry to a pose and a map, without ROS and OpenCV.
 namespace ardrone_vslam {
 
 /// What a frame's pose rests on; `explain` gives the sentence for users.
@@ -28,6 +29,7 @@ enum class SlamState {
   kDistrusted,    ///< constraint filter: camera and odometry contradict each other, the pose is the
                   ///< observer's (Watchdog)
 };
+/// As in Status and frames.csv, by the enumerators' order.
 constexpr std::array<const char*, 11> kSlamStateNames{
     "building_map", "localised", "too_few_landmarks", "fix_rejected", "observer_only", "not_finite",
     "tracking",     "resting",   "rotating",          "relocated",    "distrusted"};
