@@ -160,15 +160,6 @@ struct UsedTrack {
   double stretch_deviation = 0;
 };
 
-/// What became of the landmarks of earlier visits that a frame shows.
-enum class FixOutcome {
-  kNone,       ///< too few of them agree
-  kNotNeeded,  ///< they agree with the pose, whose drift since the last fix is too small to matter
-  kApplied,    ///< they corrected the pose
-  kRelocated,  ///< applied, by landmarks found in wide windows
-  kRejected    ///< they disagree with the pose by more than the gate
-};
-
 /// Fuses the observer with the camera: every track constrains, once, the frames that saw it,
 /// without a landmark in the state; landmarks of earlier visits correct the drift since, and are
 /// themselves taken along with what is corrected; while the image is still and no such landmark is
@@ -250,6 +241,15 @@ class ConstraintFilter {
   void forgetCamera();
   void watchForRest(const ImageFeatures& features);
   bool holdStill(std::size_t reference);
+  /// Where nothing else tells the drift: the camera has moved by no more than the image shows in a
+  /// scene that is rest_depth_m away, so a hovering drone stays though its odometry drifts.
+  void holdToScene(const ImageFeatures& features);
+  /// The way since a frame of the window is not longer than this across the view.
+  void limitWay(std::size_t frame, double across_m);
+  /// How well the turn since a frame of the window is known, per axis.
+  double turnDeviation_rad(std::size_t frame) const;
+  /// By landmarks of earlier visits.
+  bool isLocated() const;
   void makeReference();
   void forgetReference();
   std::optional<std::size_t> frameOf(std::uint32_t id) const;

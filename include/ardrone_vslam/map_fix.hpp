@@ -50,6 +50,15 @@ struct MapFix {
   double distance() const;
 };
 
+/// What became of the landmarks of earlier visits that a frame shows.
+enum class FixOutcome {
+  kNone,       ///< too few of them agree
+  kNotNeeded,  ///< they agree with the pose, whose drift since the last fix is too small to matter
+  kApplied,    ///< they corrected the pose
+  kRelocated,  ///< applied, by landmarks found in wide windows
+  kRejected    ///< they disagree with the pose by more than the gate
+};
+
 /// @param independent  the landmarks' errors are alike in groups: their fix is not taken as better
 /// than so many independent ones make it
 MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
