@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// flight_poses FLIGHT [NAME=VALUE...]: tracker and Slam over a packed flight (pack_flight), a line
-// for each image on standard output: stamp, fused pose, state, features, landmarks. Nothing but the
-// core, so that it runs cross-compiled; the parameters are those of docs/parameters.md.
+// flight_poses FLIGHT [mark_stages] [NAME=VALUE...]: tracker and Slam over a packed flight
+// (pack_flight), a line for each image on standard output: stamp, fused pose, state, features,
+// landmarks. Nothing but the core, so that it runs cross-compiled; the parameters are those of
+// docs/parameters.md. With mark_stages the emulator's plugin (benchmark/drone) is told the stages.
+#include <unistd.h>
+
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
@@ -108,10 +111,18 @@ class Flight {
 };
 
 void run(int argc, char** argv) {
-  if (argc < 2) throw std::runtime_error("usage: flight_poses FLIGHT [NAME=VALUE...]");
+  if (argc < 2)
+    throw std::runtime_error("usage: flight_poses FLIGHT [mark_stages] [NAME=VALUE...]");
   TrackerConfig tracker_config;
   SlamConfig slam_config;
-  for (int i = 2; i < argc; ++i) set(argv[i], tracker_config, slam_config);
+  StageHook hook;
+  for (int i = 2; i < argc; ++i) {
+    if (std::strcmp(argv[i], "mark_stages") == 0) {
+      hook = [](Stage stage) { close(-1000 - static_cast<int>(stage)); };  // no such file
+    } else {
+      set(argv[i], tracker_config, slam_config);
+    }
+  }
 
   Flight flight(argv[1]);
   Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();  // base looks along its x
@@ -123,8 +134,8 @@ void run(int argc, char** argv) {
   ObserverState state;
   for (std::int64_t stamp_ns; (stamp_ns = flight.next(buffer)) >= 0;) {
     if (buffer.at(stamp_ns, state) != ObserverBuffer::Lookup::kFound) continue;
-    tracker.process(flight.image(), stamp_ns, features);
-    const FrameResult& result = slam.process(features, state);
+    tracker.process(flight.image(), stamp_ns, features, hook);
+    const FrameResult& result = slam.process(features, state, hook);
     const Eigen::Vector3d p = result.T_map_base.translation();
     const Eigen::Quaterniond q(result.T_map_base.linear());
     std::printf("%" PRId64 " %.9f %.9f %.9f %.9f %.9f %.9f %.9f %s %d %d\n", result.stamp_ns, p.x(),
