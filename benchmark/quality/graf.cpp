@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graf.hpp"
 
-#include <fstream>
-#include <stdexcept>
-
 #include "feature_methods.hpp"
 #include "picture_changes.hpp"
 #include "source_images.hpp"
@@ -12,18 +9,6 @@ namespace ardrone_vslam::quality {
 namespace {
 
 constexpr int kLastImage = 6;
-
-Eigen::Matrix3d readHomography(const std::string& path) {
-  std::ifstream file(path);
-  Eigen::Matrix3d H;
-  for (int i = 0; i < 9; ++i) file >> H(i / 3, i % 3);
-  if (!file) {
-    throw std::runtime_error("cannot read the homography " + path +
-                             ": nine numbers are expected; let ARDRONE_VSLAM_DATA name a complete "
-                             "data folder, or unset it");
-  }
-  return H;
-}
 
 }  // namespace
 

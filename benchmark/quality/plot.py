@@ -42,18 +42,22 @@ def draw_chart(axes, chart, measure):
         axes.plot(chart["x"], values, markersize=3.5, label=curve["method"], **LOOKS[curve["method"]])
 
 
-def save(figure, lines_from, path):
-    """With one legend for the whole figure."""
+def with_legend(figure, lines_from):
+    """One for the whole figure."""
     handles, labels = lines_from.get_legend_handles_labels()
     rows = (len(labels) + 5) // 6
     height = figure.get_size_inches()[1]
     figure.legend(handles, labels, loc="lower center", ncol=min(6, len(labels)), frameon=False)
     figure.tight_layout(rect=(0, 0.3 * rows / height, 1, 1))
+    return figure
+
+
+def save(figure, path):
     figure.savefig(path, dpi=100)
     print(f"wrote {path}")
 
 
-def draw_sweeps(charts, path):
+def sweeps_figure(charts):
     figure, grid = plt.subplots(3, len(charts), figsize=(12, 9), sharey=True, squeeze=False)
     for column, chart in enumerate(charts):
         for row, (measure, name) in enumerate(MEASURES):
@@ -65,10 +69,10 @@ def draw_sweeps(charts, path):
             if column == 0:
                 axes.set_ylabel(f"{name} [%]")
         grid[-1][column].set_xlabel(chart["axis"])
-    save(figure, grid[0][0], path)
+    return with_legend(figure, grid[0][0])
 
 
-def draw_graf(chart, path):
+def graf_figure(chart):
     figure, row = plt.subplots(1, 3, figsize=(12, 4), sharey=True)
     for axes, (measure, name) in zip(row, MEASURES):
         draw_chart(axes, chart, measure)
@@ -76,7 +80,7 @@ def draw_graf(chart, path):
         axes.set_xticks(chart["x"], [f"1-{number:.0f}" for number in chart["x"]])
         axes.set_xlabel("images")
     row[0].set_ylabel("%")
-    save(figure, row[0], path)
+    return with_legend(figure, row[0])
 
 
 def draw_shares(axes, chart):
@@ -89,7 +93,7 @@ def draw_shares(axes, chart):
                       label=f"{curve['method']}: {what}")
 
 
-def draw_passes(passes, motions, path):
+def passes_figure(passes, motions):
     figure, grid = plt.subplots(2, len(passes), figsize=(14, 7), sharey=True, squeeze=False)
     for column, (chart, peers) in enumerate(zip(passes, motions)):
         upper, lower = grid[0][column], grid[1][column]
@@ -108,7 +112,7 @@ def draw_passes(passes, motions, path):
     grid[0][0].set_ylabel("share of 16 passes' [%]")
     grid[1][0].set_ylabel("precision [%]")
     grid[0][-1].legend(fontsize=7, loc="lower right")
-    save(figure, grid[1][0], path)
+    return with_legend(figure, grid[1][0])
 
 
 def main():
@@ -120,10 +124,10 @@ def main():
         results = json.load(file)
     plots = options.plots or os.path.join(options.folder, "plots")
     os.makedirs(plots, exist_ok=True)
-    draw_sweeps(results["sweeps"], os.path.join(plots, "quality_sweeps.png"))
+    save(sweeps_figure(results["sweeps"]), os.path.join(plots, "quality_sweeps.png"))
     for chart in results["graf"]:
-        draw_graf(chart, os.path.join(plots, "quality_graf.png"))
-    draw_passes(results["passes"], results["motions"], os.path.join(plots, "quality_passes.png"))
+        save(graf_figure(chart), os.path.join(plots, "quality_graf.png"))
+    save(passes_figure(results["passes"], results["motions"]), os.path.join(plots, "quality_passes.png"))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "source_images.hpp"
 
-#include <cstdlib>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
@@ -41,6 +41,18 @@ cv::Mat readGrey(const std::string& path) {
                              "; let ARDRONE_VSLAM_DATA name a complete data folder, or unset it");
   }
   return image;
+}
+
+Eigen::Matrix3d readHomography(const std::string& path) {
+  std::ifstream file(path);
+  Eigen::Matrix3d H;
+  for (int i = 0; i < 9; ++i) file >> H(i / 3, i % 3);
+  if (!file) {
+    throw std::runtime_error("cannot read the homography " + path +
+                             ": nine numbers are expected; let ARDRONE_VSLAM_DATA name a complete "
+                             "data folder, or unset it");
+  }
+  return H;
 }
 
 SourceImages sweepImages(bool quick) {

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""scripts/reproduce: the numbers of docs/reproduction.md still hold."""
+
+import contextlib
+import io
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import types
+import unittest
+from unittest import mock
+
+from paths import SOURCE
+
+FOLDER = os.path.join(SOURCE, "benchmark", "reproduction")
+sys.path.insert(0, FOLDER)
+import reproduce  # noqa: E402
+from section import Claim, Section, digits  # noqa: E402
+
+# ctest sets them.
+MEASUREMENTS, REPLAY = os.environ.get("ARDRONE_VSLAM_THESIS_MEASUREMENTS", ""), os.environ.get("ARDRONE_VSLAM_REPLAY", "")
+
+
+class ClaimTest(unittest.TestCase):
+    def test_bounds_belong_to_it_and_no_number_does_not(self):
+        self.assertTrue(Claim("", 1, 1, 2).holds() and Claim("", 2, 1, 2).holds())
+        self.assertFalse(Claim("", 0.99, 1, 2).holds() or Claim("", 2.01, 1, 2).holds() or Claim("", math.nan).holds())
+        self.assertEqual([Claim("", 0, high=2).bounds(), Claim("", 0, 1).bounds(), Claim("", 0, 1, 2).bounds()], ["at most 2", "at least 1", "1 to 2"])
+
+    def test_digits(self):
+        self.assertEqual([digits(0.01234), digits(86358), digits(999.6), digits(0), digits(None), digits(math.inf), digits(1.5, 2)],
+                         ["0.0123", "86,400", "1,000", "0", "-", "-", "1.5"])
+
+    def test_a_number_out_of_bounds_is_told_on_the_page_and_by_the_exit_code(self):
+        broken = Section("A table")
+        broken.claim("this", 3, high=2)
+        with tempfile.TemporaryDirectory() as out, mock.patch.dict(reproduce.SECTIONS, {"detectors": lambda tools: broken}):
+            arguments = types.SimpleNamespace(programs="", measurements="", out=out, quick=True, kitti=None, sections=["detectors"], page=None)
+            fault = io.StringIO()
+            with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(fault):
+                self.assertEqual(reproduce.run(arguments), 3)
+            self.assertIn("A table: this is 3 but must be at most 2", fault.getvalue())
+            with open(os.path.join(out, "reproduction.md"), encoding="utf-8") as page:
+                self.assertIn("out of their bounds", page.read())
+
+
+def run_quick(test, out, *options, **environment):
+    """@return the page"""
+    done = subprocess.run([sys.executable, "-B", os.path.join(FOLDER, "reproduce.py"), "--programs", os.path.dirname(REPLAY), "--measurements", MEASUREMENTS,
+                           "--out", out, "--quick", *options], capture_output=True, text=True, check=False, env={**os.environ, **environment})
+    test.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+    with open(os.path.join(out, "reproduction.md"), encoding="utf-8") as page:
+        return page.read()
+
+
+class ReproductionTest(unittest.TestCase):
+    def test_every_number_is_within_its_bounds_on_rendered_pictures(self):
+        with tempfile.TemporaryDirectory() as out:
+            page = run_quick(self, out, ARDRONE_VSLAM_DATA="")
+            self.assertIn("a rendered corridor", page)
+            with open(os.path.join(SOURCE, "docs", "reproduction.md"), encoding="utf-8") as committed:
+                self.assertEqual([line for line in page.splitlines() if line.startswith("## ")],
+                                 [line for line in committed.read().splitlines() if line.startswith("## ")], "run scripts/reproduce")
+            for line in page.splitlines():
+                if line.startswith("!["):
+                    picture = os.path.join(out, line.split("](")[1].rstrip(")"))
+                    self.assertGreater(os.path.getsize(picture), 1000, picture)
+
+    def test_wrong_usage_is_told(self):
+        for options, message in ((["--kitti", "/nowhere"], "there is no folder image_0"), (["--sections", "none"], "invalid choice"),
+                                 (["--sections", "lens", "--page", "x.md"], "needs all sections")):
+            done = subprocess.run([sys.executable, "-B", os.path.join(FOLDER, "reproduce.py"), "--programs", "x", "--measurements", "y", "--out", "z", *options],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(message, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
