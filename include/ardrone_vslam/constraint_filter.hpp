@@ -241,6 +241,15 @@ class ConstraintFilter {
   void forgetCamera();
   void watchForRest(const ImageFeatures& features);
   bool holdStill(std::size_t reference);
+  /// Where nothing else tells the drift: the camera has moved by no more than the image shows in a
+  /// scene that is rest_depth_m away, so a hovering drone stays though its odometry drifts.
+  void holdToScene(const ImageFeatures& features);
+  /// The way since a frame of the window is not longer than this across the view.
+  void limitWay(std::size_t frame, double across_m);
+  /// How well the turn since a frame of the window is known, per axis.
+  double turnDeviation_rad(std::size_t frame) const;
+  /// By landmarks of earlier visits.
+  bool isLocated() const;
   void makeReference();
   void forgetReference();
   std::optional<std::size_t> frameOf(std::uint32_t id) const;

@@ -41,7 +41,8 @@ void visitParameters(RestConfig& c, Visitor&& visit) {
         c.rest_turn_deg_per_s);
   visit(ParameterInfo{"rest_depth_m", "m", 0.1, 1e6,
                       "constraint filter: how far away the scene is taken to be while no landmark "
-                      "says it; further away a still image hides more motion"},
+                      "says it; further away an image that is still, or hardly moves, hides more "
+                      "motion. Outdoors: the distance to what is seen"},
         c.rest_depth_m);
 }
 

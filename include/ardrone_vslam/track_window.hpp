@@ -29,11 +29,11 @@ class TrackWindow {
   /// Of the features from now on. None of them may have the track of an earlier one.
   void changeCamera(const Eigen::Matrix3d& R_base_cam) { R_base_cam_ = R_base_cam; }
 
-  /// How far the image has moved since a frame, once its turning is taken out.
+  /// How far the image has moved since a frame of the window, once its turning is taken out.
   struct Motion {
     double median_px = 0;
     int common = 0;  ///< tracks of that frame that go on
-    int lost = 0;    ///< and those that do not
+    int lost = 0;    ///< and those that do not, of all that the window still has
   };
   /// @param order  of these features
   Motion motionSince(const WindowPose& frame, const WindowPose& present,
@@ -74,6 +74,8 @@ class TrackWindow {
     const Sighting& newest(const Track& track) const {
       return sightings[track.first + track.count - 1];
     }
+    /// Null: the frame did not see it. The newest views are found first.
+    const Sighting* viewOf(const Track& track, std::uint32_t frame_id) const;
     Track* find(std::uint32_t id);
     /// Appends a track and its sightings of another store.
     void take(const Track& track, const Tracks& from);
