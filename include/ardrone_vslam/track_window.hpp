@@ -13,7 +13,7 @@ namespace ardrone_vslam {
 
 /// A track that may be used: its views, and what its point would need to become a landmark.
 struct FinishedTrack {
-  std::uint32_t track_id = 0;
+  std::uint32_t track_id = 0;     ///< ImageFeatures::track_id
   TrackViews views;               ///< held by the TrackWindow until it is asked again
   Descriptor descriptor;          ///< of its last view
   std::uint32_t landmark_id = 0;  ///< of the landmark it belongs to, 0: none
@@ -31,9 +31,9 @@ class TrackWindow {
 
   /// How far the image has moved since a frame of the window, once its turning is taken out.
   struct Motion {
-    double median_px = 0;
-    int common = 0;  ///< tracks of that frame that go on
-    int lost = 0;    ///< and those that do not, of all that the window still has
+    double median_px = 0;  ///< of the common tracks
+    int common = 0;        ///< tracks of that frame that go on
+    int lost = 0;          ///< and those that do not, of all that the window still has
   };
   /// @param order  of these features
   Motion motionSince(const WindowPose& frame, const WindowPose& present,
