@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
-
 #include "kernels/freak_kernels.hpp"
 
 namespace ardrone_vslam::kernels {
@@ -12,10 +10,13 @@ constexpr int kLargestArea = 256;
 /// that can occur: the excess is v (area - 1) / 2^24 of one part in `area` and v (area - 1) <=
 /// 65408 * 255 < 2^24; the product stays below 255.5 * 2^24 + 65408 < 2^32. (The drone's Cortex-A8
 /// has no divider.)
-constexpr std::array<std::uint32_t, kLargestArea + 1> reciprocals() {
-  std::array<std::uint32_t, kLargestArea + 1> table{};
+struct Reciprocals {
+  std::uint32_t of[kLargestArea + 1];
+};
+constexpr Reciprocals reciprocals() {
+  Reciprocals table{};
   for (std::uint32_t area = 1; area <= kLargestArea; ++area) {
-    table[area] = ((1U << 24) + area - 1) / area;
+    table.of[area] = ((1U << 24) + area - 1) / area;
   }
   return table;
 }
@@ -56,7 +57,7 @@ void freakMeansScalar(const std::uint16_t* at_keypoint, std::ptrdiff_t stride,
     const auto sum = static_cast<std::uint16_t>(bottom[box.right] - bottom[box.left] -
                                                 top[box.right] + top[box.left]);
     const auto area = static_cast<std::uint32_t>((box.right - box.left) * (box.bottom - box.top));
-    means[field] = static_cast<std::uint8_t>(((sum + area / 2) * kReciprocals[area]) >> 24);
+    means[field] = static_cast<std::uint8_t>(((sum + area / 2) * kReciprocals.of[area]) >> 24);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/hamming.hpp"
+#include "ardrone_vslam/hamming_words.hpp"
 #include "kernels/hamming_distances.hpp"
 #include "kernels/hamming_groups.hpp"
 #include "kernels/hamming_kernels.hpp"

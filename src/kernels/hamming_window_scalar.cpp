@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/hamming.hpp"
+#include "ardrone_vslam/hamming_words.hpp"
 #include "kernels/hamming_window_each.hpp"
 
 namespace ardrone_vslam::kernels {

@@ -37,7 +37,8 @@ class ScriptUsage : public testing::Test {
 TEST_F(ScriptUsage, EachSaysItsVersionAndRefusesUnknownOptions) {
   for (const std::string name :
        {"test", "demo", "benchmark", "install_dependencies", "evaluate", "evaluate_all",
-        "reproduce", "record_run", "measure_latency", "build_docs", "try_containerfile"}) {
+        "reproduce", "record_run", "measure_latency", "build_docs", "try_containerfile",
+        "cross_build", "cross_sysroot", "drone_cost"}) {
     EXPECT_EQ(script(name + " --version"), 0) << name << output();
     expectOutput({name + " (ardrone_vslam) 0."});
     EXPECT_EQ(script(name + " --no-such-option"), 2) << name;

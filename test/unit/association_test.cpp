@@ -295,6 +295,7 @@ TEST_F(AssociationTest, PlanarModeSearchesLandmarksAtTheirHeight) {
   landmarks_.at(0).height_m = 1;
   builder_.lookFrom({1, 0, 0}, true);
   builder_.addPoint({5, 0, 1}, 9, a);  // 4 m away: 142 px above the axis
+  builder_.addFrame();
   EXPECT_EQ(matchLandmarks().matches.size(), 1U);
   landmarks_.at(0).height_m = 0;
   EXPECT_EQ(matchLandmarks().candidates, 0);

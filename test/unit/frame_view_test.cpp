@@ -72,7 +72,7 @@ TEST(FrameView, BearingsFarOffTheAxisDoNoHarm) {
 TEST(FrameView, PlanarRaysAreHorizontalUnitVectors) {
   ViewBuilder builder;
   builder.lookFrom({1, 2, 0}, true);
-  const Eigen::Vector3d point(5, 3, 1.5);
+  const Eigen::Vector3d point(5, 3, 1.2);  // within the frame, not at its border
   builder.addPoint(point, 1);
   const FrameView& view = builder.view();
   const Eigen::Vector3d ray = view.ray(0).direction_map;
@@ -80,7 +80,7 @@ TEST(FrameView, PlanarRaysAreHorizontalUnitVectors) {
   EXPECT_NEAR(ray.norm(), 1, 1e-12);
   const Eigen::Vector2d offset = point.head<2>() - Eigen::Vector2d(1, 2);
   EXPECT_LT((ray.head<2>() - offset.normalized()).norm(), 1e-6);
-  EXPECT_NEAR(view.elevation(0), 1.5 / offset.norm(), 1e-6);
+  EXPECT_NEAR(view.elevation(0), point.z() / offset.norm(), 1e-6);
   Eigen::Vector2f pixel;
   builder.addFrame();
   ASSERT_TRUE(builder.view().idealPixel(ray, builder.view().elevation(0), pixel));
