@@ -76,6 +76,23 @@ TimedMethod both(const std::string& name, const Pictures& pictures,
           }};
 }
 
+/// Our FREAK at another detector's places.
+TimedMethod withOurFreak(const std::string& name, const Pictures& pictures,
+                         const cv::Ptr<cv::Feature2D>& detector) {
+  auto describer = std::make_shared<FreakDescriber>(FreakConfig());
+  return {name, [=, &pictures](std::size_t i) {
+            std::vector<cv::KeyPoint> keypoints;
+            detector->detect(pictures[i].image, keypoints);
+            std::vector<FreakKeypoint> points;
+            for (const cv::KeyPoint& k : keypoints)
+              points.push_back({cvRound(k.pt.x), cvRound(k.pt.y)});
+            std::vector<int> kept;
+            std::vector<Descriptor> descriptors;
+            describer->describe(viewOf(pictures[i].image), points, kept, descriptors);
+            return kept.size();
+          }};
+}
+
 TimedMethod ourFrontEnd(const Pictures& pictures, InstructionSet set, const std::string& name) {
   CornerDetectorConfig config;
   config.features_per_frame = kBudget;
@@ -126,6 +143,7 @@ nlohmann::json measureDescriptors(bool quick) {
                pictures.size(), quick)},
       {"front_ends",
        timesOf({both("SIFT/SIFT", pictures, sift, sift), both("SIFT/BRISK", pictures, sift, brisk),
+                withOurFreak("SIFT/FREAK", pictures, sift),
                 both("FAST/BRISK", pictures, fast, brisk), both("ORB/ORB", pictures, orb, orb),
                 ourFrontEnd(pictures, InstructionSet::kScalar, "FAST/FREAK, scalar (this package)"),
                 ourFrontEnd(pictures, best, "FAST/FREAK (this package)")},

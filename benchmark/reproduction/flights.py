@@ -16,7 +16,7 @@ import thesis
 from section import Section, digits
 
 FEW_FEATURES = 50  # of an image: as few matches as in the thesis
-NO_BUDGET = ("mapper/threshold_deviations=0",)
+FIXED_THRESHOLDS = ("mapper/threshold_deviations=0",)
 
 
 def rows_of(*folders, names=None):
@@ -97,12 +97,13 @@ def kitti(tools):
     section.picture("street_error", errors_over_images(tools, both), "Error of the position by landmarks alone (figure 7.5)")
     section.picture("street_error_matches", errors_against_matches(tools, both), "The same against matches, and how many matches there are (figure 7.7)")
     section.text("Why they differ: the thesis compares all descriptors with all and ends with 11 matches of 1000 features, and a wrong one among one or two of them made its "
-                 "26 m. Here landmarks are looked for where the prediction puts them (`association`), which matches twenty times as many, so no single mismatch decides; even with "
-                 "as few matches as there the largest error stays far below. The Rayleigh shape of the histogram is that of the thesis's few matches.")
-    section.claim("mean error by landmarks alone, over the thesis's 0.158 m", fixes.mean() / thesis.KITTI_MEAN_M, high=0.7)
-    section.claim("largest error by landmarks alone, over the thesis's 0.65 m of at least three matches", fixes.max() / thesis.KITTI_LARGEST_OF_THREE_M, high=1)
-    section.claim("mean of the matches, over the thesis's 11", matches.mean() / thesis.KITTI_MATCHES_MEAN, low=3)
-    section.claim("mean error with as few matches as there, over 0.158 m", few_fixes.mean() / thesis.KITTI_MEAN_M, high=1)
+                 "26 m. Here landmarks are looked for where the prediction puts them (`association`), which matches more than ten times as many, so no single mismatch decides; even with "
+                 "as few matches as there the largest error stays far below. The thesis's histogram has Rayleigh's shape with its mode at 6; "
+                 "with as few matches ours is nearly symmetric about its mean.")
+    section.claim("mean error by landmarks alone, over the thesis's 0.158 m", fixes.mean() / thesis.KITTI_MEAN_M, high=0.5)
+    section.claim("largest error by landmarks alone, over the thesis's 0.65 m of at least three matches", fixes.max() / thesis.KITTI_LARGEST_OF_THREE_M, high=0.3)
+    section.claim("mean of the matches, over the thesis's 11", matches.mean() / thesis.KITTI_MATCHES_MEAN, low=10)
+    section.claim("mean error with as few matches as there, over 0.158 m", few_fixes.mean() / thesis.KITTI_MEAN_M, high=0.5)
     _drifting(tools, section, sequence, options)
     _whole_path(tools, section)
     plt.close("all")
@@ -125,9 +126,12 @@ def _drifting(tools, section, sequence, options):
         errors = [rmse(folder, "fused_ate_rmse_m") for folder in runs]
         removed = [rmse(folder, "ratio_scale_removed") for folder in runs]
         rows.append([f"`{name}`", digits(np.median(errors)), digits(np.median(removed))])
-        section.claim(f"{profile}: `{name}` over observer, drawn scale error removed, median of the seeds", float(np.median(removed)), high=1.1)
+        section.claim(f"{profile}: `{name}` over observer, drawn scale error removed, median of the seeds", float(np.median(removed)), high=1.05)
     section.text(f"The same with an observer that drifts (profile `{profile}`, {len(seeds)} seed{'s' if len(seeds) > 1 else ''}; without alignment, medians):")
     section.table(["", "RMSE [m]", "over the observer, drawn scale error removed"], rows)
+    if tools.kitti:
+        section.text("On a first pass nothing is seen twice, and wheels are good: the camera gains nothing there, and does no harm. On the way back it does: [results.md](results.md), "
+                     "`kitti_03_and_back`.")
     section.picture("street_drift", draw_trajectories(rows_of(*(runs[0] for runs in folders.values()), names=tuple(folders))), f"Trajectories with the observer `{profile}`, first seed")
 
 
@@ -150,9 +154,10 @@ def _whole_path(tools, section):
     if len(again):
         rows.append(["images 3300 to 3900, a street driven again: mean [m]", "0.01 to 0.05", digits(np.nanmean(again))])
     section.table(["", "thesis", "here"], rows)
-    section.text("As in the thesis the error falls where the car comes back to streets of the map: about the images 1600 to 2100, 3300 to 3900 and 4450 on.")
+    section.text("The error falls where the car comes back to streets of the map, about the images 1600 to 2100, at 3300 and from 4450 on, but by far less than to the tenth, as in the thesis: with "
+                 "a perfect observer and no gross mismatches it is at the level of the thesis's best streets everywhere.")
     section.picture("path_error", errors_over_images(tools, {"KITTI 00's path": run}), "Error over the images (figure 7.5)")
-    section.claim("KITTI 00's path: mean error by landmarks alone, over 0.158 m", errors.mean() / thesis.KITTI_MEAN_M, high=0.5)
+    section.claim("KITTI 00's path: mean error by landmarks alone, over 0.158 m", errors.mean() / thesis.KITTI_MEAN_M, high=0.2)
 
 
 def ardrone_2d(tools):
@@ -162,6 +167,7 @@ def ardrone_2d(tools):
     world = tools.make_world("laps_3hz", "laps", "--rate", "3", "--seconds", f"{laps * lap_s:g}", "--seed", "1")
     settings = ("mapper/planar=true", "mapper/min_landmarks=3")
     run = tools.replay("planar", world, "--observer-profile", "truth", "--estimator", "thesis", settings=settings)
+    spatial = column(tools, tools.replay("spatial", world, "--observer-profile", "truth", "--estimator", "thesis", settings=settings[1:]), "camera_error_m")
     matches, errors = column(tools, run, "landmark_matches"), column(tools, run, "camera_error_m")
     parts = [part.mean() for part in np.array_split(matches, laps)]
     section.text(f"{len(matches)} rendered images in {laps} laps, `planar`, the observer is the truth (the thesis's was the ceiling camera), at least three landmarks for a fix. The "
@@ -169,14 +175,16 @@ def ardrone_2d(tools):
     section.table(["landmark matches an image", *(f"lap {i + 1}" for i in range(laps))],
                   [["thesis", *map(str, thesis.DRONE_MATCHES_OF_LAPS[:laps])], ["here", *(digits(part) for part in parts)]])
     rows = rows_of(run, names=("planar",))
+    section.picture("planar_path", draw_trajectories(rows), "Trajectory (figure 7.8)")
     section.picture("planar_error", errors_over_images(tools, {"planar": run}, 3), "Error over the images (figure 7.10)")
     section.picture("planar_error_matches", errors_against_matches(tools, {"planar": run}), "Error against matches, and how many there are (figure 7.11)")
     section.picture("planar_matches", draw_matches_over_time(rows), "Matches over time (figure 7.9)")
     section.text(f"Error by landmarks alone: {digits(errors.mean())} m in the mean, {digits(errors.max())} m at most (the thesis plots it; \"more or less the same as in the tests with "
                  "the KITTI dataset\", some 0.16 m). Matches grow from lap to lap as printed, from a higher level: the map is made in the first lap already. The thesis's large errors "
-                 "where the drone looked elsewhere are not there, as an image without landmarks gives no fix.")
-    section.claim("matches of the second lap over the first", parts[1] / parts[0], low=1.4)
-    section.claim("mean error by landmarks alone [m]", errors.mean(), high=0.16)
+                 "where the drone looked elsewhere are not there: once the map has begun every image shows landmarks. Leaving out z costs: most of the error is a steady bias, and the same images in 3-D "
+                 f"(`planar: false`) are off by {digits(spatial.mean())} m in the mean.")
+    section.claim("matches of the second lap over the first", parts[1] / parts[0], low=1.6)
+    section.claim("mean error by landmarks alone [m]", errors.mean(), high=0.1)
     plt.close("all")
     return section
 
@@ -205,9 +213,10 @@ def hover(tools):
     section.picture("hover", figure, "Drift while hovering: medians, and 10 to 90 % of the seeds")
     section.table(["off after 15 s [m]", "median", "worst"], [[label, digits(np.median(errors)), digits(errors.max())] for label, errors in final.items()] +
                   [["thesis, one flight without vision", str(thesis.HOVER_DRIFT_M), "-"]])
-    section.text(f"A rendered flight that holds its place as well as a drone does, {seeds} seeds of the profile `hover`, which is made to drift by 2 m in 15 s.")
+    section.text(f"A rendered flight that holds its place as well as a drone does, {seeds} seeds of the profile `hover` (velocity bias of 0.13 m/s per axis), whose drift is that of "
+                 "the thesis's flight in size. `constraint` is held by what the image shows ([how](data_path.md#the-constraint-filter)), in a scene that is taken to be 10 m away (`rest_depth_m`).")
     section.claim("drift of the observer after 15 s, median [m]", float(np.median(final["observer alone"])), 1, 4)
-    section.claim("`constraint` over the observer, medians", float(np.median(final["`constraint`"]) / np.median(final["observer alone"])), high=0.7)
+    section.claim("`constraint` over the observer, medians", float(np.median(final["`constraint`"]) / np.median(final["observer alone"])), high=0.15)
     section.claim("`thesis` over the observer, medians", float(np.median(final["`thesis`"]) / np.median(final["observer alone"])), high=0.7)
     plt.close("all")
     return section
@@ -221,7 +230,7 @@ def thresholds(tools):
     sweeps = {"mismatch threshold [px]": [], "least number of landmarks": []}
     for threshold in (8, 64) if tools.quick else (1, 2, 4, 8, 16, 32, 64):
         sweeps["mismatch threshold [px]"].append((threshold, tools.replay(f"threshold_{threshold}", sequence, *common, settings=(
-            few, "mapper/min_landmarks=1", *NO_BUDGET, f"mapper/landmark_threshold_px={threshold}", f"mapper/epipolar_threshold_px={threshold}"))))
+            few, "mapper/min_landmarks=1", *FIXED_THRESHOLDS, f"mapper/landmark_threshold_px={threshold}", f"mapper/epipolar_threshold_px={threshold}"))))
     for least in (1, 6) if tools.quick else (1, 2, 3, 4, 5, 6):
         sweeps["least number of landmarks"].append((least, tools.replay(f"least_{least}", sequence, *common, settings=(few, f"mapper/min_landmarks={least}"))))
     figure, axes = panels(2, 3.4)
@@ -247,13 +256,19 @@ def thresholds(tools):
             one.set_xscale("log", base=2)
         section.table([name, *map(str, x)], [["mean error [m]", *(digits(error.mean()) for error in errors)], ["largest error [m]", *(digits(error.max()) for error in errors)],
                                              ["matches an image", *(digits(count, 2) for count in matches)], ["images with a fix", *(str(len(error)) for error in errors)]])
+    profile = "wheel" if tools.kitti else "drone"
+    drifting = [tools.read(tools.replay(f"threshold_{profile}_{threshold}", sequence, "--observer-profile", profile, "--seed", "1", "--estimator", "thesis", *options, settings=(
+        few, "mapper/min_landmarks=1", *FIXED_THRESHOLDS, f"mapper/landmark_threshold_px={threshold}", f"mapper/epipolar_threshold_px={threshold}"))).summary["ratio_scale_removed"]
+        for threshold in values["mismatch threshold [px]"]]
+    section.text(f"With the truth as the observer a narrow threshold cannot be wrong, as the prediction is not. So the same with one that drifts (`{profile}`, seed 1), fused over observer, drawn scale error removed:")
+    section.table(["mismatch threshold [px]", *map(str, values["mismatch threshold [px]"])], [["fused / observer", *(digits(value) for value in drifting)]])
     section.picture("thresholds", figure, "Errors and matches against the mismatch threshold and the least number of landmarks")
     narrow, wide = values["mismatch threshold [px]"][8], values["mismatch threshold [px]"][64]
     one, six = values["least number of landmarks"][1], values["least number of landmarks"][6]
     section.text("It is not: beyond the default of 8 px a threshold eight times as wide brings hardly any matches, and what it brings is wrong. More landmarks for a fix lower the "
                  "largest error, at the price of images without one; with as many matches as the tracker normally finds it makes no difference.")
-    section.claim("matches at 64 px over those at 8 px", wide[2] / narrow[2], 1, 1.5)
-    section.claim("mean error at 64 px over that at 8 px", wide[0] / narrow[0], low=1.2)
+    section.claim("matches at 64 px over those at 8 px", wide[2] / narrow[2], 1, 1.2)
+    section.claim("mean error at 64 px over that at 8 px", wide[0] / narrow[0], low=1.4)
     section.claim("largest error with at least 6 landmarks over that with 1", six[1] / one[1], high=1.0)
     plt.close("all")
     return section

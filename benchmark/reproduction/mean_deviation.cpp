@@ -9,9 +9,10 @@
 namespace ardrone_vslam::reproduction {
 namespace {
 
+constexpr double kExponent = 0.7642;
+
 /// (6.5) with the weights a sigma^-b that appendix C fitted; `a` cancels.
 double printedDeviation(const std::vector<double>& sigmas) {
-  constexpr double kExponent = 0.7642;
   double above = 0, below = 0;
   for (const double sigma : sigmas) {
     const double weight = std::pow(sigma, -kExponent);
@@ -19,6 +20,24 @@ double printedDeviation(const std::vector<double>& sigmas) {
     below += weight * weight;
   }
   return std::sqrt(above / below);
+}
+
+/// The same with W the square of the sum, as a mean has it.
+double mendedDeviation(const std::vector<double>& sigmas) {
+  double above = 0, sum = 0;
+  for (const double sigma : sigmas) {
+    const double weight = std::pow(sigma, -kExponent);
+    above += weight * weight * sigma * sigma;
+    sum += weight;
+  }
+  return std::sqrt(above) / sum;
+}
+
+/// (C.2), which the thesis makes of (C.1) with the weights 1 / sigma.
+double reducedDeviation(const std::vector<double>& sigmas) {
+  double sum = 0;
+  for (const double sigma : sigmas) sum += 1 / sigma;
+  return std::sqrt(static_cast<double>(sigmas.size()) / sum);
 }
 
 /// (C.1) with the weights 1 / sigma: the "conventional" one of figure C.1.
@@ -94,19 +113,23 @@ nlohmann::json measureMeanDeviation(bool quick) {
   nlohmann::json json = {{"inputs", inputs}, {"runs", runs}};
   RandomSource random(1);
   for (const int count : {1, 2, 3, 5, 8, 12, 20, 30, 50, 75, 100}) {
-    double truth = 0, printed = 0, conventional = 0, exact = 0;
+    double truth = 0, printed = 0, mended = 0, reduced = 0, conventional = 0, exact = 0;
     for (int input = 0; input < inputs; ++input) {
       std::vector<double> sigmas;
       for (int i = 0; i < count; ++i) sigmas.push_back(random.uniform(0.01, 1));
       const double true_deviation = scatter(sigmas, runs, random);
       truth += true_deviation / inputs;
       printed += std::abs(printedDeviation(sigmas) - true_deviation) / inputs;
+      mended += std::abs(mendedDeviation(sigmas) - true_deviation) / inputs;
+      reduced += std::abs(reducedDeviation(sigmas) - true_deviation) / inputs;
       conventional += std::abs(conventionalDeviation(sigmas) - true_deviation) / inputs;
       exact += std::abs(packageDeviation(sigmas) - true_deviation) / inputs;
     }
     json["against_landmarks"].push_back({{"landmarks", count},
                                          {"deviation_m", truth},
                                          {"error_printed_m", printed},
+                                         {"error_mended_m", mended},
+                                         {"error_reduced_m", reduced},
                                          {"error_conventional_m", conventional},
                                          {"error_exact_m", exact}});
   }

@@ -5,6 +5,7 @@ import contextlib
 import io
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -55,14 +56,20 @@ def run_quick(test, out, *options, **environment):
         return page.read()
 
 
+def skeleton(page):
+    """What does not depend on the pictures: sections, pictures, what must hold and its bounds."""
+    claims = re.findall(r"^\| ([^|]*) \| [^|]* \| ((?:at (?:most|least) )?[0-9.]+(?: to [0-9.]+)?) \|$", page, re.MULTILINE)
+    claims = [(re.sub("^(wheel|drone): ", "", what), bounds) for what, bounds in claims if "KITTI 00" not in what and " [m]" not in what.replace("[m]", "", 1)]
+    return [line for line in page.splitlines() if re.match(r"## |!\[(?!.*path_error)", line)], claims
+
+
 class ReproductionTest(unittest.TestCase):
     def test_every_number_is_within_its_bounds_on_rendered_pictures(self):
         with tempfile.TemporaryDirectory() as out:
             page = run_quick(self, out, ARDRONE_VSLAM_DATA="")
             self.assertIn("a rendered corridor", page)
             with open(os.path.join(SOURCE, "docs", "reproduction.md"), encoding="utf-8") as committed:
-                self.assertEqual([line for line in page.splitlines() if line.startswith("## ")],
-                                 [line for line in committed.read().splitlines() if line.startswith("## ")], "run scripts/reproduce")
+                self.assertEqual(skeleton(page), skeleton(committed.read()), "the committed page is not of this code: run scripts/reproduce")
             for line in page.splitlines():
                 if line.startswith("!["):
                     picture = os.path.join(out, line.split("](")[1].rstrip(")"))
