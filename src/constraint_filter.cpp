@@ -167,6 +167,7 @@ const std::vector<UsedTrack>& ConstraintFilter::track(const ImageFeatures& featu
     motion_ = CameraMotion::kUnknown;
   } else {
     watchForRest(features);
+    holdToScene(features);
   }
   height_outcome_ = height_m_ ? height_.apply(*height_m_, state_) : HeightOutcome::kNone;
   if (isDistrustful() || !isKeyframe(features)) return used_;

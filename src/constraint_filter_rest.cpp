@@ -12,24 +12,30 @@ void ConstraintFilter::watchForRest(const ImageFeatures& features) {
   double attitude_deviation_rad = 0;
   if (!reference) rest_ = RestDetector(config_.rest);
   if (reference && reference_id_ != newest().id) {
-    const Matrix6d relative = state_.relativeCovariance(
-        state_.frameCoordinate(*reference), state_.frameCoordinate(state_.frames().size() - 1));
-    attitude_deviation_rad = std::sqrt(relative.bottomRightCorner<3, 3>().trace() / 3);
-    // Taken as exact or not, the attitude is noisy.
-    if (!config_.attitude_states)
-      attitude_deviation_rad = std::sqrt(2.0) * config_.observer.attitude_noise_deg * M_PI / 180;
+    attitude_deviation_rad = turnDeviation_rad(*reference);
     R_reference_now = (state_.frames()[*reference].R_map_base * R_base_cam_).transpose() *
                       newest().R_map_base * R_base_cam_;
   }
   motion_ = rest_.see(features, R_reference_now, attitude_deviation_rad);
   const bool is_still = motion_ == CameraMotion::kResting || motion_ == CameraMotion::kRotating;
-  const bool is_located = fix_outcome_ == FixOutcome::kApplied ||
-                          fix_outcome_ == FixOutcome::kRelocated ||
-                          fix_outcome_ == FixOutcome::kNotNeeded;
-  if (is_still && reference && !is_located && !holdStill(*reference))
+  if (is_still && reference && !isLocated() && !holdStill(*reference))
     motion_ = CameraMotion::kMoving;
   if (!is_still) odometry_way_.setZero();
   if (rest_.isReference()) makeReference();
+}
+
+double ConstraintFilter::turnDeviation_rad(std::size_t frame) const {
+  // Taken as exact or not, the attitude is noisy.
+  if (!config_.attitude_states)
+    return std::sqrt(2.0) * config_.observer.attitude_noise_deg * M_PI / 180;
+  const Matrix6d relative = state_.relativeCovariance(
+      state_.frameCoordinate(frame), state_.frameCoordinate(state_.frames().size() - 1));
+  return std::sqrt(relative.bottomRightCorner<3, 3>().trace() / 3);
+}
+
+bool ConstraintFilter::isLocated() const {
+  return fix_outcome_ == FixOutcome::kApplied || fix_outcome_ == FixOutcome::kRelocated ||
+         fix_outcome_ == FixOutcome::kNotNeeded;
 }
 
 bool ConstraintFilter::holdStill(std::size_t reference) {

@@ -19,6 +19,13 @@ void TrackWindow::Tracks::take(const Track& track, const Tracks& from) {
   sightings.insert(sightings.end(), first, first + track.count);
 }
 
+const TrackWindow::Sighting* TrackWindow::Tracks::viewOf(const Track& track,
+                                                         std::uint32_t frame_id) const {
+  for (std::uint32_t i = track.first + track.count; i-- > track.first;)
+    if (sightings[i].frame_id == frame_id) return &sightings[i];
+  return nullptr;
+}
+
 TrackWindow::Motion TrackWindow::motionSince(const WindowPose& frame, const WindowPose& present,
                                              const ImageFeatures& features,
                                              const TrackOrder& order) {
@@ -28,14 +35,15 @@ TrackWindow::Motion TrackWindow::motionSince(const WindowPose& frame, const Wind
   Motion motion;
   const TrackedFeature* seen = order.begin();
   for (const Track& track : now_.tracks) {
-    if (now_.newest(track).frame_id != frame.id) continue;
+    const Sighting* then = now_.viewOf(track, frame.id);
+    if (then == nullptr) continue;
     while (seen != order.end() && seen->track_id < track.id) ++seen;
     if (seen == order.end() || seen->track_id != track.id) {
       ++motion.lost;
       continue;
     }
     const Eigen::Vector3d now = R_frame_cam * features.bearing_cam[seen->feature].cast<double>();
-    moved_px_.push_back((now - now_.newest(track).bearing_base).norm() * features.focal_length_px);
+    moved_px_.push_back((now - then->bearing_base).norm() * features.focal_length_px);
   }
   motion.common = static_cast<int>(moved_px_.size());
   if (moved_px_.empty()) return motion;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Plugin of qemu-arm: executed instructions by kind and by stage of the program, equal to the last digit from run to run.
- * The program tells a stage by close(-1000 - stage), which no kernel minds. Prints, at the end, a line for each stage.
- * The functions that qemu offers are declared here (version 1 of its plugin interface), as Debian has no header of them. */
+/* Plugin of qemu-arm: executed instructions by kind and by stage of the program, equal to the last
+ * digit from run to run. The program tells a stage by close(-1000 - stage), which no kernel minds.
+ * Prints, at the end, a line for each stage. The functions that qemu offers are declared here
+ * (version 1 of its plugin interface), as Debian has no header of them. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -11,8 +12,10 @@ struct qemu_plugin_tb;
 struct qemu_plugin_insn;
 typedef uint64_t plugin_id;
 void qemu_plugin_register_vcpu_tb_trans_cb(plugin_id, void (*)(plugin_id, struct qemu_plugin_tb*));
-void qemu_plugin_register_vcpu_syscall_cb(plugin_id, void (*)(plugin_id, unsigned, int64_t, uint64_t, uint64_t, uint64_t,
-                                                              uint64_t, uint64_t, uint64_t, uint64_t, uint64_t));
+void qemu_plugin_register_vcpu_syscall_cb(plugin_id,
+                                          void (*)(plugin_id, unsigned, int64_t, uint64_t, uint64_t,
+                                                   uint64_t, uint64_t, uint64_t, uint64_t, uint64_t,
+                                                   uint64_t));
 void qemu_plugin_register_atexit_cb(plugin_id, void (*)(plugin_id, void*), void*);
 size_t qemu_plugin_tb_n_insns(const struct qemu_plugin_tb*);
 struct qemu_plugin_insn* qemu_plugin_tb_get_insn(const struct qemu_plugin_tb*, size_t);
@@ -24,9 +27,22 @@ void qemu_plugin_outs(const char*);
 #define VISIBLE __attribute__((visibility("default")))
 VISIBLE int qemu_plugin_version = 1;
 
-enum kind { kInteger, kBranch, kMemory, kNeon, kNeonMemory, kScalar, kDivide, kScalarMemory, kMove, kOther, kKinds };
-static const char* const names[kKinds] = {"integer", "branch", "memory", "neon", "neon_memory", "scalar", "divide",
-                                          "scalar_memory", "move", "other"};
+enum kind {
+  kInteger,
+  kBranch,
+  kMemory,
+  kNeon,
+  kNeonMemory,
+  kScalar,
+  kDivide,
+  kScalarMemory,
+  kMove,
+  kOther,
+  kKinds
+};
+static const char* const names[kKinds] = {"integer",     "branch", "memory", "neon",
+                                          "neon_memory", "scalar", "divide", "scalar_memory",
+                                          "move",        "other"};
 
 /* ARM's A32 encoding; the first rule that fits counts. */
 static const struct {
@@ -47,12 +63,12 @@ static const struct {
     {0x0fffffd0, 0x012fff10, kBranch},       /* BX, BLX */
     {0x0e000000, 0x04000000, kMemory},       /* LDR, STR */
     {0x0e000010, 0x06000000, kMemory},
-    {0x0e000000, 0x08000000, kMemory},       /* LDM, STM, push, pop */
-    {0x0e0000f0, 0x000000b0, kMemory},       /* of half words, signed bytes, double words */
+    {0x0e000000, 0x08000000, kMemory}, /* LDM, STM, push, pop */
+    {0x0e0000f0, 0x000000b0, kMemory}, /* of half words, signed bytes, double words */
     {0x0e0000d0, 0x000000d0, kMemory},
-    {0x0f8000f0, 0x01800090, kMemory},       /* exclusive */
+    {0x0f8000f0, 0x01800090, kMemory}, /* exclusive */
     {0x0c000000, 0x00000000, kInteger},
-    {0x0e000010, 0x06000010, kInteger},      /* USAD8, SXTB, UBFX ... */
+    {0x0e000010, 0x06000010, kInteger}, /* USAD8, SXTB, UBFX ... */
     {0x00000000, 0x00000000, kOther},
 };
 
@@ -75,7 +91,8 @@ static void translated(plugin_id id, struct qemu_plugin_tb* block) {
   (void)id;
   for (size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
     struct qemu_plugin_insn* instruction = qemu_plugin_tb_get_insn(block, i);
-    qemu_plugin_register_vcpu_insn_exec_inline(instruction, 0 /* add */, &count[kind_of(instruction)], 1);
+    qemu_plugin_register_vcpu_insn_exec_inline(instruction, 0 /* add */,
+                                               &count[kind_of(instruction)], 1);
   }
 }
 
@@ -86,8 +103,8 @@ static void close_stage(void) {
   }
 }
 
-static void called(plugin_id id, unsigned cpu, int64_t number, uint64_t a1, uint64_t a2, uint64_t a3, uint64_t a4, uint64_t a5,
-                   uint64_t a6, uint64_t a7, uint64_t a8) {
+static void called(plugin_id id, unsigned cpu, int64_t number, uint64_t a1, uint64_t a2,
+                   uint64_t a3, uint64_t a4, uint64_t a5, uint64_t a6, uint64_t a7, uint64_t a8) {
   const int32_t mark = -(int32_t)a1 - kFirstMark;
   (void)id, (void)cpu, (void)a2, (void)a3, (void)a4, (void)a5, (void)a6, (void)a7, (void)a8;
   if (number != 6 /* close */ || mark < 0 || mark >= kStages - 1) return;
@@ -102,7 +119,8 @@ static void finished(plugin_id id, void* unused) {
     char line[512];
     int length = snprintf(line, sizeof line, "stage %d", s);
     for (int k = 0; k < kKinds; ++k) {
-      length += snprintf(line + length, sizeof line - (size_t)length, " %s %llu", names[k], (unsigned long long)of_stage[s][k]);
+      length += snprintf(line + length, sizeof line - (size_t)length, " %s %llu", names[k],
+                         (unsigned long long)of_stage[s][k]);
     }
     snprintf(line + length, sizeof line - (size_t)length, "\n");
     qemu_plugin_outs(line);

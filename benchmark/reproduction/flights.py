@@ -184,7 +184,7 @@ def ardrone_2d(tools):
 def hover(tools):
     section = Section("Figure 1.2b: drift while hovering")
     world = tools.make_world("hover", "hover", "--seconds", f"{thesis.HOVER_S:g}", "--rate", "20")
-    seeds = 2 if tools.quick else 20
+    seeds = 3 if tools.quick else 20
     folders = {name: [tools.replay(f"hover_{name}_{seed}", world, "--observer-profile", "hover", "--seed", str(seed), "--estimator", name) for seed in range(1, seeds + 1)]
                for name in ("thesis", "constraint")}
     figure, (axes,) = panels(1, 3.8)

@@ -16,11 +16,14 @@ struct Landmark;
 struct AnchorMove {
   std::uint32_t anchor_id = 0;      ///< whose landmarks
   std::uint32_t new_anchor_id = 0;  ///< to which they belong from now on
-  Eigen::Vector3d from_map = Eigen::Vector3d::Zero();
-  Eigen::Vector3d to_map = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  double stretch = 1;
+  Eigen::Vector3d from_map =
+      Eigen::Vector3d::Zero();  ///< where base of the anchor stood when they were placed
+  Eigen::Vector3d to_map = Eigen::Vector3d::Zero();    ///< where it stands now
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< its rotation since then, axes of map
+  double stretch = 1;  ///< of their distance from it since then, by corrections of the scale
 
+  /// Moves position, view direction and covariance of a landmark of the anchor, and gives it the
+  /// new one.
   void apply(Landmark& landmark) const;
 };
 

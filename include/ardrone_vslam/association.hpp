@@ -14,6 +14,7 @@
 
 namespace ardrone_vslam {
 
+/// How landmarks and map features are looked for, and what is a mismatch.
 struct AssociationConfig {
   double search_radius_px = 30.0;
   double landmark_threshold_px = 8.0;
@@ -70,23 +71,24 @@ void visitParameters(AssociationConfig& c, Visitor&& visit) {
 
 /// `target` is the index of a landmark or map feature, `feature` of the frame's feature.
 struct Association {
-  int target = 0;
-  int feature = 0;
+  int target = 0;   ///< index into LandmarkMap::all() or FeatureMap::all()
+  int feature = 0;  ///< index into ImageFeatures
 };
 
 /// What one search found, before and after the removal of mismatches.
 struct AssociationResult {
-  std::vector<Association> matches;
-  MatchMethod method = MatchMethod::kGuided;
-  int in_view = 0;          ///< targets that the prediction puts into the image
-  int candidates = 0;       ///< descriptor or track matches
-  int mismatches = 0;       ///< removed of them
+  std::vector<Association> matches;           ///< what is left after the removal of mismatches
+  MatchMethod method = MatchMethod::kGuided;  ///< how it was looked for
+  int in_view = 0;                            ///< targets that the prediction puts into the image
+  int candidates = 0;                         ///< descriptor or track matches
+  int mismatches = 0;                         ///< removed of them
   std::vector<int> missed;  ///< targets in view without a match; none unless guided
 };
 
 /// Finds the landmarks and map features that a frame shows, and removes mismatches (thesis 5.3).
 class Associator {
  public:
+  /// @throws ConfigError listing every parameter out of its range
   explicit Associator(const AssociationConfig& config);
 
   /// Landmarks seen by the frame. Each landmark and each feature at most once.

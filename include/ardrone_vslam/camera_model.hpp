@@ -12,24 +12,24 @@ namespace ardrone_vslam {
 
 /// Pinhole camera with Brown's distortion (plumb_bob): k1, k2, k3 radial, p1, p2 tangential.
 struct CameraIntrinsics {
-  int width_px = 0;
-  int height_px = 0;
-  double fx_px = 0;
-  double fy_px = 0;
-  double cx_px = 0;
-  double cy_px = 0;
-  double k1 = 0;
-  double k2 = 0;
-  double p1 = 0;
-  double p2 = 0;
-  double k3 = 0;
+  int width_px = 0;   ///< of the images that it was calibrated for
+  int height_px = 0;  ///< likewise
+  double fx_px = 0;   ///< focal length, columns
+  double fy_px = 0;   ///< focal length, rows
+  double cx_px = 0;   ///< column of the optical axis; pixel centres are integers
+  double cy_px = 0;   ///< its row
+  double k1 = 0;      ///< radial, of r^2, r on the image plane z = 1
+  double k2 = 0;      ///< radial, of r^4
+  double p1 = 0;      ///< tangential
+  double p2 = 0;      ///< tangential
+  double k3 = 0;      ///< radial, of r^6
 
+  /// Whether all numbers are the same: the same camera at the same size.
   bool operator==(const CameraIntrinsics& other) const;
 };
 
-/// Focal lengths of cameras, in image widths: fields of view of 169 and 1.1 degrees.
-constexpr double kShortestFocal = 0.05;
-constexpr double kLongestFocal = 50;
+constexpr double kShortestFocal = 0.05;  ///< [image widths], a field of view of 169 degrees
+constexpr double kLongestFocal = 50;     ///< [image widths], a field of view of 1.1 degrees
 
 /// What cannot be a camera, and what helps: size, values not finite, focal length, principal point
 /// outside the image, distortion that folds back or moves pixels by more than a fifth already
@@ -62,6 +62,7 @@ class CameraModel {
   /// off the axis.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point_cam) const;
 
+  /// Whether a pixel is in the image and at least `border_px` from its edge.
   bool isInImage(const Eigen::Vector2d& pixel_px, double border_px = 0) const;
 
   /// Geometric mean of fx and fy: one pixel is 1 / focalLength_px() rad at the centre.
@@ -69,6 +70,7 @@ class CameraModel {
   /// Undistorted radius on the image plane (z = 1) beyond which the radial model is no longer
   /// monotonic; infinity if it never folds.
   double foldRadius() const { return fold_radius_; }
+  /// What it was made with.
   const CameraIntrinsics& intrinsics() const { return intrinsics_; }
 
  private:

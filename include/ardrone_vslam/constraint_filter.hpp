@@ -24,6 +24,7 @@
 
 namespace ardrone_vslam {
 
+/// What the filter believes of odometry, rays and landmarks, and when it uses them.
 struct ConstraintFilterConfig {
   ObserverNoiseConfig observer;
   bool attitude_states = true;
@@ -133,10 +134,10 @@ void visitParameters(ConstraintFilterConfig& c, Visitor&& visit) {
 
 /// A landmark as seen by the newest frame.
 struct LandmarkSighting {
-  Eigen::Vector3d bearing_base = Eigen::Vector3d::UnitX();
-  Eigen::Vector3d point_map = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
-  std::uint32_t anchor_id = 0;
+  Eigen::Vector3d bearing_base = Eigen::Vector3d::UnitX();  ///< measured unit ray
+  Eigen::Vector3d point_map = Eigen::Vector3d::Zero();      ///< where the map has it
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< Landmark::covariance_m2
+  std::uint32_t anchor_id = 0;                              ///< Landmark::anchor_id
   double window_rad = M_PI;  ///< it was looked for so far around its prediction
 };
 
@@ -150,22 +151,13 @@ enum class SightingVerdict {
 
 /// A used track: its point may become a landmark.
 struct UsedTrack {
-  FinishedTrack track;
-  TrackPoint point;
+  FinishedTrack track;          ///< its views are good until the next track()
+  TrackPoint point;             ///< by all its views
   std::uint32_t anchor_id = 0;  ///< the frame whose error the point shares
   /// Of the point beside its anchor, by the noise of the rays and the errors of the frames.
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
-  /// By what share the odometry's velocity error may have stretched the baseline, and so all that
-  /// was seen along it.
+  /// Share by which the odometry's velocity error may have stretched the baseline.
   double stretch_deviation = 0;
-};
-
-enum class FixOutcome {
-  kNone,
-  kNotNeeded,
-  kApplied,
-  kRelocated,  ///< applied, by landmarks found in wide windows
-  kRejected
 };
 
 /// Fuses the observer with the camera: every track constrains, once, the frames that saw it,
@@ -175,13 +167,17 @@ enum class FixOutcome {
 /// keyframes all but the tracks are applied.
 class ConstraintFilter {
  public:
+  /// @throws ConfigError listing every parameter out of its range
   ConstraintFilter(const ConstraintFilterConfig& config, const Eigen::Isometry3d& T_base_cam);
 
+  /// The first frame: map equals odom there.
   void start(const ObserverState& observer);
   /// The next frame is another camera's, on the same base: tracks end, all else goes on.
   void changeCamera(const Eigen::Isometry3d& T_base_cam);
+  /// The next frame, by the observer's increment. @param step  of that: no way (OdometryStep)
   void predict(const ObserverState& observer,
                const std::optional<OdometryStep>& step = std::nullopt);
+  /// Corrects the newest pose by landmarks of earlier visits, once the drift since is worth it.
   FixOutcome fix(const std::vector<LandmarkSighting>& sightings, double focal_length_px);
   /// Of the sightings given to the last fix().
   const std::vector<SightingVerdict>& verdicts() const { return verdicts_; }
@@ -198,21 +194,25 @@ class ConstraintFilter {
   /// How well the newest pose is known relative to each anchor, ascending in its id.
   std::vector<AnchorDrift> drifts() const;
 
+  /// The newest frame, the mounting's error included: see WindowState.
   const WindowPose& newest() const { return state_.frames().back(); }
   /// Of base: newest() without the mounting's error.
   Eigen::Isometry3d T_map_base() const;
   /// Of T_map_base: position [m^2], rotation vector [rad^2], axes of map.
   Matrix6d covariance() const;
+  /// Mean and covariance of all that is estimated.
   const WindowState& state() const { return state_; }
   /// Of the observer: it reports (1 + error) times the way.
   double scaleError() const { return state_.scaleError(); }
+  /// Standard deviation of scaleError().
   double scaleDeviation() const;
   /// Of the last frame's height.
   HeightOutcome heightOutcome() const { return height_outcome_; }
-  /// Of the last frame: tracks with enough parallax, and those of them that agreed and were used.
+  /// Of the last frame: tracks with enough parallax.
   int candidates() const { return candidates_; }
   /// Whether the newest frame is a keyframe.
   bool isKeyframe() const { return newest_is_keyframe_; }
+  /// Those of candidates() that agreed and were used.
   int used() const { return static_cast<int>(used_.size()); }
   /// Squared deviations of the fixes over what the covariance says of them, mean of the last ten or
   /// so: 1 is honest.
@@ -241,6 +241,15 @@ class ConstraintFilter {
   void forgetCamera();
   void watchForRest(const ImageFeatures& features);
   bool holdStill(std::size_t reference);
+  /// Where nothing else tells the drift: the camera has moved by no more than the image shows in a
+  /// scene that is rest_depth_m away, so a hovering drone stays though its odometry drifts.
+  void holdToScene(const ImageFeatures& features);
+  /// The way since a frame of the window is not longer than this across the view.
+  void limitWay(std::size_t frame, double across_m);
+  /// How well the turn since a frame of the window is known, per axis.
+  double turnDeviation_rad(std::size_t frame) const;
+  /// By landmarks of earlier visits.
+  bool isLocated() const;
   void makeReference();
   void forgetReference();
   std::optional<std::size_t> frameOf(std::uint32_t id) const;

@@ -31,6 +31,7 @@ struct EnumNames<Suppression> {
   static constexpr std::array<const char*, 2> kNames{"climb", "strict"};
 };
 
+/// What is a corner, how many of them, and how the threshold follows the image.
 struct CornerDetectorConfig {
   int arc_length_px = 12;
   int threshold = 35;

@@ -9,11 +9,16 @@ namespace ardrone_vslam {
 /// nothing is allocated once it has been as large.
 class CovarianceMatrix {
  public:
+  /// The square of the present size, to be written.
   using View = Eigen::Block<Eigen::MatrixXd>;
+  /// And to be read.
   using ConstView = Eigen::Block<const Eigen::MatrixXd>;
 
+  /// Number of coordinates.
   int size() const { return size_; }
+  /// All coordinates; good until the size changes.
   View all() { return storage_.topLeftCorner(size_, size_); }
+  /// @copydoc all()
   ConstView all() const { return storage_.topLeftCorner(size_, size_); }
 
   /// Zero, of so many coordinates.

@@ -12,8 +12,8 @@ namespace ardrone_vslam {
 
 /// A descriptor under the number that a search answers with.
 struct IndexEntry {
-  int id = 0;  ///< 0 or greater
-  Descriptor descriptor;
+  int id = 0;             ///< 0 or greater
+  Descriptor descriptor;  ///< what is compared
 };
 
 /// Nearest and second nearest among many descriptors, without comparing all: inverted lists. A
@@ -52,7 +52,9 @@ class DescriptorIndex {
   /// Cost: entries x lists distances, 0.1 to 0.2 s for 100,000 entries (0.5 s without vectors).
   void rebuild();
 
+  /// Number of entries.
   std::size_t size() const { return place_of_id_.size(); }
+  /// Number of inverted lists; so many probes make a search exact.
   int listCount() const { return static_cast<int>(centres_.size()); }
   /// @return nullptr when there is none of this id; valid until the index is changed
   const Descriptor* find(int id) const;

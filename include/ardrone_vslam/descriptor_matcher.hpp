@@ -10,10 +10,11 @@
 
 namespace ardrone_vslam {
 
+/// A query and the train descriptor that it was found to be.
 struct DescriptorMatch {
-  int query = -1;  ///< index into the query descriptors
-  int train = -1;  ///< index into the train descriptors
-  int distance_bits = kNoDistance_bits;
+  int query = -1;                        ///< index into the query descriptors
+  int train = -1;                        ///< index into the train descriptors
+  int distance_bits = kNoDistance_bits;  ///< Hamming distance of the two, 0..512
   int second_distance_bits =
       kNoDistance_bits;  ///< of the query's second nearest; kNoDistance_bits: only one candidate
 };

@@ -109,18 +109,26 @@ class DroneFilter {
     kSize = 17
   };
   /// Where attitude and force of a time come from: of a hole they are guessed.
-  enum class Known { kMeasured, kCommanded, kInterpolated };
+  enum class Known {
+    kMeasured,     ///< a packet's
+    kCommanded,    ///< what cmd_vel told the drone to do
+    kInterpolated  ///< between the packets around the hole
+  };
+  /// Means, placed by Index.
   using State = Eigen::Matrix<double, kSize, 1>;
+  /// Of the State's errors, placed by Index.
   using Covariance = Eigen::Matrix<double, kSize, kSize>;
+  /// Derivative of two quantities by the State.
   using Rows2 = Eigen::Matrix<double, 2, kSize>;
 
   /// What a measurement should be, and its derivative by the state.
   struct Foreseen {
-    Eigen::Vector2d value = Eigen::Vector2d::Zero();
-    Rows2 jacobian = Rows2::Zero();
+    Eigen::Vector2d value =
+        Eigen::Vector2d::Zero();     ///< forward and left, in the measurement's unit
+    Rows2 jacobian = Rows2::Zero();  ///< of value by the State
   };
 
-  /// @throws ConfigError
+  /// @throws ConfigError listing every parameter out of its range
   explicit DroneFilter(const DroneFilterConfig& config);
 
   /// At x = y = 0, its height that above the floor.
@@ -131,10 +139,13 @@ class DroneFilter {
   void rest(double dt_s);
   /// @param dt_s  since the measurement before: that of the sensors' noise
   void updateVelocity(const DroneMeasurement& measured, double dt_s);
+  /// @param height_m  above what is below, measured
+  /// @param dt_s  since the height before: neighbours err alike
   void updateHeight(double height_m, double dt_s);
 
   /// Height measured less height foreseen, and the deviation of that.
   double heightInnovation_m(double height_m) const;
+  /// Standard deviation of heightInnovation_m().
   double heightDeviation_m() const;
   /// The floor is now `floor_m` high, by the position: another one than before, unless it is that
   /// of the beginning again.
@@ -142,15 +153,20 @@ class DroneFilter {
   /// Position and velocity have become unknown by so much.
   void widen(double position_m, double velocity_m_s);
 
+  /// Means after the last call.
   const State& state() const { return x_; }
+  /// Covariance after the last call.
   const Covariance& covariance() const { return P_; }
   /// Pose with covariance, velocity with covariance; no stamp, no turn rate.
   ObserverState observed(const Eigen::Matrix3d& R_reported) const;
 
   /// The equations, for predict and update: the state after dt_s and its derivative by the state.
   static State motion(const State& x, const DroneMeasurement& measured, double dt_s);
+  /// Derivative of motion() by x.
   static Covariance motionJacobian(const State& x, const DroneMeasurement& measured, double dt_s);
+  /// What the optical flow should report: base's velocity, forward and left [m/s].
   static Foreseen flow(const State& x, const Eigen::Matrix3d& R_reported);
+  /// What the accelerometer should feel across the thrust, forward and left [m/s^2].
   static Foreseen drag(const State& x, const Eigen::Matrix3d& R_reported);
 
  private:

@@ -14,21 +14,21 @@ namespace ardrone_vslam {
 
 /// One packet of the drone, with the stamp of its reception.
 struct NavdataReading {
-  std::int64_t stamp_ns = 0;
-  DroneMeasurement measured;
-  bool is_standing = false;  ///< on the ground, motors off
+  std::int64_t stamp_ns = 0;  ///< of reception; several packets may have the same
+  DroneMeasurement measured;  ///< what the packet says, in SI units
+  bool is_standing = false;   ///< on the ground, motors off
 };
 
 /// One reading of its gyroscope and accelerometer.
 struct DroneImu {
-  std::int64_t stamp_ns = 0;
-  Eigen::Vector3d turn_rate_base_rad_s = Eigen::Vector3d::Zero();
-  Eigen::Vector3d force_base_m_s2 = Eigen::Vector3d::Zero();
+  std::int64_t stamp_ns = 0;                                       ///< of reception
+  Eigen::Vector3d turn_rate_base_rad_s = Eigen::Vector3d::Zero();  ///< about forward, left, up
+  Eigen::Vector3d force_base_m_s2 = Eigen::Vector3d::Zero();  ///< specific force: forward, left, up
 };
 
 /// What the drone's controller was told: cmd_vel's x and y.
 struct DroneCommandReading {
-  std::int64_t stamp_ns = 0;
+  std::int64_t stamp_ns = 0;                       ///< when it was sent
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< forward and left, within +-1
 };
 
@@ -38,20 +38,23 @@ struct DroneCommandReading {
 /// for. Deterministic: the stamps are its only clock, the order between the two does not matter.
 class DroneObserver {
  public:
+  /// Packets wait no longer for an IMU reading.
   static constexpr std::int64_t kLongestWait_ns = 100'000'000;
 
-  /// @throws ConfigError
+  /// @throws ConfigError listing every parameter out of its range
   explicit DroneObserver(const DroneFilterConfig& config);
 
   /// @param ready  gets the states that are ready, stamps ascending; none, one or more
   /// @return why this packet is not used; else kAccepted
   ObserverBuffer::Push push(const NavdataReading& packet, std::vector<ObserverState>& ready);
+  /// The same for a reading of the IMU.
   ObserverBuffer::Push push(const DroneImu& imu, std::vector<ObserverState>& ready);
   /// Only needed where packets are missing.
   ObserverBuffer::Push push(const DroneCommandReading& command);
   /// What waits, when nothing further will come.
   void flush(std::vector<ObserverState>& ready);
 
+  /// What was wrong with the packets so far, by cause.
   const OdometryFaultCounts& faults() const { return faults_; }
 
  private:

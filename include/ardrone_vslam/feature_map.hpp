@@ -13,15 +13,16 @@ namespace ardrone_vslam {
 
 /// Something seen once, without depth yet: waits for a second view from elsewhere.
 struct MapFeature {
-  std::uint32_t track_id = kNoTrack;
-  Ray ray;  ///< from where and in which direction it was seen
+  std::uint32_t track_id = kNoTrack;  ///< by which it is found again; kNoTrack: by descriptor alone
+  Ray ray;                            ///< from where and in which direction it was seen
   double elevation =
       0;  ///< tangent of the ray's elevation; used in 2-D mode, where rays have no height
   double position_variance_m2 = 0;  ///< of ray.origin_map, per axis, at that time
-  std::int64_t stamp_ns = 0;
-  Descriptor descriptor;
+  std::int64_t stamp_ns = 0;        ///< of the image that saw it
+  Descriptor descriptor;            ///< as seen there
 };
 
+/// How many features wait for depth, and how long.
 struct FeatureMapConfig {
   int max_map_features = 4000;
   double max_feature_age_s = 10.0;
@@ -40,6 +41,7 @@ void visitParameters(FeatureMapConfig& c, Visitor&& visit) {
 /// Storage of features in the order they came, with look-up by track.
 class FeatureMap {
  public:
+  /// @throws ConfigError listing every parameter out of its range
   explicit FeatureMap(const FeatureMapConfig& config);
 
   /// Stores a feature. An entry of the same track that is there already loses its track for good
@@ -53,8 +55,11 @@ class FeatureMap {
 
   /// Index of the entry that follows a track, -1 when there is none.
   int indexOfTrack(std::uint32_t track_id) const;
+  /// Whether remove() was called for it since the last compact().
   bool isRemoved(std::size_t index) const { return removed_[index]; }
+  /// In the order they came, with those marked as removed.
   const std::vector<MapFeature>& all() const { return features_; }
+  /// Number of entries in all().
   std::size_t size() const { return features_.size(); }
 
  private:

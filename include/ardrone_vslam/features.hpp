@@ -10,17 +10,19 @@ namespace ardrone_vslam {
 
 /// A detected corner. Pixel centres have integer coordinates, (0, 0) is the top left one.
 struct Corner {
-  std::int16_t x_px = 0;
-  std::int16_t y_px = 0;
+  std::int16_t x_px = 0;   ///< column
+  std::int16_t y_px = 0;   ///< row
   std::uint8_t score = 0;  ///< largest threshold at which the pixel is still a corner, 0..254
 };
 
 /// 512-bit binary descriptor; `words` read as bytes in memory order (little endian) are OpenCV
 /// contrib's FREAK bytes.
 struct alignas(64) Descriptor {
-  std::array<std::uint64_t, 8> words{};
+  std::array<std::uint64_t, 8> words{};  ///< bits 0..63 in the first
 
+  /// Whether all 512 bits are the same.
   bool operator==(const Descriptor& other) const { return words == other.words; }
+  /// Whether any bit differs.
   bool operator!=(const Descriptor& other) const { return words != other.words; }
 };
 static_assert(sizeof(Descriptor) == 64, "a descriptor is exactly 512 bits");
@@ -30,8 +32,8 @@ constexpr std::uint32_t kNoTrack = 0;  ///< a track id that no feature of a trac
 /// All features of one image: arrays of equal length, entry i of each belongs to feature i.
 struct ImageFeatures {
   std::int64_t stamp_ns = 0;  ///< the image's time stamp
-  int width_px = 0;
-  int height_px = 0;
+  int width_px = 0;           ///< of the image
+  int height_px = 0;          ///< of the image
   float focal_length_px =
       0.F;  ///< geometric mean of fx and fy; one pixel is 1 / focal_length_px rad
 
@@ -42,10 +44,13 @@ struct ImageFeatures {
   std::vector<std::uint32_t>
       track_id;  ///< stable from frame to frame; never 0, never used again in one run
   std::vector<std::uint16_t> age_frames;  ///< frames since the track began, 0 for a new one
-  std::vector<Descriptor> descriptor;
+  std::vector<Descriptor> descriptor;     ///< FREAK of the patch around the pixel
 
+  /// Number of features.
   std::size_t size() const { return pixel_px.size(); }
+  /// No features; the arrays keep their memory.
   void clear();
+  /// Makes room for so many features in every array.
   void reserve(std::size_t count);
 };
 

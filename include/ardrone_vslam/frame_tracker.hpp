@@ -9,6 +9,7 @@
 
 namespace ardrone_vslam {
 
+/// How far a track may go between two images, and how alike its descriptors must be.
 struct FrameTrackerConfig {
   double search_radius_px = 80.0;
   int max_hamming_bits = 100;

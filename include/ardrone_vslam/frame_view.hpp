@@ -15,9 +15,9 @@ namespace ardrone_vslam {
 
 /// How far the present pose may be off a frame that landmarks belong to: variances per axis.
 struct AnchorDrift {
-  std::uint32_t anchor_id = 0;
-  double position_m2 = 0;
-  double attitude_rad2 = 0;
+  std::uint32_t anchor_id = 0;  ///< of that frame: WindowPose::id
+  double position_m2 = 0;       ///< of base
+  double attitude_rad2 = 0;     ///< of its rotation vector
 };
 
 /// One frame's features as rays in the map, seen from a predicted camera pose. Needs no camera
@@ -45,6 +45,7 @@ class FrameView {
     position_variance_m2_ = variance_m2;
     common_drift_ = common_drift;
   }
+  /// Of the predicted position, per axis; as set.
   double positionVariance_m2() const { return position_variance_m2_; }
   /// Deviation of the position relative to what was stored when its variance was
   /// `variance_then_m2`: the drift since then. Without common drift all positions are taken as
@@ -60,18 +61,25 @@ class FrameView {
   /// @param variance_then_m2  what counts for landmarks without an anchor, see deviationSince_m
   double driftAngle_rad(std::uint32_t anchor_id, double variance_then_m2, double distance_m) const;
 
+  /// What reset() was given.
   const ImageFeatures& features() const { return *features_; }
+  /// Number of features.
   std::size_t size() const { return rays_map_.size(); }
+  /// Of one feature, from the camera's position in map.
   Ray ray(std::size_t index) const { return {origin_map_, rays_map_[index]}; }
+  /// The camera's position: predicted, or what setOrigin() said.
   const Eigen::Vector3d& origin_map() const { return origin_map_; }
   /// Moves all rays to another camera position (after the fusion); directions and windows stay.
   void setOrigin(const Eigen::Vector3d& origin_map) { origin_map_ = origin_map; }
+  /// ImageFeatures::focal_length_px: one pixel is 1 / focalLength_px() rad.
   double focalLength_px() const { return features_->focal_length_px; }
+  /// Whether this is the 2-D mode.
   bool planar() const { return planar_; }
   /// Takes directions in map to the camera's optical frame.
   const Eigen::Matrix3d& R_cam_map() const { return R_cam_map_; }
   /// Corners of the box of all ideal pixels that the camera has shown so far.
   const Eigen::Vector2f& lower_px() const { return lower_px_; }
+  /// @copydoc lower_px
   const Eigen::Vector2f& upper_px() const { return upper_px_; }
 
   /// Ideal pixel of a direction in the map frame.

@@ -15,15 +15,16 @@ namespace ardrone_vslam {
 /// Where and how large to describe. `size_px` 7 is the pattern's own scale (OpenCV's keypoint
 /// size): it then covers 45 x 45 pixels. A size s enlarges it by s / 7, in 64 steps of 2^(1 / 16).
 struct FreakKeypoint {
-  int x_px = 0;
-  int y_px = 0;
-  float size_px = 7.F;
+  int x_px = 0;         ///< column of the pattern's centre
+  int y_px = 0;         ///< row
+  float size_px = 7.F;  ///< 7 .. 107, see above
 };
 
 /// Keypoints of size 7 at least so far from the left and upper border, and one pixel less from the
 /// others, can be described.
 constexpr int kFreakBorder_px = 24;
 
+/// Whether the pattern turns with the patch.
 struct FreakConfig {
   bool oriented = true;
 };

@@ -9,8 +9,10 @@ namespace ardrone_vslam::detail {
 /// Carry-save adder: the bits of sum + 2 carry count the set bits of a, b and c at each of 64
 /// places.
 struct CarrySave {
-  std::uint64_t carry, sum;
+  std::uint64_t carry;  ///< twos
+  std::uint64_t sum;    ///< ones
 };
+/// Adds three numbers of one bit, 64 times over.
 inline CarrySave addBits(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
   const std::uint64_t half = a ^ b;
   return {(a & b) | (half & c), half ^ c};

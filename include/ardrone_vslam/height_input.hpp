@@ -52,17 +52,22 @@ inline bool usesReadings(const HeightInputConfig& config) {
 /// What a range sensor under base says, its beam along base's -z. As sensor_msgs/Range: a range
 /// outside its own bounds is none.
 struct RangeReading {
-  std::int64_t stamp_ns = 0;
-  double range_m = 0;
-  double min_m = 0;
-  double max_m = 0;
-  bool is_vertical = false;  ///< already the height, whatever the tilt
+  std::int64_t stamp_ns = 0;  ///< of the echo
+  double range_m = 0;         ///< along the beam, from base
+  double min_m = 0;           ///< nearest that the sensor can tell
+  double max_m = 0;           ///< and furthest
+  bool is_vertical = false;   ///< already the height, whatever the tilt
 };
 
 /// The height of base above the floor at image stamps.
 class HeightInput {
  public:
-  enum class Push { kAccepted, kOutOfRange, kNotAscending };
+  /// Whether a reading is taken, and why not.
+  enum class Push {
+    kAccepted,
+    kOutOfRange,   ///< no echo: not finite, or outside the sensor's own bounds
+    kNotAscending  ///< its stamp is not after the one before
+  };
 
   /// @param buffer_s  ranges are kept for so long
   HeightInput(const HeightInputConfig& config, double buffer_s);
@@ -76,11 +81,13 @@ class HeightInput {
 
   /// Forgets all readings: time began again.
   void clear() { readings_.clear(); }
+  /// Of the last reading that was accepted; 0: none.
   std::int64_t newestStamp_ns() const { return readings_.empty() ? 0 : readings_.back().stamp_ns; }
-  /// Readings refused; images without a height because no range was near their stamp, and because
-  /// base was tilted.
+  /// Readings that push() refused.
   std::uint64_t refused() const { return refused_; }
+  /// Images without a height because no range was near their stamp.
   std::uint64_t missing() const { return missing_; }
+  /// And because base was tilted by more than range_max_tilt_deg.
   std::uint64_t tilted() const { return tilted_; }
 
  private:

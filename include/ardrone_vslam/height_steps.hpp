@@ -11,7 +11,9 @@ namespace ardrone_vslam {
 /// (firmwares that leave it out): no drone climbs at 1.5 m/s.
 class HeightSteps {
  public:
+  /// Time within which a step happens.
   static constexpr std::int64_t kWindow_ns = 100'000'000;
+  /// A step is at least so high: less is the sensor's noise or a slope.
   static constexpr double kLeast_m = 0.15;
   /// A filtered height needs some time to reach the other floor.
   static constexpr std::int64_t kLongest_ns = 500'000'000;

@@ -8,6 +8,7 @@
 
 namespace ardrone_vslam {
 
+/// How well heights above the floor are known, and which of them count.
 struct HeightConfig {
   double height_deviation_m = 0.03;
   double height_interval_s = 0.5;
@@ -58,7 +59,7 @@ enum class HeightOutcome {
 /// begun anew; one that slopes along is taken for an error of scale.
 class HeightUpdate {
  public:
-  /// @throws ConfigError
+  /// @throws ConfigError listing every parameter out of its range
   explicit HeightUpdate(const HeightConfig& config);
 
   /// Takes in the height at the newest frame. O(coordinates^2).

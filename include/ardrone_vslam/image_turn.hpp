@@ -9,8 +9,8 @@ namespace ardrone_vslam {
 
 /// One track in two images: unit vectors, each in its own image's optical frame.
 struct BearingPair {
-  Eigen::Vector3d then;
-  Eigen::Vector3d now;
+  Eigen::Vector3d then;  ///< in the earlier image
+  Eigen::Vector3d now;   ///< in the later one
 };
 
 /// The camera's way between two images as the odometry says: it tells apart the two motions that
@@ -22,11 +22,12 @@ struct WayGuess {
 
 /// By how much the camera turned between two images.
 struct ImageTurn {
-  Eigen::Matrix3d R_then_now = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d R_then_now =
+      Eigen::Matrix3d::Identity();  ///< takes directions in the later image to the earlier one
   /// Inverse covariance of its rotation vector [1/rad^2], axes of the image then. The direction of
   /// the way is fitted, too: a turn that another way explains as well counts little.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  int inliers = 0;
+  int inliers = 0;  ///< pairs that agree with it
 };
 
 /// Fewer tracks tell no turn.

@@ -20,8 +20,9 @@ struct EnumNames<InstructionSet> {
 /// @return those that this build contains and this processor runs, from scalar to the fastest
 std::vector<InstructionSet> supportedInstructionSets();
 
+/// The set that is used, and whether it is the one that was asked for.
 struct InstructionSetChoice {
-  InstructionSet set = InstructionSet::kScalar;
+  InstructionSet set = InstructionSet::kScalar;  ///< one of supportedInstructionSets()
   std::string fault;  ///< why the request was not met; empty if it was, or if there was none
 };
 

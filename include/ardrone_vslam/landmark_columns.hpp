@@ -20,12 +20,13 @@ struct ProjectionLimits {
 /// The landmarks that a predicted camera sees, by ascending index: the first `count` entries of
 /// each array; what lies behind them means nothing.
 struct VisibleLandmarks {
-  std::size_t count = 0;
+  std::size_t count = 0;            ///< of visible landmarks
   std::vector<std::int32_t> index;  ///< into LandmarkMap::all()
   std::vector<float> x_px;          ///< ideal pixel, see FrameView
-  std::vector<float> y_px;
-  std::vector<float> distance_m;
+  std::vector<float> y_px;          ///< likewise
+  std::vector<float> distance_m;    ///< from the camera
 
+  /// Ideal pixel of visible landmark i, i < count.
   Eigen::Vector2f pixel_px(std::size_t i) const { return {x_px[i], y_px[i]}; }
 };
 
@@ -48,9 +49,13 @@ class LandmarkColumns {
   void project(const FrameView& view, const ProjectionLimits& limits,
                VisibleLandmarks& visible) const;
 
+  /// Number of landmarks.
   std::size_t size() const { return track_id_.size(); }
+  /// Landmark::track_id.
   std::uint32_t trackId(std::size_t index) const { return track_id_[index]; }
+  /// Landmark::position_variance_m2.
   double positionVariance_m2(std::size_t index) const { return position_variance_m2_[index]; }
+  /// Landmark::anchor_id.
   std::uint32_t anchorId(std::size_t index) const { return anchor_id_[index]; }
   /// From where it was last seen; 0: not known.
   float seenDistance_m(std::size_t index) const;

@@ -16,9 +16,9 @@ namespace ardrone_vslam {
 
 /// A point of the world with known position.
 struct Landmark {
-  std::uint32_t id = 0;        ///< never used again in one run
-  std::uint32_t track_id = 0;  ///< of the feature that saw it last
-  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
+  std::uint32_t id = 0;                                    ///< never used again in one run
+  std::uint32_t track_id = 0;                              ///< of the feature that saw it last
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();  ///< of the point; z is 0 in 2-D mode
   Eigen::Vector3d view_direction_map =
       Eigen::Vector3d::Zero();   ///< unit ray camera -> landmark when last described
   double seen_distance_m = 0;    ///< from the camera that saw it last; 0: not known
@@ -31,16 +31,17 @@ struct Landmark {
   std::uint32_t anchor_id = 0;      ///< constraint filter: the frame whose error it shares
   Eigen::Matrix3d covariance_m2 =
       Eigen::Matrix3d::Zero();  ///< constraint filter: beside that error
-  Descriptor descriptor;
+  Descriptor descriptor;        ///< as seen last
   double height_m =
       0;  ///< above the camera that saw it last; used in 2-D mode, where positions have no height
-  int times_seen = 0;
+  int times_seen = 0;    ///< matches since it was made, that included
   int times_missed = 0;  ///< in view but not matched, since the last match
   int times_failed = 0;  ///< constraint filter: missed where others were found, or matched wrongly
-  std::int64_t first_seen_ns = 0;
-  std::int64_t last_seen_ns = 0;
+  std::int64_t first_seen_ns = 0;  ///< stamp of the image that made it
+  std::int64_t last_seen_ns = 0;   ///< stamp of the last image it was matched in
 };
 
+/// How large the map may become.
 struct LandmarkMapConfig {
   int max_landmarks = 200000;
 };
@@ -55,6 +56,7 @@ void visitParameters(LandmarkMapConfig& c, Visitor&& visit) {
 /// Storage of landmarks with stable ids.
 class LandmarkMap {
  public:
+  /// @throws ConfigError listing every parameter out of its range
   explicit LandmarkMap(const LandmarkMapConfig& config);
 
   /// Stores a landmark under a new id (its `id` is ignored). O(1).
@@ -66,6 +68,7 @@ class LandmarkMap {
 
   /// All landmarks, dense; order changes only by remove (the last one takes the place).
   const std::vector<Landmark>& all() const { return landmarks_; }
+  /// Number of landmarks.
   std::size_t size() const { return landmarks_.size(); }
   /// For changes; they must be made before columns() or advanceIndex() is called next.
   /// @param index  into all()
@@ -74,6 +77,7 @@ class LandmarkMap {
   Landmark& atPlace(std::size_t index);
   /// One more view in which the landmark should have been seen and was not. @return times_missed
   int addMiss(std::size_t index) { return ++landmarks_[index].times_missed; }
+  /// One more image that speaks against the landmark. @return times_failed
   int addFailure(std::size_t index) { return ++landmarks_[index].times_failed; }
   /// @return nullptr when there is none of this id
   const Landmark* find(std::uint32_t id) const;
@@ -87,6 +91,7 @@ class LandmarkMap {
   /// its lists.
   /// @return whether index() is up to date now
   bool advanceIndex();
+  /// Landmarks entered by one advanceIndex() at most.
   static constexpr int kIndexStep = 5000;
   /// Its ids are the landmarks'. @pre advanceIndex() has returned true since the last change
   /// (asserted)

@@ -58,9 +58,10 @@ void visitParameters(LateFusionConfig& c, Visitor&& visit) {
 
 /// What the mapper says of one image: base was at T_map_base where the observer said T_odom_base.
 struct LateCorrection {
-  std::int64_t stamp_ns = 0;  ///< the image's
-  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
+  std::int64_t stamp_ns = 0;                                     ///< the image's
+  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();  ///< fused
+  Eigen::Isometry3d T_odom_base =
+      Eigen::Isometry3d::Identity();  ///< by the odometry at the same stamp
   /// Of T_map_base: position [m^2], rotation vector [rad^2], axes of map.
   Matrix6d covariance = Matrix6d::Zero();
 };
@@ -71,12 +72,12 @@ std::string faultOf(const LateCorrection& correction);
 
 /// The observer's state of one instant, seen from map.
 struct MapState {
-  std::int64_t stamp_ns = 0;  ///< the odometry's
-  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();
+  std::int64_t stamp_ns = 0;                                     ///< the odometry's
+  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();  ///< the odometry's pose, corrected
   /// Position [m^2], rotation vector [rad^2], axes of map; symmetric, positive semi-definite.
   Matrix6d covariance = Matrix6d::Zero();
-  Vector6d twist_base = Vector6d::Zero();  ///< the observer's, as in ObserverState
-  Matrix6d twist_covariance = Matrix6d::Zero();
+  Vector6d twist_base = Vector6d::Zero();        ///< the observer's, as in ObserverState
+  Matrix6d twist_covariance = Matrix6d::Zero();  ///< the observer's, as in ObserverState
 };
 
 /// Applies corrections, which are late by the image's way through camera and mapper, to the live
@@ -85,8 +86,9 @@ struct MapState {
 /// it comes.
 class LateFusion {
  public:
+  /// What became of a correction.
   enum class Answer {
-    kUsed,
+    kUsed,      ///< all odometry since its stamp is seen through it
     kNotYet,    ///< no odometry at or after the stamp has come: to be offered again when it has
     kTooOld,    ///< before the oldest odometry that is kept
     kGap,       ///< the odometry has a hole at the stamp
@@ -97,9 +99,10 @@ class LateFusion {
   /// A correction whose observer pose is further off the odometry belongs to another one:
   /// interpolation across some lost messages costs less.
   static constexpr double kLargestDifference_m = 0.1;
+  /// The same for its attitude.
   static constexpr double kLargestDifference_rad = 0.1;
 
-  /// @throws ConfigError
+  /// @throws ConfigError listing every parameter out of its range
   explicit LateFusion(const LateFusionConfig& config);
 
   /// Appends odometry; one that is refused changes nothing. O(1).
@@ -117,10 +120,13 @@ class LateFusion {
   /// Forgets odometry and correction: time or the odometry began anew.
   void clear();
 
+  /// Whether a correction is in use.
   bool hasCorrection() const { return correction_.has_value(); }
   /// @pre hasCorrection()
   std::int64_t correctionStamp_ns() const { return correction_->stamp_ns; }
+  /// Of the correction in use; identity before the first one.
   const Eigen::Isometry3d& T_map_odom() const { return T_map_odom_; }
+  /// Of the odometry; 0 without any.
   std::int64_t newestStamp_ns() const { return buffer_.newestStamp_ns(); }
 
  private:

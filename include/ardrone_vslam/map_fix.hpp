@@ -14,7 +14,7 @@ namespace ardrone_vslam {
 /// A landmark of an earlier visit, matched in the newest frame.
 struct MapSighting {
   Eigen::Vector3d bearing_base = Eigen::Vector3d::UnitX();  ///< measured unit ray
-  Eigen::Vector3d point_map = Eigen::Vector3d::Zero();
+  Eigen::Vector3d point_map = Eigen::Vector3d::Zero();      ///< where the map has it
   Eigen::Matrix3d covariance_m2 =
       Eigen::Matrix3d::Zero();  ///< beside what its anchor's errors cause
   std::size_t anchor = 0;       ///< index into WindowState::anchors()
@@ -24,9 +24,9 @@ struct MapSighting {
 
 /// The sightings that agree on one pose of base, and which.
 struct SightingConsensus {
-  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d R_map_base = Eigen::Matrix3d::Identity();
-  std::vector<MapSighting> sightings;
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();    ///< of base
+  Eigen::Matrix3d R_map_base = Eigen::Matrix3d::Identity();  ///< of base; the predicted one
+  std::vector<MapSighting> sightings;                        ///< those that agree
 };
 
 /// Random sample consensus over pairs: with the attitude known two rays give the position. The
@@ -39,7 +39,7 @@ SightingConsensus agreeOnPosition(const WindowPose& predicted, const Eigen::Vect
 /// A correction of the newest pose by landmarks, as information on that pose, on the anchors and
 /// the scale.
 struct MapFix {
-  Information information;
+  Information information;                 ///< what WindowState::update() is to be given
   Vector6d offset = Vector6d::Zero();      ///< of the pose: position, attitude
   Matrix6d covariance = Matrix6d::Zero();  ///< of the offset, by the landmarks' and rays' noise
   Matrix6d drift = Matrix6d::Zero();       ///< what the filter expects of the offset
@@ -48,6 +48,15 @@ struct MapFix {
   Vector6d whitened() const;
   /// offset' (drift + covariance)^-1 offset, chi-square with six degrees of freedom.
   double distance() const;
+};
+
+/// What became of the landmarks of earlier visits that a frame shows.
+enum class FixOutcome {
+  kNone,       ///< too few of them agree
+  kNotNeeded,  ///< they agree with the pose, whose drift since the last fix is too small to matter
+  kApplied,    ///< they corrected the pose
+  kRelocated,  ///< applied, by landmarks found in wide windows
+  kRejected    ///< they disagree with the pose by more than the gate
 };
 
 /// @param independent  the landmarks' errors are alike in groups: their fix is not taken as better

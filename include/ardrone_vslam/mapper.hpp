@@ -11,6 +11,7 @@
 
 namespace ardrone_vslam {
 
+/// When a feature becomes a landmark, how well it is known then, and when it is dropped.
 struct MapperConfig {
   double angle_deviation_px = 1.0;
   double position_deviation_m = 0.01;
@@ -55,6 +56,7 @@ void visitParameters(MapperConfig& c, Visitor&& visit) {
 /// is known.
 class Mapper {
  public:
+  /// @throws ConfigError listing every parameter out of its range
   explicit Mapper(const MapperConfig& config);
 
   /// sigma_a for a camera of this focal length.

@@ -35,9 +35,9 @@ constexpr int kNoDistance_bits = 513;
 /// does not depend on the order of the offers: of equally near candidates the one with the lowest
 /// index is the best.
 struct BestTwo {
-  int index = -1;  ///< -1: nothing has been offered
-  int distance_bits = kNoDistance_bits;
-  int second_distance_bits = kNoDistance_bits;
+  int index = -1;                               ///< -1: nothing has been offered
+  int distance_bits = kNoDistance_bits;         ///< of the nearest
+  int second_distance_bits = kNoDistance_bits;  ///< of the second nearest
 
   /// @param candidate  0 or greater; each at most once
   void offer(int candidate, int candidate_distance_bits) {

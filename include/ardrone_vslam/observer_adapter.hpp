@@ -13,13 +13,22 @@
 
 namespace ardrone_vslam {
 
-enum class ObserverMode { kPose, kTwist, kNavdata };
+/// What of the observer is believed.
+enum class ObserverMode {
+  kPose,    ///< the odometry's pose
+  kTwist,   ///< its twist, integrated anew, and its orientation
+  kNavdata  ///< the drone's own packets (DroneObserver)
+};
 template <>
 struct EnumNames<ObserverMode> {
   static constexpr std::array<const char*, 3> kNames{"pose", "twist", "navdata"};
 };
 
-enum class ObserverHeight { kPose, kTwist };
+/// Where z comes from with ObserverMode::kTwist.
+enum class ObserverHeight {
+  kPose,  ///< the pose's, without the steps of furniture below
+  kTwist  ///< integrated as x and y are
+};
 template <>
 struct EnumNames<ObserverHeight> {
   static constexpr std::array<const char*, 2> kNames{"pose", "twist"};
@@ -52,6 +61,7 @@ void visitParameters(ObserverAdapterConfig& c, Visitor&& visit) {
 /// repairs what it can and counts it. Deterministic: the stamps are its only clock.
 class ObserverAdapter {
  public:
+  /// @throws ConfigError listing every parameter out of its range
   explicit ObserverAdapter(const ObserverAdapterConfig& config);
 
   /// One message, as it came: its position may be out of bounds. From the first burst of equal
@@ -67,6 +77,7 @@ class ObserverAdapter {
   /// nonsense.
   static bool isBeyondAllJumps(const ObserverState& message);
 
+  /// What was wrong with the messages so far, by cause.
   const OdometryFaultCounts& faults() const { return faults_; }
 
  private:

@@ -12,13 +12,16 @@
 
 namespace ardrone_vslam {
 
+/// Covariance of position and rotation vector, or of linear and angular velocity.
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
+/// Position and rotation vector, or linear and angular velocity.
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 /// What the drone's observer says of one instant.
 struct ObserverState {
-  std::int64_t stamp_ns = 0;
-  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
+  std::int64_t stamp_ns = 0;  ///< the odometry's clock
+  Eigen::Isometry3d T_odom_base =
+      Eigen::Isometry3d::Identity();  ///< pose of base in the odometry's frame
   /// Of position [m^2], then rotation vector [rad^2], axes of odom; all zero when the observer
   /// gives none. Read it through positionVariance_m2.
   Matrix6d covariance = Matrix6d::Zero();
@@ -50,6 +53,7 @@ std::optional<double> positionVariance_m2(const ObserverState& state);
 /// Why a covariance that is not all zero counts as not given; empty when it is used or all zero.
 std::string covarianceFault(const ObserverState& state);
 
+/// How long odometry is kept, and across what holes it is interpolated.
 struct ObserverBufferConfig {
   double buffer_s = 10.0;
   double max_gap_s = 0.5;
@@ -69,9 +73,24 @@ void visitParameters(ObserverBufferConfig& c, Visitor&& visit) {
 /// slerp).
 class ObserverBuffer {
  public:
-  enum class Push { kAccepted, kNotFinite, kOutOfRange, kDuplicateStamp, kBackwardStamp };
-  enum class Lookup { kFound, kEmpty, kTooOld, kNotYet, kGap };
+  /// Whether a state is taken, and why not.
+  enum class Push {
+    kAccepted,
+    kNotFinite,       ///< a number of it
+    kOutOfRange,      ///< rangeFault() says what
+    kDuplicateStamp,  ///< that of the state before
+    kBackwardStamp    ///< before that of the state before
+  };
+  /// Whether there is a state at a stamp, and why not.
+  enum class Lookup {
+    kFound,
+    kEmpty,   ///< no state has come
+    kTooOld,  ///< the stamp is before the first state kept
+    kNotYet,  ///< no state at or after the stamp has come
+    kGap      ///< the states on both sides are further apart than max_gap_s
+  };
 
+  /// @throws ConfigError listing every parameter out of its range
   explicit ObserverBuffer(const ObserverBufferConfig& config);
 
   /// Appends a state; one that is refused changes nothing. The quaternion part is taken as
@@ -85,10 +104,13 @@ class ObserverBuffer {
   ///   states on both sides are further apart than max_gap_s.
   Lookup at(std::int64_t stamp_ns, ObserverState& state) const;
 
+  /// Forgets all states: time began again.
   void clear() { states_.clear(); }
+  /// Whether there is no state.
   bool empty() const { return states_.empty(); }
   /// Oldest first.
   const std::deque<ObserverState>& states() const { return states_; }
+  /// Of the last state that was accepted; 0: none.
   std::int64_t newestStamp_ns() const { return states_.empty() ? 0 : states_.back().stamp_ns; }
 
  private:

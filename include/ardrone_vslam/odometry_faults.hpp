@@ -27,11 +27,13 @@ struct EnumNames<OdometryFault> {
                                                      "restart",       "whole_metres", "burst",
                                                      "hole",          "no_twist",     "table_step"};
 };
+/// Number of the kinds above.
 constexpr std::size_t kOdometryFaultCount = EnumNames<OdometryFault>::kNames.size();
 
 /// How often each was seen, by the enumerators' order.
 using OdometryFaultCounts = std::array<std::uint64_t, kOdometryFaultCount>;
 
+/// Adds the counts of one source to those of others.
 void add(const OdometryFaultCounts& counts, OdometryFaultCounts& sum);
 
 /// Whether users should be told: many sound drivers give no covariance, which is only counted.

@@ -14,12 +14,20 @@ namespace ardrone_vslam {
 
 /// What a user needs to know of one parameter. Its default is the value in the freshly constructed
 /// struct, so that it is written only once.
+///
+/// Every *Config struct S of the project has a free function
+/// @code
+/// template <class Visitor> void visitParameters(S& config, Visitor&& visit);
+/// @endcode
+/// that calls visit(const ParameterInfo&, member) for each member, nested structs included. Members
+/// are int, double, bool or an enumeration with EnumNames. Reading, validation, listing and the
+/// documentation all use it.
 struct ParameterInfo {
-  const char* name;
+  const char* name;  ///< as in yaml files and in messages
   const char* unit;  ///< "px", "m", "rad", "-" ...; "choice" for enumerations, "switch" for bool
   double min;  ///< smallest and largest valid value of a number; unused for choices and switches
-  double max;
-  const char* effect;
+  double max;  ///< likewise
+  const char* effect;  ///< one line for docs/parameters.md and --list-parameters
 };
 
 /// Specialised for every enumeration that is a parameter: `static constexpr std::array<const char*,
@@ -27,6 +35,7 @@ struct ParameterInfo {
 template <class Enum>
 struct EnumNames;
 
+/// The word for a choice in yaml files and messages.
 template <class Enum>
 const char* nameOf(Enum value) {
   return EnumNames<Enum>::kNames[static_cast<std::size_t>(value)];
@@ -35,28 +44,29 @@ const char* nameOf(Enum value) {
 /// Thrown once at construction or loading; lists every fault of the configuration.
 class ConfigError : public std::runtime_error {
  public:
+  /// what() has all of them, one a line.
   explicit ConfigError(const std::vector<std::string>& faults);
+  /// One sentence each.
   const std::vector<std::string>& faults() const { return faults_; }
 
  private:
   std::vector<std::string> faults_;
 };
 
-/// Every *Config struct S of the project has a free function
-///   template <class Visitor> void visitParameters(S& config, Visitor&& visit)
-/// that calls visit(const ParameterInfo&, member) for each member, nested structs included. Members
-/// are int, double, bool or an enumeration with EnumNames. Reading, validation, listing and the
-/// documentation test all use it.
+/// What the templates in the headers need.
 namespace detail {
+/// Visitor that notes the numbers outside their range.
 struct RangeCheck {
-  std::vector<std::string>* faults;
+  std::vector<std::string>* faults;  ///< receives one sentence for each
 
+  /// Looks at numbers; choices and switches cannot be outside.
   template <class T>
   void operator()(const ParameterInfo& info, T& value) const {
     if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
       check(info, static_cast<double>(value));
     }
   }
+  /// Notes the fault of one number; NaN is outside.
   void check(const ParameterInfo& info, double value) const;
 };
 }  // namespace detail

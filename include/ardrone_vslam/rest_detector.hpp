@@ -19,6 +19,7 @@ enum class CameraMotion {
   kRotating,  ///< turning on the spot
 };
 
+/// When an image counts as still, and what it may hide.
 struct RestConfig {
   double rest_after_s = 1;
   double rest_deviation_px = 0.8;
@@ -41,17 +42,18 @@ void visitParameters(RestConfig& c, Visitor&& visit) {
         c.rest_turn_deg_per_s);
   visit(ParameterInfo{"rest_depth_m", "m", 0.1, 1e6,
                       "constraint filter: how far away the scene is taken to be while no landmark "
-                      "says it; further away a still image hides more motion"},
+                      "says it; further away an image that is still, or hardly moves, hides more "
+                      "motion. Outdoors: the distance to what is seen"},
         c.rest_depth_m);
 }
 
 /// An image beside the reference.
 struct Stillness {
-  bool enough_tracks = false;
-  bool is_still = false;  ///< one turn, within the observer's, explains how the image moved
-  int common = 0;         ///< tracks that both have
-  double inlier_share = 0;
-  double median_px = 0;  ///< of the tracks' motion once the turn is taken out
+  bool enough_tracks = false;  ///< to tell anything of it
+  bool is_still = false;       ///< one turn, within the observer's, explains how the image moved
+  int common = 0;              ///< tracks that both have
+  double inlier_share = 0;     ///< of these, those that one turn explains
+  double median_px = 0;        ///< of the tracks' motion once the turn is taken out
   Eigen::Matrix3d R_reference_now = Eigen::Matrix3d::Identity();  ///< by the tracks
   /// Covariance of the way that the images may hide, over the scene's depth; axes of the
   /// reference's camera. Largest along the view, and across where a turn may have made up for it.
@@ -63,6 +65,7 @@ struct Stillness {
 /// again in the reference by their descriptors.
 class RestDetector {
  public:
+  /// @param config  is taken as valid: the filter that holds it has checked it
   explicit RestDetector(const RestConfig& config) : config_(config) {}
 
   /// @param R_reference_now  the camera's turn since the reference by the observer

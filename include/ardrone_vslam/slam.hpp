@@ -11,6 +11,7 @@
 #include "ardrone_vslam/slam_config.hpp"
 #include "ardrone_vslam/stages.hpp"
 
+/// The library: from images and odometry to a pose and a map, without ROS and OpenCV.
 namespace ardrone_vslam {
 
 /// What a frame's pose rests on; `explain` gives the sentence for users.
@@ -28,14 +29,15 @@ enum class SlamState {
   kDistrusted,    ///< constraint filter: camera and odometry contradict each other, the pose is the
                   ///< observer's (Watchdog)
 };
+/// As in Status and frames.csv, by the enumerators' order.
 constexpr std::array<const char*, 11> kSlamStateNames{
     "building_map", "localised", "too_few_landmarks", "fix_rejected", "observer_only", "not_finite",
     "tracking",     "resting",   "rotating",          "relocated",    "distrusted"};
 
 /// One frame's answer.
 struct FrameResult {
-  std::int64_t stamp_ns = 0;  ///< the image's
-  SlamState state = SlamState::kBuildingMap;
+  std::int64_t stamp_ns = 0;                                     ///< the image's
+  SlamState state = SlamState::kBuildingMap;                     ///< what the pose rests on
   Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();  ///< fused
   Eigen::Isometry3d T_odom_base =
       Eigen::Isometry3d::Identity();  ///< the observer's pose it started from
@@ -47,7 +49,7 @@ struct FrameResult {
   /// Constraint filter: of the observer, which reports (1 + error) times the way; 0 with the
   /// others.
   double scale_error = 0;
-  double scale_deviation = 0;
+  double scale_deviation = 0;                   ///< standard deviation of scale_error
   HeightOutcome height = HeightOutcome::kNone;  ///< constraint filter
   /// By so much the observer's position jumped since the last frame; 0: it moved. The constraint
   /// filter does not take it for a way.
@@ -58,17 +60,17 @@ struct FrameResult {
   double camera_deviation_m = 0;  ///< of camera_position_map, per axis
 
   MatchMethod match_method = MatchMethod::kGuided;  ///< how landmarks were looked for
-  int features = 0;
+  int features = 0;                                 ///< in the image
   int landmarks_in_view = 0;    ///< landmarks that the prediction puts into the image
   int landmark_candidates = 0;  ///< landmark matches before the removal of mismatches
   int landmark_matches = 0;     ///< and after
   /// Feature-map matches before the removal of mismatches; constraint filter: tracks with parallax.
   int feature_candidates = 0;
-  int feature_matches = 0;  ///< and after; constraint filter: tracks used
-  int new_landmarks = 0;
-  int removed_landmarks = 0;
-  int landmarks = 0;     ///< in the map, after this frame
-  int map_features = 0;  ///< in the feature map, after this frame
+  int feature_matches = 0;    ///< and after; constraint filter: tracks used
+  int new_landmarks = 0;      ///< made by this frame
+  int removed_landmarks = 0;  ///< dropped by it: never confirmed, failing, or over the cap
+  int landmarks = 0;          ///< in the map, after this frame
+  int map_features = 0;       ///< in the feature map, after this frame
 };
 
 /// Whether every number of the pose, of its covariance and of T_map_odom is finite.
@@ -103,6 +105,7 @@ class Slam {
   /// False with `mounting_deviation_deg`, which is the error of one camera's mounting.
   bool canChangeCamera() const;
 
+  /// The map, up to the last frame.
   const LandmarkMap& landmarks() const;
   /// REP-105: corrects the odometry's drift. Identity until the first correction.
   Eigen::Isometry3d T_map_odom() const;

@@ -17,7 +17,12 @@
 
 namespace ardrone_vslam {
 
-enum class Estimator { kThesis, kConstraint, kObserver };
+/// Who makes the pose: docs/data_path.md.
+enum class Estimator {
+  kThesis,      ///< ThesisFilter
+  kConstraint,  ///< ConstraintFilter
+  kObserver     ///< nobody: the odometry is passed on
+};
 template <>
 struct EnumNames<Estimator> {
   static constexpr std::array<const char*, 3> kNames{"thesis", "constraint", "observer"};

@@ -9,8 +9,17 @@ namespace ardrone_vslam {
 
 /// The stages whose cost is reported. The core reads no clock: it tells a hook which stage begins,
 /// the caller times.
-enum class Stage { kDetect, kDescribe, kTrack, kAssociate, kLocalise, kMap, kIdle };
+enum class Stage {
+  kDetect,     ///< corners and their bearings
+  kDescribe,   ///< descriptors
+  kTrack,      ///< tracks from image to image
+  kAssociate,  ///< landmarks and map features found
+  kLocalise,   ///< prediction, tracks and fixes
+  kMap,        ///< landmarks made, refined, removed
+  kIdle        ///< work on the frame is done
+};
 constexpr std::size_t kStageCount = 6;  ///< stages with a cost; kIdle is the end of work
+/// As in Status and frames.csv, by the enumerators' order.
 constexpr std::array<const char*, kStageCount> kStageNames{"detect",    "describe", "track",
                                                            "associate", "localise", "map"};
 

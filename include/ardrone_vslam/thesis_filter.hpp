@@ -11,12 +11,17 @@
 
 namespace ardrone_vslam {
 
-enum class MeanKind { kPrinted, kExact };
+/// How landmarks give a position.
+enum class MeanKind {
+  kPrinted,  ///< the thesis's weighted mean (6.4)
+  kExact     ///< weighted least squares over the rays
+};
 template <>
 struct EnumNames<MeanKind> {
   static constexpr std::array<const char*, 2> kNames{"printed", "exact"};
 };
 
+/// How landmarks and odometry are weighed, and which fixes are rejected.
 struct ThesisFilterConfig {
   MeanKind mean = MeanKind::kPrinted;
   double outlier_deviations = 3.0;
@@ -81,7 +86,7 @@ void visitParameters(ThesisFilterConfig& c, Visitor&& visit) {
 
 /// One matched landmark as the localisation sees it.
 struct Sighting {
-  Eigen::Vector3d landmark_map = Eigen::Vector3d::Zero();
+  Eigen::Vector3d landmark_map = Eigen::Vector3d::Zero();    ///< where the map has it
   Eigen::Vector3d direction_map = Eigen::Vector3d::UnitX();  ///< measured unit ray
   double landmark_deviation_m = 0;                           ///< sigma_l
   double position_variance_m2 = 0;  ///< of the pose when the landmark was made (P_a)
@@ -91,15 +96,16 @@ struct Sighting {
 struct PositionFix {
   double distance_m = 0;          ///< weighted mean distance of the landmarks
   double shared_variance_m2 = 0;  ///< weighted mean of the sightings' P_a
-  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();  ///< of the camera
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();    ///< of it [m^2]
 };
 
-/// The thesis's localisation (ch. 6): weighted mean of the positions that each landmark gives,
+/// The thesis's localisation (chapter 6): weighted mean of the positions that each landmark gives,
 /// fused with the observer's prediction by a Kalman filter. Orientation is the observer's, taken as
 /// drift-free.
 class ThesisFilter {
  public:
+  /// @throws ConfigError listing every parameter out of its range
   explicit ThesisFilter(const ThesisFilterConfig& config);
 
   /// Starts at a base position.
@@ -122,7 +128,9 @@ class ThesisFilter {
   /// @return false when the fix fails its gate; the prediction then stands
   bool fuse(const PositionFix& base_fix);
 
+  /// Of base, fused.
   const Eigen::Vector3d& position_map() const { return position_map_; }
+  /// Of position_map() [m^2].
   const Eigen::Matrix3d& covariance() const { return covariance_; }
   /// Per axis: root of the mean variance.
   double deviation_m() const;

@@ -25,8 +25,9 @@ enum class TimeOffsetState {
   kKnown
 };
 
+/// What is known of the images' time offset.
 struct TimeOffset {
-  TimeOffsetState state = TimeOffsetState::kTooFewImages;
+  TimeOffsetState state = TimeOffsetState::kTooFewImages;  ///< whether it is known
   /// An image is exposed at its stamp plus this, on the odometry's clock; negative where images are
   /// stamped late. 0 unless known.
   double offset_s = 0;
@@ -44,10 +45,12 @@ struct TimeOffset {
 class TimeOffsetEstimator {
  public:
   static constexpr std::int64_t kReach_ns = 260'000'000;  ///< offsets compared, about the centre
-  static constexpr std::int64_t kGrid_ns = 10'000'000;
-  static constexpr std::int64_t kStep_ns = 90'000'000;
-  static constexpr std::int64_t kSpan_ns = 270'000'000;
-  static constexpr double kMemory_s = 30;
+  static constexpr std::int64_t kGrid_ns = 10'000'000;    ///< from one offset to the next
+  static constexpr std::int64_t kStep_ns =
+      90'000'000;  ///< from one image used to the next, at least
+  static constexpr std::int64_t kSpan_ns =
+      270'000'000;                          ///< an image is compared with one so much older
+  static constexpr double kMemory_s = 30;   ///< time constant of forgetting
   static constexpr double kSure_s = 0.005;  ///< a deviation above this is not told
 
   /// @param T_base_cam  mounting of the camera: optical frame to base

@@ -19,14 +19,21 @@ struct TrackView {
 class TrackViews {
  public:
   TrackViews() = default;
+  /// @param first  of `count` views in a row, which must outlive this
   TrackViews(const TrackView* first, std::size_t count) : first_(first), count_(count) {}
+  /// All of a vector, which must outlive this.
   // NOLINTNEXTLINE(google-explicit-constructor): a vector is one
   TrackViews(const std::vector<TrackView>& views) : TrackViews(views.data(), views.size()) {}
 
+  /// Number of views.
   std::size_t size() const { return count_; }
+  /// The oldest view.
   const TrackView* begin() const { return first_; }
+  /// Behind the newest view.
   const TrackView* end() const { return first_ + count_; }
+  /// The oldest view. @pre there is one
   const TrackView& front() const { return *first_; }
+  /// The newest view. @pre there is one
   const TrackView& back() const { return *(end() - 1); }
 
  private:
@@ -36,7 +43,7 @@ class TrackViews {
 
 /// A point by all its views.
 struct TrackPoint {
-  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();   ///< of the point
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< by the noise of the rays alone
   double parallax_rad = 0;                                  ///< largest angle to the first ray
 };
@@ -47,7 +54,8 @@ struct TrackPoint {
 struct RayResidual {
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();                      ///< [rad]
   Eigen::Matrix<double, 2, 6> pose = Eigen::Matrix<double, 2, 6>::Zero();  ///< position, attitude
-  Eigen::Matrix<double, 2, 3> point = Eigen::Matrix<double, 2, 3>::Zero();
+  Eigen::Matrix<double, 2, 3> point =
+      Eigen::Matrix<double, 2, 3>::Zero();  ///< derivative by the point [rad/m]
 };
 
 /// @param camera_base  the camera's position in base
@@ -64,8 +72,8 @@ std::optional<TrackPoint> triangulateTrack(const std::vector<WindowPose>& frames
 
 /// The point lies so far below the base that saw it last: on the floor.
 struct FloorHeight {
-  double height_m = 0;
-  double deviation_m = 0;
+  double height_m = 0;     ///< of base above the point
+  double deviation_m = 0;  ///< its standard deviation
 };
 
 /// The two rows of a TrackConstraint that a view gives; the second one of a FloorHeight is empty.
@@ -85,6 +93,7 @@ struct TrackConstraint {
   std::vector<ViewRows> views;  ///< ascending in the coordinate
   bool has_height = false;      ///< the last of them is a FloorHeight
 
+  /// Rows that the projection leaves.
   int degreesOfFreedom() const {
     return 2 * static_cast<int>(views.size()) - (has_height ? 1 : 0) - 3;
   }

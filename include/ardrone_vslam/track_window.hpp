@@ -13,7 +13,7 @@ namespace ardrone_vslam {
 
 /// A track that may be used: its views, and what its point would need to become a landmark.
 struct FinishedTrack {
-  std::uint32_t track_id = 0;
+  std::uint32_t track_id = 0;     ///< ImageFeatures::track_id
   TrackViews views;               ///< held by the TrackWindow until it is asked again
   Descriptor descriptor;          ///< of its last view
   std::uint32_t landmark_id = 0;  ///< of the landmark it belongs to, 0: none
@@ -29,11 +29,11 @@ class TrackWindow {
   /// Of the features from now on. None of them may have the track of an earlier one.
   void changeCamera(const Eigen::Matrix3d& R_base_cam) { R_base_cam_ = R_base_cam; }
 
-  /// How far the image has moved since a frame, once its turning is taken out.
+  /// How far the image has moved since a frame of the window, once its turning is taken out.
   struct Motion {
-    double median_px = 0;
-    int common = 0;  ///< tracks of that frame that go on
-    int lost = 0;    ///< and those that do not
+    double median_px = 0;  ///< of the common tracks
+    int common = 0;        ///< tracks of that frame that go on
+    int lost = 0;          ///< and those that do not, of all that the window still has
   };
   /// @param order  of these features
   Motion motionSince(const WindowPose& frame, const WindowPose& present,
@@ -74,6 +74,8 @@ class TrackWindow {
     const Sighting& newest(const Track& track) const {
       return sightings[track.first + track.count - 1];
     }
+    /// Null: the frame did not see it. The newest views are found first.
+    const Sighting* viewOf(const Track& track, std::uint32_t frame_id) const;
     Track* find(std::uint32_t id);
     /// Appends a track and its sightings of another store.
     void take(const Track& track, const Tracks& from);

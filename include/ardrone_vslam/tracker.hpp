@@ -13,6 +13,7 @@
 
 namespace ardrone_vslam {
 
+/// All that makes features of an image.
 struct TrackerConfig {
   CornerDetectorConfig corners;
   FreakConfig freak;
@@ -48,7 +49,7 @@ class Tracker {
  public:
   /// @throws ConfigError listing every invalid parameter; std::invalid_argument for an impossible
   /// camera.
-  /// @param first_track_id, nextTrackId()  see FrameTracker
+  /// @param first_track_id  see FrameTracker
   Tracker(const TrackerConfig& config, const CameraIntrinsics& camera,
           std::uint32_t first_track_id = 1);
   ~Tracker();
@@ -63,7 +64,9 @@ class Tracker {
   void process(const ImageView& image, std::int64_t stamp_ns, ImageFeatures& features,
                const StageHook& hook = {}, std::optional<float> scene_turn_rad = std::nullopt);
 
+  /// Made of the intrinsics; bearings are its.
   const CameraModel& camera() const;
+  /// For the tracker that follows this one: FrameTracker::nextTrackId().
   std::uint32_t nextTrackId() const;
 
  private:

@@ -8,13 +8,14 @@ namespace ardrone_vslam {
 
 /// A half line in the map frame: camera position and unit direction.
 struct Ray {
-  Eigen::Vector3d origin_map = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction_map = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d origin_map = Eigen::Vector3d::Zero();      ///< where the camera was
+  Eigen::Vector3d direction_map = Eigen::Vector3d::UnitX();  ///< unit length
 };
 
+/// A point by two rays, and how well they fix it.
 struct TriangulatedPoint {
-  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
-  double depth_m = 0;       ///< along the present ray (5.15)
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();  ///< on the present ray, put on the plane
+  double depth_m = 0;                                      ///< along the present ray (5.15)
   double parallax_rad = 0;  ///< angle between the rays within the epipolar plane (5.13)
 };
 

@@ -8,6 +8,7 @@
 
 namespace ardrone_vslam {
 
+/// How much contradiction ends the trust in the camera, and for how long.
 struct WatchdogConfig {
   double watchdog_deviations = 15;
   double watchdog_nis = 8;
@@ -48,6 +49,7 @@ struct Contradiction {
 /// nobody knows, but without the camera the pose is never worse than the odometry.
 class Watchdog {
  public:
+  /// @throws ConfigError listing every parameter out of its range
   explicit Watchdog(const WatchdogConfig& config);
 
   /// @return whether trust ends with this image

@@ -16,10 +16,11 @@ namespace ardrone_vslam {
 
 /// A pose of base that the filter estimates: a frame of the window, or an anchor of landmarks.
 struct WindowPose {
-  std::uint32_t id = 0;  ///< ascending, never used again in one run
-  std::int64_t stamp_ns = 0;
-  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d R_map_base = Eigen::Matrix3d::Identity();
+  std::uint32_t id = 0;       ///< ascending, never used again in one run
+  std::int64_t stamp_ns = 0;  ///< of the image
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();  ///< of base
+  Eigen::Matrix3d R_map_base =
+      Eigen::Matrix3d::Identity();  ///< of base as the mounting has it, see WindowState
   /// By what share an error of the observer's velocity, axes of base, stretches the way here: the
   /// velocity over its square. What is seen from here shares it.
   Eigen::Vector3d stretch_by_bias_s_m = Eigen::Vector3d::Zero();
@@ -30,9 +31,10 @@ struct WindowPose {
 /// Measurements r = H x + n of some error coordinates, compressed to H' W H and H' W r.
 struct Information {
   std::vector<int> coordinates;  ///< of WindowState
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd vector;
+  Eigen::MatrixXd matrix;        ///< H' W H, as many rows as coordinates
+  Eigen::VectorXd vector;        ///< H' W r
 
+  /// Nothing measured yet of these coordinates: zeros.
   explicit Information(std::vector<int> of_coordinates);
 };
 
@@ -57,14 +59,14 @@ struct Information {
 /// covariance's dilation is turned along whenever poses are corrected.
 class WindowState {
  public:
-  static constexpr int kAttitude = 0;
-  static constexpr int kBias = 3;
-  static constexpr int kScale = 6;
-  static constexpr int kMounting = 7;
-  static constexpr int kFloor = 10;
-  static constexpr int kGlobals = 11;
-  static constexpr int kFrame = 6;
-  static constexpr int kAnchor = 7;
+  static constexpr int kAttitude = 0;  ///< coordinate of the observer's attitude error, axes of map
+  static constexpr int kBias = 3;      ///< of its velocity bias
+  static constexpr int kScale = 6;     ///< of its scale error
+  static constexpr int kMounting = 7;  ///< of the mounting's error
+  static constexpr int kFloor = 10;    ///< of the floor's height
+  static constexpr int kGlobals = 11;  ///< number of those above; the anchors follow
+  static constexpr int kFrame = 6;     ///< coordinates of a frame
+  static constexpr int kAnchor = 7;    ///< and of an anchor
 
   /// @param attitude_states  false: the linear form. Attitudes and mounting are taken as exact:
   /// their coordinates stay, without variance, and updates leave out what is measured of them.
@@ -97,23 +99,30 @@ class WindowState {
   void holdNewest(std::size_t reference, const Eigen::Vector3d& camera_base,
                   const Eigen::Matrix3d& deviation_m2);
 
+  /// Oldest first; the newest one is the present pose.
   const std::vector<WindowPose>& frames() const { return frames_; }
+  /// Frames that have left the window, as landmarks belong to them.
   const std::vector<WindowPose>& anchors() const { return anchors_; }
   /// First coordinate of a frame; of frames().size(): one beyond the last frame.
   int frameCoordinate(std::size_t frame) const {
     return anchorCoordinate(anchors_.size()) + kFrame * static_cast<int>(frame);
   }
+  /// First coordinate of an anchor; of anchors().size(): that of the first frame.
   int anchorCoordinate(std::size_t anchor) const {
     return kGlobals + kAnchor * static_cast<int>(anchor);
   }
   /// Takes the observer's velocity for so many times worse, in variance, as it is configured.
   void inflate(double factor);
+  /// A frame leaves the window and is forgotten. @param frame  index into frames()
   void removeFrame(std::size_t frame);
   /// A frame leaves the window, its error is remembered.
   void makeAnchor(std::size_t frame);
+  /// No landmark belongs to it any more. @param anchor  index into anchors()
   void removeAnchor(std::size_t anchor);
 
+  /// The observer reports (1 + this) times the way.
   double scaleError() const { return scale_error_; }
+  /// z of the floor in map; 0 until beginFloor().
   double floor_map_m() const { return floor_map_m_; }
   /// Of the observer, axes of base, over what is configured.
   double biasDeviations() const;

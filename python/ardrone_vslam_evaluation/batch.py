@@ -6,7 +6,7 @@ import os
 import re
 import sys
 
-from . import baseline, batch_jobs, batch_results
+from . import baseline, batch_jobs, batch_results, sweep_command
 from .batch_run import Programs, run_jobs
 from .command import write
 from .faults import InputFault, MachineFault
@@ -44,6 +44,9 @@ def parser_of(source):
     for name, what in (("sequences", "names"), ("profiles", "names"), ("estimators", " or ".join(batch_jobs.ESTIMATORS))):
         parser.add_argument(f"--{name}", type=names, metavar="'A B'", help=f"only these ({what})")
     parser.add_argument("--seeds", type=seeds, default=batch_jobs.SEEDS, metavar="A:B", help="of the observer's noise; default %(default)s")
+    parser.add_argument("--sweep", action="append", metavar="NAME=V1,V2", help="instead: runs with this parameter at these values, and at what it is "
+                        "else, into WORK/sweep.md and sweep.png; may be repeated, one at a time is varied")
+    parser.add_argument("--tuning", action="store_true", help="instead: all parameters of docs/tuning_sweep.json; with --update into docs/tuning.md")
     parser.add_argument("--list", action="store_true", help="only say what would run")
     parser.add_argument("--jobs", default=str(os.cpu_count()), metavar="N", help="at a time on each machine; default: its cores")
     parser.add_argument("--sshlogin", action="append", default=[], metavar="HOST",
@@ -72,7 +75,9 @@ def sequences_of(arguments):
 def selection_name(arguments):
     if arguments.selection:
         return os.path.basename(arguments.selection)
-    return "`--quick`" if arguments.quick else "all"
+    if arguments.quick:
+        return "`--quick`"
+    return "all" if os.environ.get("ARDRONE_VSLAM_DATA") else "all but the real sequences, as ARDRONE_VSLAM_DATA was not set"
 
 
 def judge(rows, before, margin):
@@ -93,12 +98,16 @@ def run(arguments, source):
         print("\n".join(f"{job.name()} seeds {job.seeds}" for job in jobs))
         return True
     path = arguments.baseline or os.path.join(source, "docs", "results_baseline.json")
-    before = {} if arguments.update else baseline.read(path)
+    before = {} if arguments.update or arguments.sweep or arguments.tuning else baseline.read(path)
     work = os.path.abspath(arguments.work)
     try:
         os.makedirs(work, exist_ok=True)
     except OSError as error:
         raise MachineFault(f"{work}: cannot be made ({error.strerror}); choose another --work") from None
+    if arguments.tuning:
+        return sweep_command.run_tuning(arguments, source, work)
+    if arguments.sweep:
+        return sweep_command.run_sweep(arguments, jobs, source, work)
     programs = Programs(os.path.abspath(arguments.programs), os.path.join(source, "config"))
     folders, faults = run_jobs(jobs, programs, work, arguments.jobs, arguments.sshlogin)
     rows = [batch_results.row_of(job, folder) for job, folder in folders.items()]
@@ -120,8 +129,12 @@ def main():
     source = os.path.normpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", ".."))
     parser = parser_of(source)
     arguments = parser.parse_args()
-    if arguments.update and (arguments.sequences or arguments.profiles or arguments.estimators or arguments.baseline):
+    if arguments.update and (arguments.quick or arguments.sequences or arguments.profiles or arguments.estimators or arguments.baseline):
         parser.error("--update makes the committed table and baseline, so it goes with no part of a selection and no other --baseline")
+    if arguments.tuning and (arguments.sweep or arguments.sequences or arguments.profiles or arguments.estimators or arguments.selection):
+        parser.error("--tuning has sequences and values of its own (docs/tuning_sweep.json); for others use --sweep")
+    if arguments.sweep and arguments.update:
+        parser.error("--sweep updates no page; --tuning does")
     if not arguments.programs and not arguments.list:
         parser.error("--programs DIR is needed; scripts/evaluate_all builds them and fills it in")
     try:

@@ -21,6 +21,11 @@ class Sequence:
     flight: tuple = ()
     folder: str = ""
     replay: tuple = ()  # further options
+    bag: bool = False  # the flight is rendered into one: a folder holds no heights of the bottom camera
+
+    def output_in(self, folder):
+        """What make_world writes and replay reads."""
+        return os.path.join(folder, "flight.bag") if self.bag else folder
 
 
 @dataclass(frozen=True)
@@ -31,13 +36,14 @@ class Job:
     profile: str
     estimator: str
     seeds: str
+    settings: tuple = ()  # name=value over the configuration
 
     def name(self):
-        return f"{self.sequence.name} {self.profile} {self.estimator}"
+        return " ".join((self.sequence.name, self.profile, self.estimator, *self.settings))
 
     def parts(self):
         """Of its folder."""
-        return self.sequence.name, self.profile, self.estimator
+        return self.sequence.name, self.profile, ",".join((self.estimator, *self.settings))
 
 
 def rendered(flight, *profiles, seconds=None):
@@ -75,7 +81,7 @@ def kitti_sequences(folder):
 
 
 def read_selection(path):
-    """A list of {"name", "profiles", and "make_world": [flight, options] or "folder": PATH, "replay": [options]}."""
+    """A list of {"name", "profiles", and "make_world": [flight, options], "bag": true or not, or "folder": PATH, "replay": [options]}."""
     try:
         with open(path, encoding="utf-8") as file:
             entries = json.load(file)
@@ -83,7 +89,8 @@ def read_selection(path):
             raise ValueError("no list with entries")
         base = os.path.dirname(os.path.abspath(path))
         sequences = [Sequence(e["name"], tuple(e["profiles"]), tuple(e.get("make_world", ())),
-                              os.path.join(base, e["folder"]) if "folder" in e else "", tuple(e.get("replay", ()))) for e in entries]
+                              os.path.join(base, e["folder"]) if "folder" in e else "", tuple(e.get("replay", ())), bool(e.get("bag")))
+                     for e in entries]
     except OSError as error:
         raise InputFault(f"{path}: cannot be read ({reason(error)}); check the path") from None
     except (ValueError, KeyError, TypeError) as error:

@@ -45,16 +45,23 @@ class Programs:
         self.of_replay = digest(*map(contents, [self.replay, *libraries, *configs]))
         self.of_make_world = digest(contents(self.make_world))
 
-    def fingerprint_of_flight(self, flight):
+    def parameters_page(self):
+        """docs/parameters.md, as this build writes it."""
+        done = subprocess.run([self.replay, "--list-parameters"], capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise InputFault(f"{self.replay} --list-parameters: {done.stderr.strip()}")
+        return done.stdout
+
+    def fingerprint_of_flight(self, flight, is_bag=False):
         """make_world itself, and three of its images: these tell of changes of the library that show in them, and the others
         need not render all anew."""
         whole = [word for i, word in enumerate(flight) if word != "--seconds" and (i == 0 or flight[i - 1] != "--seconds")]
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([self.make_world, *whole, "--seconds", "0.15", "--out", f"{folder}/probe"], capture_output=True, text=True,
-                                  check=False)
+            done = subprocess.run([self.make_world, *whole, "--seconds", "0.15", "--out", f"{folder}/probe{'.bag' if is_bag else ''}"],
+                                  capture_output=True, text=True, check=False)
             if done.returncode != 0:
                 raise InputFault(f"make_world {' '.join(flight)}: {done.stderr.strip()}")
-            files = sorted(glob.glob(f"{folder}/probe/**", recursive=True))
+            files = sorted(glob.glob(f"{folder}/**", recursive=True))
             return digest(self.of_make_world, *flight, *(contents(path) for path in files if os.path.isfile(path)))
 
 
@@ -69,8 +76,8 @@ def fingerprint_of_folder(folder):
 class Task:
     """One line for parallel."""
 
-    def __init__(self, name, folder, key, command, prepare=""):
-        self.name, self.folder, self.key, self.command, self.prepare = name, folder, key, command, prepare
+    def __init__(self, name, folder, key, command, prepare="", clear=""):
+        self.name, self.folder, self.key, self.command, self.prepare, self.clear = name, folder, key, command, prepare, clear
 
     def log(self):
         return self.folder + ".log"
@@ -86,21 +93,26 @@ class Task:
         quoted, log = shlex.quote(self.folder), shlex.quote(self.log())
         name = shlex.quote(self.name)
         return (f"mkdir -p {shlex.quote(os.path.dirname(self.folder))} && rm -f {quoted}/key && {self.prepare or 'true'} && "
-                f"if {shlex.join(self.command)} > {log} 2>&1 && echo {self.key} > {quoted}/key; "
+                f"if {shlex.join(self.command)} > {log} 2>&1 && {self.clear or 'true'} && echo {self.key} > {quoted}/key; "
                 f'then echo "$PARALLEL_SEQ/{count}" {name}; else echo "$PARALLEL_SEQ/{count}" {name}: failed, see {log} >&2; exit 1; fi')
 
 
 def task_of_sequence(sequence, programs, work):
     folder = os.path.join(work, "sequences", sequence.name)
-    command = [programs.make_world, *sequence.flight, "--out", folder]
-    return Task(f"rendered {sequence.name}", folder, programs.fingerprint_of_flight(sequence.flight), command, f"rm -rf {shlex.quote(folder)}")
+    command = [programs.make_world, *sequence.flight, "--out", sequence.output_in(folder)]
+    quoted = shlex.quote(folder)
+    return Task(f"rendered {sequence.name}", folder, programs.fingerprint_of_flight(sequence.flight, sequence.bag), command,
+                f"rm -rf {quoted}" + (f" && mkdir {quoted}" if sequence.bag else ""))
 
 
-def task_of_job(job, sequence_folder, sequence_key, programs, work):
-    folder = os.path.join(work, "runs", *job.parts())
+def task_of_job(job, sequence_folder, sequence_key, programs, runs):
+    folder = os.path.join(runs, *job.parts())
     options = ["--observer-profile", job.profile, "--estimator", job.estimator, "--seeds", job.seeds, *job.sequence.replay]
-    command = [programs.replay, sequence_folder, *options, "--threads", "1", "--out", folder]
-    return Task(job.name(), folder, digest(programs.of_replay, sequence_key, *options), command)
+    options += [word for setting in job.settings for word in ("--set", setting)]
+    command = [programs.replay, job.sequence.output_in(sequence_folder), *options, "--threads", "1", "--out", folder]
+    # The many runs of a sweep would fill the disk.
+    clear = f"find {shlex.quote(folder)} -mindepth 1 ! -path {shlex.quote(folder)}/summary.json -delete" if job.settings else ""
+    return Task(job.name(), folder, digest(programs.of_replay, sequence_key, *options), command, clear=clear)
 
 
 def check_parallel():
@@ -136,14 +148,14 @@ def run_tasks(tasks, what, work, jobs, logins):
     return failed
 
 
-def run_jobs(jobs, programs, work, parallel_jobs, logins):
-    """Renders what lacks, then runs. @return ({job: its folder}, texts about what failed)"""
+def run_jobs(jobs, programs, work, parallel_jobs, logins, runs="runs"):
+    """Renders what lacks, then runs, into a folder of that name. @return ({job: its folder}, texts about what failed)"""
     sequences = {job.sequence.name: job.sequence for job in jobs}.values()
     rendering = {s.name: task_of_sequence(s, programs, work) for s in sequences if s.flight}
     faults = run_tasks(list(rendering.values()), "sequences to render", work, parallel_jobs, logins)
     places = {s.name: (s.folder, fingerprint_of_folder(s.folder)) for s in sequences if not s.flight}
     places.update({name: (task.folder, task.key) for name, task in rendering.items() if task not in faults})
-    tasks = {job: task_of_job(job, *places[job.sequence.name], programs, work) for job in jobs if job.sequence.name in places}
+    tasks = {job: task_of_job(job, *places[job.sequence.name], programs, os.path.join(work, runs)) for job in jobs if job.sequence.name in places}
     faults = faults + run_tasks(list(tasks.values()), "runs", work, parallel_jobs, logins)
     return ({job: task.folder for job, task in tasks.items() if task not in faults},
             [f"{task.name}: failed, see {task.log()}" for task in faults])

@@ -79,9 +79,13 @@ def plain(value):
 
 
 def write(path, text):
+    write_bytes(path, text.encode("utf-8"))
+
+
+def write_bytes(path, data):
     try:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
+        with open(path, "wb") as file:
+            file.write(data)
     except OSError as error:
         raise MachineFault(f"{path}: cannot be written ({reason(error)}); choose another place") from None
     print(f"written: {path}")

@@ -82,10 +82,14 @@ def summary_of_nees(values):
             "mean_bounds_95": [mean_low / len(values), mean_high / len(values)]}
 
 
+def is_after_first_fix(values):
+    """fix_nis begins with 1, before it knows anything."""
+    return np.cumsum(np.isfinite(values) & (values != 1)) > 0
+
+
 def summary_of_nis(values):
     """Of the fixes' mean squared deviations over the expected ones (fix_nis), 1 is honest. None before the first fix."""
-    values = values[np.isfinite(values)]
-    values = values[np.cumsum(values != 1) > 0]  # it begins with 1 before it knows anything
+    values = values[is_after_first_fix(values) & np.isfinite(values)]
     if not len(values):
         return None
     return {"expected": 1, "mean": values.mean(), "median": np.median(values), "p95": np.percentile(values, 95),

@@ -3,8 +3,8 @@
 
 import numpy as np
 
-from .consistency import NEES_3_SIGMA, bounds_95, DEGREES
-from .plot_style import LeftOut, RUNNING_MEAN_S, TRUTH, legend, looks, panels, running_mean
+from .consistency import NEES_3_SIGMA, bounds_95, DEGREES, is_after_first_fix
+from .plot_style import LeftOut, RUNNING_MEAN_S, TRUTH, legend, logarithmic_y, looks, panels, running_mean
 
 SMALLEST_SHOWN_M = 1e-4  # both begin at the same pose, whose error of zero has no logarithm
 
@@ -22,9 +22,8 @@ def draw_error_over_time(rows):
         axes.plot(x, errors, linewidth=0.6, alpha=0.45, color=look[row.name]["color"])
         width = RUNNING_MEAN_S if has_time else 50
         axes.plot(x, running_mean(x, errors, width), linewidth=1.8, **look[row.name])
-    axes.set_yscale("log")
     errors = np.concatenate([row.errors_m for row in known])
-    axes.set_ylim(bottom=max(0.5 * np.nanpercentile(errors, 1), SMALLEST_SHOWN_M))
+    logarithmic_y(axes, max(0.5 * np.nanpercentile(errors, 1), SMALLEST_SHOWN_M))
     axes.grid(which="both", alpha=0.2)
     axes.set_xlabel("time [s]" if has_time else "pose")
     axes.set_ylabel("position error [m]")
@@ -66,8 +65,7 @@ def draw_nees(rows):
         values = np.maximum(row.nees, 1e-2)
         axes.plot(seconds, values, linewidth=0.5, alpha=0.4, color=look[row.name]["color"])
         axes.plot(seconds, running_mean(seconds, row.nees), linewidth=1.8, **look[row.name])
-    axes.set_yscale("log")
-    axes.set_ylim(bottom=1e-2)
+    logarithmic_y(axes, 1e-2)
     axes.set_xlabel("time [s]")
     axes.set_ylabel("NEES of the position")
     legend(axes)
@@ -77,13 +75,16 @@ def draw_nees(rows):
 def draw_nis(rows):
     known = [row for row in rows if row.numbers.get("nis")]
     if not known:
-        raise LeftOut("frames.csv lacks fix_nis (record_run does not write it; the filter of the thesis has no fixes in that sense)")
+        if any(row.run is not None and row.run.column("fix_nis") is not None for row in rows):
+            raise LeftOut("no landmark of an earlier visit gave a fix")
+        raise LeftOut("frames.csv lacks fix_nis (the filter of the thesis has no fixes in that sense)")
     look = looks(rows)
     figure, (axes,) = panels(1, 3.2)
     axes.axhline(1, color=TRUTH, linewidth=1, linestyle="--", label="honest: 1")
     for row in known:
         seconds = (row.run.frames["stamp_ns"] - row.start_ns()) * 1e-9
-        axes.plot(seconds, row.run.column("fix_nis"), linewidth=1.2, **look[row.name])
+        values = row.run.column("fix_nis")
+        axes.plot(seconds, np.where(is_after_first_fix(values), values, np.nan), linewidth=1.2, **look[row.name])
     axes.set_ylim(bottom=0)
     axes.set_xlabel("time [s]")
     axes.set_ylabel("NIS of the fixes")

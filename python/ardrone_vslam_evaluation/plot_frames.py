@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from .plot_style import GREY, LeftOut, clear_of_extremes, few_of, frame_seconds, legend, looks, panels, running_mean, runs_of, with_columns
+from .plot_style import (GREY, LeftOut, clear_of_extremes, few_of, frame_seconds, legend, logarithmic_y, looks, panels, running_mean, runs_of,
+                         with_columns)
 
 LINES_OF_MATCHES = (("landmark_candidates", GREY, "landmarks, with mismatches"),
                     ("landmark_matches", "#1f77b4", "landmarks, mismatches removed"),
@@ -104,7 +105,7 @@ def draw_stage_times(rows):
         lines.plot(frame_seconds(row), total, linewidth=0.8, color=look[row.name]["color"])
     bars.set_xticks(np.arange(len(stages)), stages, rotation=30 if len(stages) > 6 else 0)
     bars.set_ylabel("mean time a frame [ms]")
-    lines.set_yscale("log")
+    logarithmic_y(lines)
     lines.set_xlabel("time [s]")
     lines.set_ylabel("all stages, a frame [ms]")
     legend(bars)

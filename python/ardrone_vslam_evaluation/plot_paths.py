@@ -77,7 +77,7 @@ def draw_maps(rows):
         margin = 0.25 * (high - low).max() + 2
         one.set_xlim(low[0] - margin, high[0] + margin)
         one.set_ylim(low[1] - margin, high[1] + margin)
-        one.set_aspect("equal")
+        one.set_aspect("equal", adjustable="datalim")
         one.set_title(f"{row.name}: {len(order)} landmarks")
         one.set_xlabel("x, map [m]")
         one.set_ylabel("y, map [m]")

@@ -8,6 +8,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 TRUTH, GREY = "#333333", "#b5b5b5"
 OBSERVERS = ("#d62728", "#ff9896", "#e377c2", "#8c564b")
@@ -104,6 +105,17 @@ def frame_seconds(row):
     """Of the run's frames."""
     stamps_ns = row.run.frames["stamp_ns"]
     return (stamps_ns - row.start_ns()) * 1e-9
+
+
+def logarithmic_y(axes, bottom=None):
+    """With plain numbers at 1, 2 and 5, as most plots span little more than a decade; call it when all is drawn."""
+    axes.set_yscale("log")
+    axes.set_ylim(bottom=bottom)
+    axis = axes.yaxis
+    low, high = axes.get_ylim()
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 1e3 * low else (1,)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def clear_of_extremes(axes, values):

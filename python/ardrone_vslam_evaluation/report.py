@@ -45,8 +45,8 @@ def all_figures(rows):
         Figure("maps", "Map", "From above; landmarks are coloured by their deviation. Landmarks far away are outside the picture.", draw_maps),
         Figure("nees", "Consistency: NEES", "Squared error over the claimed variance. Above the band: over-confident, below: too modest. "
                "Thick: mean over 5 s.", draw_nees),
-        Figure("nis", "Consistency: NIS", "Squared deviations of the fixes over what is expected, a running mean of about ten fixes, 1 before "
-               "the first. frames.csv does not tell their number, so there are no bounds.", draw_nis),
+        Figure("nis", "Consistency: NIS", "Squared deviations of the fixes over what is expected, a running mean of about ten fixes, from the "
+               "first one on. frames.csv does not tell their number, so there are no bounds.", draw_nis),
         Figure("stage_times", "Stage times", "Decoding of images is not in it.", draw_stage_times),
     ]
 

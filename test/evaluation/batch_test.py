@@ -11,7 +11,7 @@ import unittest
 from paths import SOURCE
 
 from ardrone_vslam_evaluation import baseline, batch_jobs
-from ardrone_vslam_evaluation.batch_results import of_seeds
+from ardrone_vslam_evaluation.batch_results import harm, of_seeds
 from ardrone_vslam_evaluation.batch_run import Programs, Task, fingerprint_of_folder, run_tasks
 from ardrone_vslam_evaluation.faults import InputFault
 
@@ -83,6 +83,8 @@ class JobsTest(WithFolder):
         good = self.write("good.json", json.dumps(TINY + [{"name": "mine", "folder": "data", "profiles": ["wheel"], "replay": ["--ping-pong"]}]))
         tiny, mine = batch_jobs.read_selection(good)
         self.assertEqual((tiny.flight[0], mine.folder, mine.replay), ("laps", self.path("data"), ("--ping-pong",)))
+        below, = batch_jobs.read_selection(self.write("bag.json", json.dumps([dict(TINY[0], bag=True)])))
+        self.assertEqual((tiny.output_in("/work"), below.output_in("/work")), ("/work", "/work/flight.bag"))
         for text in ("[", "{}", '[{"name": "a"}]', '[{"name": "a", "profiles": ["drone"]}]', "[1]"):
             with self.assertRaisesRegex(InputFault, "bad.json", msg=text):
                 batch_jobs.read_selection(self.write("bad.json", text))
@@ -150,6 +152,11 @@ class BaselineTest(WithFolder):
             with self.assertRaisesRegex(InputFault, "is no baseline"):
                 baseline.read(self.write("bad.json", text))
 
+    def test_harm_to_the_odometry_is_named(self):
+        rows = [row(ratio_scale_removed_worst=1.049), row("hover", ratio_scale_removed_worst=None)]
+        self.assertIn("No seed of any row", harm(rows))
+        self.assertIn("which is a defect: street drone constraint (1.117).", harm(rows + [row("street", ratio_scale_removed_worst=1.117)]))
+
     def test_a_number_that_one_seed_lacks_is_not_shown(self):
         self.assertEqual(of_seeds([{"ratio": 1.0}, {"ratio": 3.0}], "ratio", max), 3)
         self.assertIsNone(of_seeds([{"ratio": 1.0}, {"ratio": None}], "ratio", max))
@@ -203,7 +210,8 @@ class WholeTest(WithFolder):
         for arguments, part in ((("--seeds", "3:1"), "must be A:B"), (("--sequences", "x"), "there is no x; here are tiny"),
                                 (("--baseline", self.path("none.json")), "cannot be read"), (("--margin", "-1"), "at least 0"),
                                 (("--baseline", empty, "--programs", self.folder), "there is no such program"),
-                                (("--update", "--sequences", "tiny"), "no part of a selection")):
+                                (("--update", "--sequences", "tiny"), "no part of a selection"),
+                                (("--update", "--quick"), "no part of a selection")):
             code, _, fault = self.evaluate_all(*arguments)
             self.assertEqual(code, 2, fault)
             self.assertIn(part, fault)

@@ -35,9 +35,10 @@ class ScriptUsage : public testing::Test {
 };
 
 TEST_F(ScriptUsage, EachSaysItsVersionAndRefusesUnknownOptions) {
-  for (const std::string name : {"test", "demo", "benchmark", "install_dependencies", "evaluate",
-                                 "evaluate_all", "reproduce", "record_run", "measure_latency",
-                                 "cross_build", "cross_sysroot", "drone_cost"}) {
+  for (const std::string name :
+       {"test", "demo", "benchmark", "install_dependencies", "evaluate", "evaluate_all",
+        "reproduce", "record_run", "measure_latency", "build_docs", "try_containerfile",
+        "cross_build", "cross_sysroot", "drone_cost"}) {
     EXPECT_EQ(script(name + " --version"), 0) << name << output();
     expectOutput({name + " (ardrone_vslam) 0."});
     EXPECT_EQ(script(name + " --no-such-option"), 2) << name;
@@ -74,18 +75,25 @@ TEST_F(ScriptUsage, PlayBagNamesTheBagThatIsDamaged) {
 }
 #endif
 
-TEST_F(ScriptUsage, RecordRunCountsImagesWithoutPoseFromTheFirstAnsweredOne) {
-  folder_.write("check.py",
-                "import importlib.machinery, importlib.util, sys\n"
-                "sys.dont_write_bytecode = True\n"
-                "loader = importlib.machinery.SourceFileLoader('record_run', sys.argv[1])\n"
-                "module = importlib.util.module_from_spec(importlib.util.spec_from_loader("
-                "'record_run', loader))\n"
-                "loader.exec_module(module)\n"
-                "topics = [{1, 2, 3, 4, 5}, {11, 12}]\n"
-                "assert module.unanswered(topics, [2, 3, 4, 5]) == (topics[0], [])\n"
-                "assert module.unanswered(topics, [2, 3]) == (topics[0], [4, 5])\n"
-                "assert module.unanswered(topics, [1, 3, 5]) == (topics[0], [2, 4])\n");
+TEST_F(ScriptUsage, RecordRunCountsImagesWithoutPoseAndKnowsItsNees) {
+  folder_.write(
+      "check.py",
+      "import importlib.machinery, importlib.util, sys\n"
+      "sys.dont_write_bytecode = True\n"
+      "loader = importlib.machinery.SourceFileLoader('record_run', sys.argv[1])\n"
+      "module = importlib.util.module_from_spec(importlib.util.spec_from_loader("
+      "'record_run', loader))\n"
+      "loader.exec_module(module)\n"
+      "topics = [{1, 2, 3, 4, 5}, {11, 12}]\n"
+      "assert module.unanswered(topics, [2, 3, 4, 5]) == (topics[0], [])\n"
+      "assert module.unanswered(topics, [2, 3]) == (topics[0], [4, 5])\n"
+      "assert module.unanswered(topics, [1, 3, 5]) == (topics[0], [2, 4])\n"
+      "import numpy as np\n"
+      "error_m, covariance_m2 = np.array([1, 0, 4]), np.array([[2, 1, 0], [1, 2, 0], [0, 0, 8]])\n"
+      "assert abs(module.nees(error_m, covariance_m2) - (2 / 3 + 2)) < 1e-12\n"
+      "assert np.isnan(module.nees(error_m, np.zeros((3, 3))))\n"
+      "assert np.isnan(module.nees(error_m, np.full((3, 3), np.nan)))\n"
+      "assert module.known(np.nan) == '' and module.known(0.5) == 0.5\n");
   EXPECT_EQ(run("/usr/bin/python3 " + folder_.file("check.py") +
                 " " ARDRONE_VSLAM_SOURCE_DIR "/scripts/record_run"),
             0)

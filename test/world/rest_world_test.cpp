@@ -83,6 +83,45 @@ TEST(RestWorld, TurningOnTheSpotHoldsThePosition) {
   }
 }
 
+/// Holds its place as a drone does, within some centimetres, from the first image on.
+Flight hovering(int frames) {
+  Flight flight = turning(frames, [](double t_s) { return 0.3 + 0.05 * std::sin(0.9 * t_s); });
+  for (std::size_t i = 0; i < flight.size(); ++i) {
+    const double t_s = static_cast<double>(i) / kRate_hz;
+    flight[i].T_map_base.translation() += Eigen::Vector3d(
+        0.04 * std::sin(1.3 * t_s), 0.05 * std::sin(0.8 * t_s), 0.03 * std::sin(t_s));
+  }
+  return flight;
+}
+
+TEST(RestWorld, HoveringIsHeldWithinWhatTheImageShows) {
+  const Flight flight = hovering(225);
+  std::vector<double> errors_m, drifts_m;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7}) {
+    PointWorld world = room(seed);
+    const FlightRun run =
+        test::fly(world, flight, test::observe(flight, kHover, seed), constraintConfig());
+    errors_m.push_back(lastError_m(flight, run));
+    drifts_m.push_back(run.observer.max_m);
+  }
+  std::sort(errors_m.begin(), errors_m.end());
+  std::sort(drifts_m.begin(), drifts_m.end());
+  // Believing the odometry: 0.41 of its drift, 2.0 m at worst.
+  EXPECT_LT(errors_m[3], 0.25 * drifts_m[3]);
+  EXPECT_LT(errors_m.back(), 1);
+}
+
+// What the odometry says is possible in a scene this far away, so it is believed.
+TEST(RestWorld, ASlowFlightBeforeAFarSceneIsNotHeld) {
+  const Flight flight = test::straightFlight(150, kRate_hz, 0.3);
+  PointWorld world(1);
+  world.addRoom({200, 200, 60}, 3000);
+  SlamConfig config = constraintConfig();
+  config.constraint_filter.rest.rest_depth_m = 100;
+  const FlightRun run = test::fly(world, flight, test::observeExactly(flight), config);
+  EXPECT_LT(lastError_m(flight, run), 0.05);
+}
+
 TEST(RestWorld, AFrozenStreamDoesNotHoldAFlyingDrone) {
   const Flight flight = test::straightFlight(60, kRate_hz, 1.5);
   PointWorld world = room(1);
