@@ -161,12 +161,11 @@ FrameSource::Read V4l2Camera::read(Frame& frame) {
 
 /// Old drivers stamp by the time of day, newer ones by the monotonic clock, some not at all.
 std::int64_t V4l2Camera::stampOf(std::int64_t driver_ns) const {
-  const std::int64_t now = clock_ns(clock_);
   for (const clockid_t clock : {CLOCK_MONOTONIC, CLOCK_REALTIME}) {
     const std::int64_t age_ns = clock_ns(clock) - driver_ns;
-    if (age_ns >= 0 && age_ns < kOldest_ns) return now - age_ns;
+    if (age_ns >= 0 && age_ns < kOldest_ns) return clock_ns(clock_) - age_ns;
   }
-  return now;
+  return clock_ns(clock_);
 }
 
 }  // namespace ardrone_vslam
