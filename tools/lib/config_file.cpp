@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "../../nodes/node_config.hpp"  // the structs alone: no ROS
+#include "../../onboard/onboard_config.hpp"
 #include "ardrone_vslam/late_fusion.hpp"
 
 namespace ardrone_vslam {
@@ -17,6 +18,7 @@ namespace {
 
 constexpr const char* kListOfAll = " (docs/parameters.md and --list-parameters name all)";
 constexpr const char* kObserverFusion = "observer_fusion";
+constexpr const char* kOnboard = "onboard";
 
 using Section = std::map<std::string, std::string>;  // key -> value as written
 
@@ -110,6 +112,7 @@ bool hasParameter(Config config, const std::string& key) {
 bool isNodeKey(const std::string& section, const std::string& key) {
   if (section == "tracker") return hasParameter(TrackerNodeConfig{}, key);
   if (section == kObserverFusion) return hasParameter(ObserverFusionNodeConfig{}, key);
+  if (section == kOnboard) return false;
   return hasParameter(MapperNodeConfig{}, key);
 }
 
@@ -142,8 +145,8 @@ void writeDefault(Config config, const std::string& key, std::ostringstream& out
 /// Over tracker and mapper, whose keys are often put into the wrong one; observer_fusion's own.
 std::string hintFor(const std::string& section, const std::string& written) {
   std::set<std::string> names;
-  if (section == kObserverFusion) {
-    addNames(LateFusionConfig{}, names);
+  if (section == kObserverFusion || section == kOnboard) {
+    section == kOnboard ? addNames(OnboardConfig{}, names) : addNames(LateFusionConfig{}, names);
     const std::string nearest = nearestName(written, names);
     return nearest.empty() ? nearest : "; did you mean " + section + "/" + nearest;
   }
@@ -219,9 +222,13 @@ PipelineConfig loadConfig(const std::string& path, const std::vector<std::string
     LateFusionConfig late_fusion;  // of no use offline, but its keys are checked all the same
     readSection(kObserverFusion, sections, late_fusion, faults);
   }
+  if (sections.count(kOnboard) > 0) {
+    OnboardConfig onboard;  // likewise
+    readSection(kOnboard, sections, onboard, faults);
+  }
   for (const auto& section : sections) {
     faults.push_back("unknown section '" + section.first +
-                     "'; known are tracker, mapper and observer_fusion");
+                     "'; known are tracker, mapper, observer_fusion and onboard");
   }
   if (!faults.empty()) throw ConfigError(faults);
   return config;

@@ -10,7 +10,8 @@
 namespace ardrone_vslam {
 
 /// What config/*.yaml holds: sections `tracker` and `mapper`, the same files that roslaunch loads
-/// for the nodelets. A section `observer_fusion` is checked and not used.
+/// for the nodelets. The sections `observer_fusion` and
+/// `onboard` are checked and not used.
 struct PipelineConfig {
   TrackerConfig tracker;
   SlamConfig mapper;

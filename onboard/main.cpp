@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// vslam_onboard: images and the controller's observer in, fused poses out, on the drone itself.
+// docs/onboard.md
+#include <getopt.h>
+#include <sys/resource.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "ardrone_vslam/instruction_set.hpp"
+#include "map_file.hpp"
+#include "onboard_loop.hpp"
+#include "self_test.hpp"
+#include "settings.hpp"
+#include "stop_signal.hpp"
+
+namespace {
+
+using namespace ardrone_vslam;
+
+constexpr int kFault = 1;
+constexpr int kWrongUse = 2;
+
+constexpr const char* kUsage =
+    "usage: vslam_onboard --config FILE [--frames SOURCE] [--camera FILE] [--observer FILE]\n"
+    "                     [--poses FILE] [--map FILE] [--priority NICE] [--cpu-share RATIO]\n"
+    "                     [--every-frame] [--set SECTION/KEY=VALUE]... [--self-test] [--version]\n"
+    "Poses from a camera and a flight controller's observer, on the drone (docs/onboard.md).\n"
+    "  --config     yaml with the sections onboard, tracker and mapper (docs/parameters.md)\n"
+    "  --self-test  check processor, clock, kernels, memory and camera; exit code 1 if one fails\n"
+    "The other options are parameters of the section onboard. SIGTERM ends it and saves the map.\n";
+
+struct Arguments {
+  std::string config;
+  std::vector<std::string> overrides;
+  bool is_self_test = false;
+};
+
+/// @return an exit code to end with, negative to go on
+int parse(int argc, char** argv, Arguments& arguments) {
+  // Values above any letter: options that are parameters.
+  enum { kConfig = 256, kSet, kSelfTest, kVersion, kHelp, kEveryFrame, kParameter };
+  static const option options[] = {{"config", required_argument, nullptr, kConfig},
+                                   {"set", required_argument, nullptr, kSet},
+                                   {"self-test", no_argument, nullptr, kSelfTest},
+                                   {"version", no_argument, nullptr, kVersion},
+                                   {"help", no_argument, nullptr, kHelp},
+                                   {"every-frame", no_argument, nullptr, kEveryFrame},
+                                   {"frames", required_argument, nullptr, kParameter},
+                                   {"camera", required_argument, nullptr, kParameter},
+                                   {"observer", required_argument, nullptr, kParameter},
+                                   {"poses", required_argument, nullptr, kParameter},
+                                   {"map", required_argument, nullptr, kParameter},
+                                   {"priority", required_argument, nullptr, kParameter},
+                                   {"cpu-share", required_argument, nullptr, kParameter},
+                                   {nullptr, 0, nullptr, 0}};
+  int which = 0;
+  for (int c; (c = ::getopt_long(argc, argv, "h", options, &which)) != -1;) {
+    switch (c) {
+      case 'h':
+      case kHelp:
+        std::fputs(kUsage, stdout);
+        return 0;
+      case kVersion:
+        std::puts("vslam_onboard (ardrone_vslam) " ARDRONE_VSLAM_VERSION);
+        return 0;
+      case kConfig:
+        arguments.config = optarg;
+        break;
+      case kSet:
+        arguments.overrides.emplace_back(optarg);
+        break;
+      case kSelfTest:
+        arguments.is_self_test = true;
+        break;
+      case kEveryFrame:
+        arguments.overrides.emplace_back("onboard/every_frame=true");
+        break;
+      case kParameter: {
+        std::string name = options[which].name;
+        if (name == "cpu-share") name = "cpu_share";
+        arguments.overrides.push_back("onboard/" + name + "=" + optarg);
+        break;
+      }
+      default:
+        std::fputs(kUsage, stderr);
+        return kWrongUse;
+    }
+  }
+  if (optind == argc) return -1;
+  std::fprintf(stderr, "vslam_onboard: unexpected '%s'\n%s", argv[optind], kUsage);
+  return kWrongUse;
+}
+
+int run(const Settings& settings) {
+  if (::setpriority(PRIO_PROCESS, 0, settings.onboard.priority) != 0)
+    std::fprintf(stderr, "vslam_onboard: priority %d is refused: %s\n", settings.onboard.priority,
+                 std::strerror(errno));
+  OnboardLoop loop(settings, installStopSignal());
+  const bool is_good = loop.run();
+  loop.printSummary();
+  if (settings.onboard.map.empty()) return is_good ? 0 : kFault;
+  const std::string fault = writeLandmarks(settings.onboard.map, loop.landmarks());
+  if (!fault.empty()) std::fprintf(stderr, "vslam_onboard: %s\n", fault.c_str());
+  return is_good && fault.empty() ? 0 : kFault;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    Arguments arguments;
+    const int exit_code = parse(argc, argv, arguments);
+    if (exit_code >= 0) return exit_code;
+    const std::string& kernels_fault = instructionSetInUse().fault;
+    if (!kernels_fault.empty()) std::fprintf(stderr, "vslam_onboard: %s\n", kernels_fault.c_str());
+    const Settings settings = loadSettings(arguments.config, arguments.overrides);
+    if (arguments.is_self_test) return selfTest(settings) ? 0 : kFault;
+    return run(settings);
+  } catch (const std::bad_alloc&) {
+    std::fputs("vslam_onboard: out of memory: set onboard/max_map_mb lower\n", stderr);
+  } catch (const ConfigError& e) {
+    std::fprintf(stderr, "vslam_onboard: %s\n", e.what());
+    return kWrongUse;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "vslam_onboard: %s\n", e.what());
+  }
+  return kFault;
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_file.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+namespace ardrone_vslam {
+
+std::string writeLandmarks(const std::string& path, const LandmarkMap& map) {
+  const std::string part = path + ".part";
+  std::FILE* file = std::fopen(part.c_str(), "w");
+  bool is_good = file != nullptr;
+  if (is_good) {
+    std::fputs("id,x_m,y_m,z_m,deviation_m,depth_deviation_m,times_seen\n", file);
+    for (const Landmark& l : map.all()) {
+      const Eigen::Vector3d& p = l.position_map;
+      if (!p.allFinite() || !std::isfinite(l.deviation_m + l.depth_deviation_m)) continue;
+      std::fprintf(file, "%u,%.9g,%.9g,%.9g,%.9g,%.9g,%d\n", l.id, p.x(), p.y(), p.z(),
+                   l.deviation_m, l.depth_deviation_m, l.times_seen);
+    }
+    is_good = std::ferror(file) == 0;
+    is_good = std::fclose(file) == 0 && is_good;
+  }
+  if (is_good) is_good = std::rename(part.c_str(), path.c_str()) == 0;
+  return is_good ? "" : path + ": the map cannot be written: " + std::strerror(errno);
+}
+
+}  // namespace ardrone_vslam

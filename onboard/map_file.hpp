@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "ardrone_vslam/landmark_map.hpp"
+
+namespace ardrone_vslam {
+
+/// Writes the landmarks as replay's landmarks.csv has them, into a file beside it first: there is
+/// never half a map. @return a sentence when it cannot be written
+std::string writeLandmarks(const std::string& path, const LandmarkMap& map);
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "input_buffer.hpp"
+#include "onboard_config.hpp"
+#include "vslam_protocol.h"
+
+namespace ardrone_vslam {
+
+/// The controller's records as they come, by UDP or one after the other in a file or FIFO.
+class ObserverSource {
+ public:
+  enum class Read { kRecord, kNone, kEnd };
+
+  /// @throws std::runtime_error
+  ObserverSource(const OnboardConfig& config, int stop_fd);
+
+  /// Whether records come by themselves and must be taken at once; those of a file wait.
+  bool isLive() const { return socket_.isOpen(); }
+  int descriptor() const { return file_ ? file_->descriptor() : socket_.get(); }
+  /// Whether read() of a file need not wait.
+  bool hasMore() const { return file_ && file_->hasMore(); }
+  /// Of one record, which may be wrong in every way.
+  Read read(const std::uint8_t*& record, std::size_t& size);
+
+ private:
+  // Longer datagrams are wrong, and told by their size.
+  std::array<std::uint8_t, VSLAM_OBSERVER_BYTES + 1> bytes_{};
+  FileDescriptor socket_;
+  std::optional<InputBuffer> file_;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "answer_output.hpp"
+#include "cpu_share.hpp"
+#include "frame_input.hpp"
+#include "observer_input.hpp"
+#include "observer_source.hpp"
+#include "pose_pipeline.hpp"
+#include "settings.hpp"
+#include "udp.hpp"
+
+namespace ardrone_vslam {
+
+/// The program: waits for images and records in one thread, answers each image, and says at least
+/// every kSayState_ns how it is. Allocates nothing of its own after construction.
+class OnboardLoop {
+ public:
+  static constexpr std::int64_t kSayState_ns = 200'000'000;
+  /// A camera that says nothing for so long counts as lost.
+  static constexpr std::int64_t kCameraSilent_ns = 1'000'000'000;
+
+  /// @param stop_fd  becomes readable when the program is to stop
+  /// @throws ConfigError, std::runtime_error, std::invalid_argument
+  OnboardLoop(const Settings& settings, int stop_fd);
+
+  /// Until it is to stop, or a file's images end. @return whether all went well: no source of
+  /// images was lost for good
+  bool run();
+
+  /// UDP; for one that was given as 0.
+  int observerPort() const { return portOf(observer_source_.descriptor()); }
+  const LandmarkMap& landmarks() const { return pipeline_.landmarks(); }
+  /// One line: what was answered, lost and dropped.
+  void printSummary() const;
+
+ private:
+  bool waitForInput();
+  int timeout_ms(std::int64_t now) const;
+  bool mayReadFrame(std::int64_t now) const;
+  bool readFrame();
+  void readObserver();
+  void answer();
+  void giveUp(std::uint32_t state);
+  std::uint32_t idleState(std::int64_t now) const;
+  void sayState(std::int64_t now);
+  AnswerOutput::Counters counters() const;
+
+  Settings settings_;
+  int stop_fd_;
+  PosePipeline pipeline_;
+  ObserverSource observer_source_;
+  ObserverInput observer_input_;
+  AnswerOutput output_;
+  FrameInput frames_;
+  CpuShare share_;
+  bool is_observer_over_ = false;
+  std::int64_t began_ns_;
+  std::int64_t frame_ns_ = 0;  // when the newest image came; 0: none has
+  std::int64_t said_ns_ = 0;
+  std::uint32_t answered_ = 0;
+  std::uint32_t stamps_refused_ = 0;
+  std::uint32_t without_observer_ = 0;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "settings.hpp"
+
+#include <algorithm>
+#include <set>
+#include <type_traits>
+
+#include "../nodes/node_config.hpp"  // the structs alone: no ROS
+#include "ardrone_vslam/late_fusion.hpp"
+#include "yaml_sections.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using Section = std::map<std::string, std::string>;
+
+/// Takes the values out of a section, parameter by parameter; what is left over is unknown.
+struct ValueReader {
+  std::string section_name;
+  Section* values;
+  std::vector<std::string>* faults;
+
+  template <class T>
+  void operator()(const ParameterInfo& info, T& value) const {
+    const auto entry = values->find(info.name);
+    if (entry == values->end()) return;
+    const std::string text = entry->second;
+    values->erase(entry);
+    std::string must_be;
+    if (!read(text, value, must_be))
+      faults->push_back(section_name + "/" + info.name + " is '" + text + "' but must be " +
+                        must_be);
+  }
+
+  template <class T>
+  static bool read(const std::string& text, T& value, std::string& must_be) {
+    if constexpr (std::is_enum_v<T>) {
+      must_be = "one of:";
+      for (std::size_t i = 0; i < EnumNames<T>::kNames.size(); ++i) {
+        if (text == EnumNames<T>::kNames[i]) {
+          value = static_cast<T>(i);
+          return true;
+        }
+        must_be += std::string(" ") + EnumNames<T>::kNames[i];
+      }
+      return false;
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      value = text;
+      return true;
+    } else if constexpr (std::is_same_v<T, bool>) {
+      must_be = "a switch (true or false)";
+      return toSwitch(text, value);
+    } else {
+      must_be = std::is_same_v<T, int> ? "a whole number" : "a number";
+      return toNumber(text, value);
+    }
+  }
+};
+
+struct NameCollector {
+  std::set<std::string>* names;
+  template <class T>
+  void operator()(const ParameterInfo& info, T&) const {
+    names->insert(info.name);
+  }
+};
+
+/// Sections and their structs, one after the other.
+class SectionReader {
+ public:
+  SectionReader(YamlSections sections, std::vector<std::string>& faults)
+      : sections_(std::move(sections)), faults_(faults) {}
+
+  template <class... Configs>
+  void read(const std::string& name, Configs&... configs) {
+    Section values = sections_[name];
+    sections_.erase(name);
+    std::set<std::string> names;
+    (visitParameters(configs, ValueReader{name, &values, &faults_}), ...);
+    (visitParameters(configs, NameCollector{&names}), ...);
+    for (const auto& leftover : values) {
+      const std::string nearest = nearestName(leftover.first, names);
+      faults_.push_back(name + "/" + leftover.first + " is not a parameter" +
+                        (nearest.empty() ? "" : "; did you mean " + name + "/" + nearest));
+    }
+    (addRangeFaults(configs), ...);
+  }
+
+  void refuseOthers() {
+    for (const auto& section : sections_) {
+      if (section.first.empty() && section.second.empty()) continue;
+      faults_.push_back("unknown section '" + section.first +
+                        "'; known are onboard, tracker, mapper and observer_fusion");
+    }
+  }
+
+ private:
+  template <class Config>
+  void addRangeFaults(const Config& config) {
+    const auto faults = rangeFaults(config);
+    faults_.insert(faults_.end(), faults.begin(), faults.end());
+  }
+
+  YamlSections sections_;
+  std::vector<std::string>& faults_;
+};
+
+YamlSections readFile(const std::string& path, std::vector<std::string>& faults) {
+  std::string text;
+  if (!readText(path, text)) {
+    faults.push_back(path + ": cannot be read; check the path");
+    return {};
+  }
+  std::vector<std::string> line_faults;
+  YamlSections sections = readYamlSections(text, line_faults);
+  for (const std::string& fault : line_faults) faults.push_back(path + ", " + fault);
+  return sections;
+}
+
+void apply(const std::string& text, YamlSections& sections, std::vector<std::string>& faults) {
+  const std::size_t equals = text.find('=');
+  const std::size_t slash = text.find('/');
+  if (equals == std::string::npos || slash == std::string::npos || slash > equals) {
+    faults.push_back("--set '" + text +
+                     "' must be section/key=value, for example mapper/planar=true");
+    return;
+  }
+  sections[text.substr(0, slash)][text.substr(slash + 1, equals - slash - 1)] =
+      text.substr(equals + 1);
+}
+
+void besideFile(const std::string& path, std::string& name) {
+  const std::size_t slash = path.rfind('/');
+  if (!name.empty() && name.front() != '/' && slash != std::string::npos)
+    name = path.substr(0, slash + 1) + name;
+}
+
+}  // namespace
+
+Settings loadSettings(const std::string& path, const std::vector<std::string>& overrides) {
+  std::vector<std::string> faults;
+  YamlSections sections;
+  if (!path.empty()) sections = readFile(path, faults);
+  besideFile(path, sections["onboard"]["camera"]);
+  for (const std::string& text : overrides) apply(text, sections, faults);
+  SectionReader reader(std::move(sections), faults);
+  Settings s;
+  TrackerNodeConfig tracker_node;
+  MapperNodeConfig mapper_node;
+  ObserverFusionNodeConfig fusion_node;
+  LateFusionConfig late_fusion;
+  reader.read("onboard", s.onboard);
+  reader.read("tracker", s.tracker, tracker_node);
+  reader.read("mapper", s.mapper, mapper_node);
+  reader.read("observer_fusion", late_fusion, fusion_node);
+  reader.refuseOthers();
+  // What needs topics that are not here.
+  if (s.mapper.observer_adapter.mode != ObserverMode::kPose)
+    faults.push_back("mapper/observer_mode must be pose: the controller's records hold no more");
+  if (s.tracker.use_attitude) faults.push_back("tracker/use_attitude must be false on board");
+  if (!faults.empty()) throw ConfigError(faults);
+  s.odometry_wait_s = mapper_node.odometry_wait_s;
+  int& landmarks = s.mapper.landmark_map.max_landmarks;
+  landmarks = std::min(landmarks, s.onboard.max_map_mb * (1000000 / kBytesPerLandmark));
+  return s;
+}
+
+CameraIntrinsics readCalibration(const std::string& path) {
+  if (path.empty()) throw ConfigError({"onboard/camera names no calibration: give --camera FILE"});
+  std::vector<std::string> faults;
+  YamlSections sections = readFile(path, faults);
+  if (!faults.empty()) throw ConfigError(faults);
+  const auto need = [&](bool is_good, const std::string& what) {
+    if (!is_good)
+      throw ConfigError({path + ": " + what + "; write it as ROS's camera_calibration does"});
+  };
+  const auto numbers = [&](const std::string& name) {
+    std::vector<double> values;
+    for (const std::string& item : listOf(sections[name]["data"])) {
+      double value = 0;
+      need(toNumber(item, value), name + "/data is missing or no list of numbers");
+      values.push_back(value);
+    }
+    return values;
+  };
+  CameraIntrinsics camera;
+  need(toNumber(sections[""]["image_width"], camera.width_px), "image_width is missing");
+  need(toNumber(sections[""]["image_height"], camera.height_px), "image_height is missing");
+  const std::string& model = sections[""]["distortion_model"];
+  need(model == "plumb_bob", "distortion_model is '" + model + "' but must be plumb_bob");
+  const std::vector<double> k = numbers("camera_matrix");
+  need(k.size() == 9, "camera_matrix has not 9 numbers");
+  std::vector<double> d = numbers("distortion_coefficients");
+  need(d.empty() || d.size() == 4 || d.size() == 5, "distortion_coefficients has not 5 numbers");
+  d.resize(5, 0.0);
+  camera.fx_px = k[0];
+  camera.cx_px = k[2];
+  camera.fy_px = k[4];
+  camera.cy_px = k[5];
+  camera.k1 = d[0];
+  camera.k2 = d[1];
+  camera.p1 = d[2];
+  camera.p2 = d[3];
+  camera.k3 = d[4];
+  const std::string fault = calibrationFault(camera);
+  if (!fault.empty()) throw ConfigError({path + ": " + fault});
+  return camera;
+}
+
+Eigen::Isometry3d mountingOf(const OnboardConfig& config) {
+  const auto turn = [](double angle_deg, const Eigen::Vector3d& axis) {
+    return Eigen::AngleAxisd(angle_deg * M_PI / 180, axis);
+  };
+  return Eigen::Translation3d(config.camera_x_m, config.camera_y_m, config.camera_z_m) *
+         turn(config.camera_yaw_deg, Eigen::Vector3d::UnitZ()) *
+         turn(config.camera_pitch_deg, Eigen::Vector3d::UnitY()) *
+         turn(config.camera_roll_deg, Eigen::Vector3d::UnitX());
+}
+
+}  // namespace ardrone_vslam

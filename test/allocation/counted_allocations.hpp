@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+
+/// What the whole program has allocated; hence an executable of its own.
+extern std::atomic<long> allocations;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// vslam_onboard's own code, beside the core: nothing is allocated once it runs.
+#include <gtest/gtest.h>
+
+#include "answer_output.hpp"
+#include "counted_allocations.hpp"
+#include "frame_stream.hpp"
+#include "observer_input.hpp"
+#include "onboard/flight_records.hpp"
+#include "telemetry.hpp"
+#include "udp.hpp"
+
+namespace ardrone_vslam::test {
+namespace {
+
+constexpr int kImages = 20;
+
+/// @return allocations while `work` is done
+template <class Work>
+long during(const Work& work) {
+  const long before = allocations;
+  work();
+  return allocations - before;
+}
+
+TEST(OnboardAllocation, NoneForImages) {
+  Pipe pipe;
+  FrameStream stream(FileDescriptor(pipe.reader()), -1, {32, 24, false}, true);
+  const std::string bytes = pgm(1, generatedImage(32, 24));
+  for (int i = 0; i < kImages; ++i) pipe.write(bytes);
+  Frame frame;
+  EXPECT_EQ(during([&] {
+              for (int i = 0; i < kImages; ++i)
+                ASSERT_EQ(stream.read(frame), FrameSource::Read::kFrame);
+            }),
+            0);
+}
+
+TEST(OnboardAllocation, NoneForRecordsGoodAndBad) {
+  ObserverInput input;
+  EXPECT_EQ(during([&] {
+              for (std::uint32_t i = 1; i <= 100; ++i) {
+                Record record = recordOf(observerAt(i, i));
+                ASSERT_TRUE(input.read(record.data(), record.size(), i));
+                record[20] ^= 1;
+                ASSERT_FALSE(input.read(record.data(), record.size(), i));
+              }
+            }),
+            0);
+}
+
+TEST(OnboardAllocation, NoneForAnswersAndTelemetry) {
+  const FileDescriptor workstation = receiveAt("127.0.0.1", 0);
+  OnboardConfig config;
+  config.pose_port = config.telemetry_port = portOf(workstation.get());
+  config.telemetry_address = "127.0.0.1";
+  AnswerOutput output(config);
+  LandmarkMap map{LandmarkMapConfig{}};
+  for (int i = 0; i < 500; ++i) map.add(Landmark{});
+  const FrameResult result;
+  const ImageFeatures features;
+  EXPECT_EQ(during([&] {
+              for (int i = 1; i <= kImages; ++i) {
+                output.sendPose(result, {});
+                output.sendState(VSLAM_NO_OBSERVER, i, {});
+                output.sendTelemetry(features, map, std::int64_t{i} * 1'000'000'000);
+              }
+            }),
+            0);
+  std::array<std::uint8_t, Telemetry::kBytes> datagram;
+  EXPECT_EQ(receive(workstation, datagram.data(), datagram.size()), VSLAM_POSE_BYTES);
+  EXPECT_EQ(receive(workstation, datagram.data(), datagram.size()), VSLAM_POSE_BYTES);
+  EXPECT_GT(receive(workstation, datagram.data(), datagram.size()), 1000);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam::test

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "onboard_loop.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include <cstdio>
+#include <thread>
+
+#include "flight_records.hpp"
+#include "map_file.hpp"
+#include "udp.hpp"
+
+namespace ardrone_vslam::test {
+namespace {
+
+constexpr std::int64_t kFirst_ns = 1'000'000'000;
+constexpr std::int64_t kPeriod_ns = 50'000'000;
+constexpr int kImages = 4;
+
+/// A camera at rest before a generated picture.
+class OnboardLoopTest : public ::testing::Test {
+ protected:
+  OnboardLoopTest() {
+    folder_ = ::testing::TempDir() + "onboard_loop_XXXXXX";
+    EXPECT_NE(::mkdtemp(folder_.data()), nullptr);
+    writeFile(
+        file("camera.yaml"),
+        "image_width: 160\nimage_height: 120\ncamera_matrix:\n  data: [150, 0, 80, 0, 150, 60, "
+        "0, 0, 1]\ndistortion_model: plumb_bob\ndistortion_coefficients:\n  data: []\n");
+    std::string stream;
+    for (int i = 0; i < kImages; ++i) stream += pgm(stampOf(i), image_);
+    writeFile(file("frames"), stream);
+    settings_.onboard.camera = file("camera.yaml");
+    settings_.onboard.frames = file("frames");
+    settings_.onboard.poses = file("poses");
+    settings_.onboard.pose_port = 0;
+    settings_.onboard.observer_port = 0;  // any
+    settings_.onboard.cpu_share = 1;
+    settings_.odometry_wait_s = 0.01;
+  }
+  ~OnboardLoopTest() override {
+    for (const char* name : {"camera.yaml", "frames", "poses", "observer", "map"})
+      std::remove(file(name).c_str());
+    ::rmdir(folder_.c_str());
+  }
+
+  static std::int64_t stampOf(int image) { return kFirst_ns + image * kPeriod_ns; }
+  std::string file(const std::string& name) const { return folder_ + "/" + name; }
+  std::vector<VslamPose> poses() const { return posesIn(file("poses")); }
+
+  /// States from before the first image to after the last.
+  static std::string records() {
+    std::string bytes;
+    for (int i = -1; i <= kImages; ++i) {
+      VslamObserver observer = observerAt(stampOf(i), static_cast<std::uint32_t>(i + 10));
+      observer.position_m[0] = 0.5;
+      const Record record = recordOf(observer);
+      bytes.append(record.begin(), record.end());
+    }
+    return bytes;
+  }
+
+  std::string folder_;
+  TestImage image_ = generatedImage(160, 120);
+  Settings settings_;
+  Pipe stop_;
+};
+
+TEST_F(OnboardLoopTest, AnswersEachImageOfAFileFromAFileOfRecords) {
+  writeFile(file("observer"), records());
+  settings_.onboard.observer = file("observer");
+  OnboardLoop loop(settings_, stop_.ends[0]);
+  EXPECT_TRUE(loop.run());
+  const auto answers = poses();
+  ASSERT_EQ(answers.size(), kImages + 1U);
+  for (int i = 0; i < kImages; ++i) {
+    const VslamPose& pose = answers[static_cast<std::size_t>(i)];
+    EXPECT_EQ(pose.flags, VSLAM_POSE_IS_VALID) << i;
+    EXPECT_EQ(pose.sequence, i + 1U);
+    EXPECT_EQ(pose.stamp_ns, stampOf(i));
+    EXPECT_LT(pose.state, 32U);
+    EXPECT_EQ(pose.observer_position_m[0], 0.5);
+    EXPECT_NEAR(pose.position_m[0], 0.5, 0.1);
+    EXPECT_GT(pose.deviation[0] + pose.deviation[5], 0) << i;
+  }
+  EXPECT_EQ(answers.back().state, static_cast<std::uint32_t>(VSLAM_ENDING));
+  EXPECT_EQ(answers.back().frames_dropped, 0U);
+}
+
+TEST_F(OnboardLoopTest, TakesDatagramsAndCountsTheBadOnes) {
+  OnboardLoop loop(settings_, stop_.ends[0]);
+  const FileDescriptor controller = sendTo("127.0.0.1", loop.observerPort());
+  const auto send = [&](const std::string& bytes) {
+    ASSERT_EQ(::write(controller.get(), bytes.data(), bytes.size()),
+              static_cast<ssize_t>(bytes.size()));
+  };
+  const std::string good = records();
+  send("noise");
+  send(good.substr(0, VSLAM_OBSERVER_BYTES) + "longer");
+  for (std::size_t at = 0; at < good.size(); at += VSLAM_OBSERVER_BYTES) {
+    send(good.substr(at, VSLAM_OBSERVER_BYTES));
+    std::string corrupted = good.substr(at, VSLAM_OBSERVER_BYTES);
+    corrupted[50] = static_cast<char>(corrupted[50] ^ 4);
+    send(corrupted);
+  }
+  send(good.substr(0, VSLAM_OBSERVER_BYTES));  // old by now
+  EXPECT_TRUE(loop.run());
+  const auto answers = poses();
+  ASSERT_EQ(answers.size(), kImages + 1U);
+  for (int i = 0; i < kImages; ++i)
+    EXPECT_EQ(answers[static_cast<std::size_t>(i)].flags, VSLAM_POSE_IS_VALID) << i;
+  EXPECT_EQ(answers.back().records_dropped, 2 + (kImages + 2U) + 1);
+}
+
+TEST_F(OnboardLoopTest, ASilentControllerIsSaidAndEachImageGivenUp) {
+  OnboardLoop loop(settings_, stop_.ends[0]);
+  EXPECT_TRUE(loop.run());
+  const auto answers = poses();
+  ASSERT_EQ(answers.size(), kImages + 1U);
+  for (int i = 0; i < kImages; ++i) {
+    const VslamPose& pose = answers[static_cast<std::size_t>(i)];
+    EXPECT_EQ(pose.state, static_cast<std::uint32_t>(VSLAM_CONTROLLER_SILENT));
+    EXPECT_EQ(pose.flags, 0U);
+    EXPECT_EQ(pose.stamp_ns, stampOf(i));
+  }
+  EXPECT_EQ(answers.back().frames_dropped, static_cast<std::uint32_t>(kImages));
+}
+
+TEST_F(OnboardLoopTest, RecordsThatDoNotReachTheImagesAreSaid) {
+  writeFile(file("observer"), records().substr(0, 3 * VSLAM_OBSERVER_BYTES));  // to image 1
+  settings_.onboard.observer = file("observer");
+  settings_.onboard.controller_silent_s = 60;
+  OnboardLoop(settings_, stop_.ends[0]).run();
+  const auto answers = poses();
+  ASSERT_EQ(answers.size(), kImages + 1U);
+  EXPECT_EQ(answers[1].flags, VSLAM_POSE_IS_VALID);
+  EXPECT_EQ(answers[2].state, static_cast<std::uint32_t>(VSLAM_NO_OBSERVER));
+}
+
+TEST_F(OnboardLoopTest, ImagesThatEndWithinOneAreAFault) {
+  const std::string stream = readFile(file("frames"));
+  writeFile(file("frames"), stream.substr(0, stream.size() - 1));
+  OnboardLoop loop(settings_, stop_.ends[0]);
+  EXPECT_FALSE(loop.run());
+  ASSERT_FALSE(poses().empty());
+  EXPECT_EQ(poses().back().state, static_cast<std::uint32_t>(VSLAM_CAMERA_LOST));
+}
+
+TEST_F(OnboardLoopTest, AMissingCameraIsSaidUntilItIsToStop) {
+  settings_.onboard.frames = "/dev/ardrone_vslam_none";
+  OnboardLoop loop(settings_, stop_.ends[0]);
+  bool is_good = false;
+  std::thread program([&] { is_good = loop.run(); });
+  while (poses().empty()) std::this_thread::yield();
+  stop_.write("x");
+  program.join();
+  EXPECT_TRUE(is_good);
+  EXPECT_EQ(poses().front().state, static_cast<std::uint32_t>(VSLAM_CAMERA_LOST));
+  EXPECT_EQ(poses().back().state, static_cast<std::uint32_t>(VSLAM_ENDING));
+}
+
+TEST_F(OnboardLoopTest, AStampThatDoesNotAscendIsDropped) {
+  writeFile(file("frames"), pgm(stampOf(1), image_) + pgm(stampOf(0), image_) +
+                                pgm(stampOf(1), image_) + pgm(stampOf(2), image_));
+  writeFile(file("observer"), records());
+  settings_.onboard.observer = file("observer");
+  OnboardLoop(settings_, stop_.ends[0]).run();
+  const auto answers = poses();
+  ASSERT_EQ(answers.size(), 3U);
+  EXPECT_EQ(answers[1].stamp_ns, stampOf(2));
+  EXPECT_EQ(answers.back().frames_dropped, 2U);
+}
+
+TEST_F(OnboardLoopTest, WhatCannotBeOpenedIsSaidAtOnce) {
+  const auto faultWith = [&](auto OnboardConfig::*key, const auto& value) -> std::string {
+    Settings wrong = settings_;
+    wrong.onboard.*key = value;
+    try {
+      OnboardLoop(wrong, stop_.ends[0]);
+    } catch (const std::exception& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_NE(faultWith(&OnboardConfig::poses, file("none/poses")).find("none/poses"),
+            std::string::npos);
+  EXPECT_NE(faultWith(&OnboardConfig::observer, file("none")).find("none"), std::string::npos);
+  EXPECT_NE(faultWith(&OnboardConfig::observer_address, "drone").find("drone"), std::string::npos);
+  EXPECT_NE(faultWith(&OnboardConfig::camera, file("none.yaml")).find("none.yaml"),
+            std::string::npos);
+}
+
+TEST(MapFile, IsWrittenWholeOrNotAtAll) {
+  LandmarkMap map{LandmarkMapConfig{}};
+  Landmark landmark;
+  landmark.position_map = {1, 2, 3};
+  landmark.deviation_m = 0.25;
+  map.add(landmark);
+  landmark.position_map.x() = std::numeric_limits<double>::quiet_NaN();
+  map.add(landmark);
+  const std::string path = ::testing::TempDir() + "onboard_landmarks.csv";
+  EXPECT_EQ(writeLandmarks(path, map), "");
+  EXPECT_EQ(readFile(path),
+            "id,x_m,y_m,z_m,deviation_m,depth_deviation_m,times_seen\n1,1,2,3,0.25,0,0\n");
+  std::remove(path.c_str());
+  EXPECT_NE(writeLandmarks("/nowhere/landmarks.csv", map).find("/nowhere"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam::test
