@@ -57,10 +57,14 @@ def run_quick(test, out, *options, **environment):
 
 
 def skeleton(page):
-    """What does not depend on the pictures: sections, pictures, what must hold and its bounds."""
-    claims = re.findall(r"^\| ([^|]*) \| [^|]* \| ((?:at (?:most|least) )?[0-9.]+(?: to [0-9.]+)?) \|$", page, re.MULTILINE)
-    claims = [(re.sub("^(wheel|drone): ", "", what), bounds) for what, bounds in claims if "KITTI 00" not in what and " [m]" not in what.replace("[m]", "", 1)]
-    return [line for line in page.splitlines() if re.match(r"## |!\[(?!.*path_error)", line)], claims
+    """What does not depend on the pictures: sections, pictures' files, what must hold and its bounds."""
+    parts = re.findall(r"^(## .*)|^!\[.*\]\((?!.*path_error)(.*)\)$", page, re.MULTILINE)
+    for table in re.findall(r"^\| what must hold .*\n.*\n((?:\|.*\n)*)", page, re.MULTILINE):
+        for line in table.splitlines():
+            what, _, bounds = line.strip("| ").split(" | ")
+            if not what.startswith("KITTI 00"):
+                parts.append((re.sub("^(wheel|drone): ", "", what), bounds))
+    return parts
 
 
 class ReproductionTest(unittest.TestCase):
