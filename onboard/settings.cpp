@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <set>
-#include <type_traits>
 
 #include "../nodes/node_config.hpp"  // the structs alone: no ROS
 #include "ardrone_vslam/late_fusion.hpp"
+#include "ardrone_vslam/parameter_values.hpp"
 #include "yaml_sections.hpp"
 
 namespace ardrone_vslam {
@@ -14,48 +14,12 @@ namespace {
 
 using Section = std::map<std::string, std::string>;
 
-/// Takes the values out of a section, parameter by parameter; what is left over is unknown.
-struct ValueReader {
-  std::string section_name;
-  Section* values;
-  std::vector<std::string>* faults;
-
-  template <class T>
-  void operator()(const ParameterInfo& info, T& value) const {
-    const auto entry = values->find(info.name);
-    if (entry == values->end()) return;
-    const std::string text = entry->second;
-    values->erase(entry);
-    std::string must_be;
-    if (!read(text, value, must_be))
-      faults->push_back(section_name + "/" + info.name + " is '" + text + "' but must be " +
-                        must_be);
-  }
-
-  template <class T>
-  static bool read(const std::string& text, T& value, std::string& must_be) {
-    if constexpr (std::is_enum_v<T>) {
-      must_be = "one of:";
-      for (std::size_t i = 0; i < EnumNames<T>::kNames.size(); ++i) {
-        if (text == EnumNames<T>::kNames[i]) {
-          value = static_cast<T>(i);
-          return true;
-        }
-        must_be += std::string(" ") + EnumNames<T>::kNames[i];
-      }
-      return false;
-    } else if constexpr (std::is_same_v<T, std::string>) {
-      value = text;
-      return true;
-    } else if constexpr (std::is_same_v<T, bool>) {
-      must_be = "a switch (true or false)";
-      return toSwitch(text, value);
-    } else {
-      must_be = std::is_same_v<T, int> ? "a whole number" : "a number";
-      return toNumber(text, value);
-    }
-  }
+struct ReadText {
+  bool operator()(const std::string& text, bool& value) const { return toSwitch(text, value); }
+  bool operator()(const std::string& text, int& value) const { return toNumber(text, value); }
+  bool operator()(const std::string& text, double& value) const { return toNumber(text, value); }
 };
+using ValueReader = SectionValues<ReadText>;
 
 struct NameCollector {
   std::set<std::string>* names;

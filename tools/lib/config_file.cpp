@@ -12,6 +12,7 @@
 #include "../../nodes/node_config.hpp"  // the structs alone: no ROS
 #include "../../onboard/onboard_config.hpp"
 #include "ardrone_vslam/late_fusion.hpp"
+#include "ardrone_vslam/parameter_values.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -22,50 +23,18 @@ constexpr const char* kOnboard = "onboard";
 
 using Section = std::map<std::string, std::string>;  // key -> value as written
 
-/// Takes the values out of a section, parameter by parameter; what is left over is unknown.
-struct SectionReader {
-  const char* section_name;
-  Section* values;
-  std::vector<std::string>* faults;
-
+struct ReadYaml {
   template <class T>
-  void operator()(const ParameterInfo& info, T& value) const {
-    const auto entry = values->find(info.name);
-    if (entry == values->end()) return;
-    const std::string text = entry->second;
-    values->erase(entry);
-    if constexpr (std::is_enum_v<T>) {
-      readChoice(info, text, value);
-    } else if constexpr (std::is_same_v<T, std::string>) {
-      value = text;
-    } else {
-      try {
-        value = YAML::Load(text).as<T>();
-      } catch (const YAML::Exception&) {
-        faults->push_back(std::string(section_name) + "/" + info.name + " is '" + text +
-                          "' but must be a " +
-                          (std::is_same_v<T, bool>  ? "switch (true or false)"
-                           : std::is_same_v<T, int> ? "whole number"
-                                                    : "number") +
-                          " [" + info.unit + "]");
-      }
+  bool operator()(const std::string& text, T& value) const {
+    try {
+      value = YAML::Load(text).as<T>();
+      return true;
+    } catch (const YAML::Exception&) {
+      return false;
     }
-  }
-
-  template <class Enum>
-  void readChoice(const ParameterInfo& info, const std::string& text, Enum& value) const {
-    std::string choices;
-    for (std::size_t i = 0; i < EnumNames<Enum>::kNames.size(); ++i) {
-      if (text == EnumNames<Enum>::kNames[i]) {
-        value = static_cast<Enum>(i);
-        return;
-      }
-      choices += std::string(choices.empty() ? "" : ", ") + EnumNames<Enum>::kNames[i];
-    }
-    faults->push_back(std::string(section_name) + "/" + info.name + " is '" + text +
-                      "' but must be one of: " + choices);
   }
 };
+using SectionReader = SectionValues<ReadYaml>;
 
 std::map<std::string, Section> readSections(const std::string& path,
                                             std::vector<std::string>& faults) {
