@@ -98,8 +98,8 @@ def kitti(tools):
     section.picture("street_error_matches", errors_against_matches(tools, both), "The same against matches, and how many matches there are (figure 7.7)")
     section.text("Why they differ: the thesis compares all descriptors with all and ends with 11 matches of 1000 features, and a wrong one among one or two of them made its "
                  "26 m. Here landmarks are looked for where the prediction puts them (`association`), which matches more than ten times as many, so no single mismatch decides; even with "
-                 "as few matches as there the largest error stays far below. The thesis's histogram has Rayleigh's shape with its mode at 6; "
-                 "with as few matches ours is nearly symmetric about its mean.")
+                 "as few matches as there the largest error stays far below. The thesis's histogram has Rayleigh's shape with its "
+                 f"mode at {thesis.KITTI_MATCHES_MODE}; with as few matches ours is nearly symmetric about its mean.")
     section.claim("mean error by landmarks alone, over the thesis's 0.158 m", fixes.mean() / thesis.KITTI_MEAN_M, high=0.5)
     section.claim("largest error by landmarks alone, over the thesis's 0.65 m of at least three matches", fixes.max() / thesis.KITTI_LARGEST_OF_THREE_M, high=0.3)
     section.claim("mean of the matches, over the thesis's 11", matches.mean() / thesis.KITTI_MATCHES_MEAN, low=10)
@@ -206,7 +206,7 @@ def hover(tools):
         axes.fill_between(seconds, low, high, color=colour, alpha=0.15, linewidth=0)
         axes.plot(seconds, middle, color=colour, label=label.replace("`", ""))
         final[label] = errors[:, -1]
-    axes.plot([thesis.HOVER_S], [thesis.HOVER_DRIFT_M], "kx", markersize=9, label="thesis")
+    axes.plot([thesis.HOVER_S], [thesis.HOVER_DRIFT_M], "kx", markersize=9, label="measured in the thesis, without vision")
     axes.set_xlabel("time [s]")
     axes.set_ylabel("position error [m]")
     axes.legend()

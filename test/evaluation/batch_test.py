@@ -84,7 +84,7 @@ class JobsTest(WithFolder):
         tiny, mine = batch_jobs.read_selection(good)
         self.assertEqual((tiny.flight[0], mine.folder, mine.replay), ("laps", self.path("data"), ("--ping-pong",)))
         below, = batch_jobs.read_selection(self.write("bag.json", json.dumps([dict(TINY[0], bag=True)])))
-        self.assertEqual((tiny.output_in("/work"), below.output_in("/work")), ("/work", "/work/flight.bag"))
+        self.assertEqual((tiny.output_in("/runs"), below.output_in("/runs")), ("/runs", "/runs/flight.bag"))
         for text in ("[", "{}", '[{"name": "a"}]', '[{"name": "a", "profiles": ["drone"]}]', "[1]"):
             with self.assertRaisesRegex(InputFault, "bad.json", msg=text):
                 batch_jobs.read_selection(self.write("bad.json", text))
