@@ -59,7 +59,9 @@ void AnswerOutput::send(VslamPose& pose, const Counters& counters) {
   pose.landmarks = counters.landmarks;
   std::array<std::uint8_t, VSLAM_POSE_BYTES> record;
   vslam_write_pose(&pose, record.data());
-  if (pose_socket_.isOpen()) ::send(pose_socket_.get(), record.data(), record.size(), MSG_NOSIGNAL);
+  for (const FileDescriptor* socket : {&pose_socket_, &telemetry_socket_}) {
+    if (socket->isOpen()) ::send(socket->get(), record.data(), record.size(), MSG_NOSIGNAL);
+  }
   if (!pose_file_.isOpen()) return;
   const auto written = ::write(pose_file_.get(), record.data(), record.size());
   if (written == static_cast<ssize_t>(record.size())) return;

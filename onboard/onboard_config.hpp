@@ -83,7 +83,8 @@ void visitParameters(OnboardConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"pose_address", "name", 0, 0, "the answers are sent there"}, c.pose_address);
   visit(ParameterInfo{"pose_port", "port", 0, 65535, "to this UDP port; 0: not sent"}, c.pose_port);
   visit(ParameterInfo{"telemetry_address", "name", 0, 0,
-                      "a workstation that gets features and landmarks; empty: none"},
+                      "a workstation that gets the answers, too, and features and landmarks "
+                      "(onboard_bridge); empty: none"},
         c.telemetry_address);
   visit(ParameterInfo{"telemetry_port", "port", 1, 65535, "at this UDP port"}, c.telemetry_port);
   visit(ParameterInfo{"telemetry_hz", "Hz", 0.01, 100, "at most so often, 1400 bytes each"},

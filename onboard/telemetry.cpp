@@ -10,7 +10,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::size_t kFixedBytes = VSLAM_HEADER_BYTES + 8 + 4 + 4 + 2 + 2;
+static_assert(Telemetry::kFixedBytes == VSLAM_HEADER_BYTES + 8 + 4 + 4 + 2 + 2);
 
 std::uint8_t* putFloat(std::uint8_t* to, double value) {
   const auto narrow = static_cast<float>(value);

@@ -12,11 +12,12 @@ namespace ardrone_vslam {
 
 /// A workstation's view of the flight in datagrams of bounded size (docs/onboard.md): some of the
 /// image's features, the landmarks seen since the last one, and in the room left over the others in
-/// turn. Whoever receives forgets a landmark that did not come for two rounds.
+/// turn. TelemetryReader receives it, and forgets a landmark that did not come for two rounds.
 class Telemetry {
  public:
   static constexpr std::size_t kBytes = 1400;  ///< fits into an Ethernet frame
   static constexpr std::size_t kMostFeatures = 100;
+  static constexpr std::size_t kFixedBytes = 32;  ///< before the features, header included
   static constexpr std::size_t kFeatureBytes = 5;
   static constexpr std::size_t kLandmarkBytes = 20;
 

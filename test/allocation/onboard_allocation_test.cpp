@@ -50,9 +50,11 @@ TEST(OnboardAllocation, NoneForRecordsGoodAndBad) {
 }
 
 TEST(OnboardAllocation, NoneForAnswersAndTelemetry) {
+  const FileDescriptor controller = receiveAt("127.0.0.1", 0);
   const FileDescriptor workstation = receiveAt("127.0.0.1", 0);
   OnboardConfig config;
-  config.pose_port = config.telemetry_port = portOf(workstation.get());
+  config.pose_port = portOf(controller.get());
+  config.telemetry_port = portOf(workstation.get());
   config.telemetry_address = "127.0.0.1";
   AnswerOutput output(config);
   LandmarkMap map{LandmarkMapConfig{}};
@@ -68,8 +70,15 @@ TEST(OnboardAllocation, NoneForAnswersAndTelemetry) {
             }),
             0);
   std::array<std::uint8_t, Telemetry::kBytes> datagram;
-  EXPECT_EQ(receive(workstation, datagram.data(), datagram.size()), VSLAM_POSE_BYTES);
-  EXPECT_EQ(receive(workstation, datagram.data(), datagram.size()), VSLAM_POSE_BYTES);
+  for (const FileDescriptor* socket : {&controller, &workstation}) {
+    for (const std::uint32_t sequence : {1U, 2U}) {
+      const long size = receive(*socket, datagram.data(), datagram.size());
+      VslamPose pose{};
+      ASSERT_EQ(vslam_read_pose(datagram.data(), static_cast<std::size_t>(size), &pose),
+                VSLAM_GOOD);
+      EXPECT_EQ(pose.sequence, sequence);
+    }
+  }
   EXPECT_GT(receive(workstation, datagram.data(), datagram.size()), 1000);
 }
 
