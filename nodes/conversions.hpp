@@ -12,6 +12,7 @@
 #include <visualization_msgs/Marker.h>
 
 #include <string>
+#include <vector>
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/height_input.hpp"
@@ -83,17 +84,22 @@ nav_msgs::Odometry toOdometryMessage(const ObserverState& state, const std::stri
                                      const std::string& base_frame);
 PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
                                    const Frames& frames);
+/// Fills the state, its name and the reason.
+void toStatus(SlamState state, Status& status);
 /// Fills the state and the counts of one frame; leaves stage times and totals alone.
 void toStatus(const FrameResult& result, const std::string& map_frame, Status& status);
 void toStatus(const OdometryFaultCounts& faults, Status& status);
 /// @param used_s  the parameter image_time_offset_s
 void toStatus(const TimeOffset& estimate, double used_s, Status& status);
 
+/// Whether a pose of this state (of Status) is one to go by.
+bool isWell(std::uint8_t state);
+
 /// Landmarks as a cloud: x y z [m], deviation [m], times_seen, id.
-sensor_msgs::PointCloud2 toCloud(const LandmarkMap& map, const std::string& map_frame,
-                                 std::int64_t stamp_ns);
+sensor_msgs::PointCloud2 toCloud(const std::vector<Landmark>& landmarks,
+                                 const std::string& map_frame, std::int64_t stamp_ns);
 /// Landmarks as one marker of points, from green (deviation at most 1 cm) to red (at least 1 m).
-visualization_msgs::Marker toMarker(const LandmarkMap& map, const std::string& map_frame,
-                                    std::int64_t stamp_ns);
+visualization_msgs::Marker toMarker(const std::vector<Landmark>& landmarks,
+                                    const std::string& map_frame, std::int64_t stamp_ns);
 
 }  // namespace ardrone_vslam

@@ -107,8 +107,8 @@ void toMessage(const ImageFeatures& features, const std::string& camera_frame, F
   message.score = features.score;
   message.track_id = features.track_id;
   message.age = features.age_frames;
-  message.descriptor.resize(sizeof(Descriptor) * count);
-  if (count > 0) {
+  message.descriptor.resize(sizeof(Descriptor) * features.descriptor.size());
+  if (!message.descriptor.empty()) {
     std::memcpy(message.descriptor.data(), features.descriptor.data(), message.descriptor.size());
   }
 }
@@ -190,12 +190,16 @@ PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isome
   return message;
 }
 
+void toStatus(SlamState state, Status& status) {
+  status.state = stateOf(state);
+  status.state_name = kSlamStateNames[static_cast<std::size_t>(state)];
+  status.reason = state == SlamState::kLocalised ? "" : explain(state);
+}
+
 void toStatus(const FrameResult& result, const std::string& map_frame, Status& status) {
   const auto count = [](int number) { return static_cast<std::uint32_t>(number); };
   status.header = headerOf(result.stamp_ns, map_frame);
-  status.state = stateOf(result.state);
-  status.state_name = kSlamStateNames[static_cast<std::size_t>(result.state)];
-  status.reason = result.state == SlamState::kLocalised ? "" : explain(result.state);
+  toStatus(result.state, status);
   if (result.features == 0) {
     status.reason =
         "the image has no corners: it is dark, over-exposed, blurred or without texture; " +
@@ -231,8 +235,14 @@ void toStatus(const TimeOffset& estimate, double used_s, Status& status) {
   status.image_time_offset_deviation = estimate.deviation_s;
 }
 
-sensor_msgs::PointCloud2 toCloud(const LandmarkMap& map, const std::string& map_frame,
-                                 std::int64_t stamp_ns) {
+bool isWell(std::uint8_t state) {
+  return state == Status::LOCALISED || state == Status::BUILDING_MAP || state == Status::TRACKING ||
+         state == Status::RESTING || state == Status::ROTATING || state == Status::RELOCATED ||
+         state == Status::OBSERVER_ONLY;
+}
+
+sensor_msgs::PointCloud2 toCloud(const std::vector<Landmark>& landmarks,
+                                 const std::string& map_frame, std::int64_t stamp_ns) {
   using sensor_msgs::PointField;
   sensor_msgs::PointCloud2 cloud;
   cloud.header = headerOf(stamp_ns, map_frame);
@@ -242,10 +252,10 @@ sensor_msgs::PointCloud2 toCloud(const LandmarkMap& map, const std::string& map_
   modifier.setPointCloud2Fields(6, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1,
                                 PointField::FLOAT32, "deviation", 1, PointField::FLOAT32,
                                 "times_seen", 1, PointField::UINT32, "id", 1, PointField::UINT32);
-  modifier.resize(map.size());
+  modifier.resize(landmarks.size());
   sensor_msgs::PointCloud2Iterator<float> xyzd(cloud, "x");
   sensor_msgs::PointCloud2Iterator<std::uint32_t> seen_id(cloud, "times_seen");
-  for (const Landmark& landmark : map.all()) {
+  for (const Landmark& landmark : landmarks) {
     for (int axis = 0; axis < 3; ++axis)
       xyzd[axis] = static_cast<float>(landmark.position_map[axis]);
     xyzd[3] = static_cast<float>(landmark.deviation_m);
@@ -257,21 +267,21 @@ sensor_msgs::PointCloud2 toCloud(const LandmarkMap& map, const std::string& map_
   return cloud;
 }
 
-visualization_msgs::Marker toMarker(const LandmarkMap& map, const std::string& map_frame,
-                                    std::int64_t stamp_ns) {
+visualization_msgs::Marker toMarker(const std::vector<Landmark>& landmarks,
+                                    const std::string& map_frame, std::int64_t stamp_ns) {
   visualization_msgs::Marker marker;
   marker.header = headerOf(stamp_ns, map_frame);
   marker.ns = "landmarks";
   marker.type = visualization_msgs::Marker::POINTS;
   // rviz complains of a marker that is to be shown but has no points.
   marker.action =
-      map.size() > 0 ? visualization_msgs::Marker::ADD : visualization_msgs::Marker::DELETE;
+      !landmarks.empty() ? visualization_msgs::Marker::ADD : visualization_msgs::Marker::DELETE;
   marker.pose.orientation.w = 1;
   marker.scale.x = kMarkerSide_m;
   marker.scale.y = kMarkerSide_m;
-  marker.points.reserve(map.size());
-  marker.colors.reserve(map.size());
-  for (const Landmark& landmark : map.all()) {
+  marker.points.reserve(landmarks.size());
+  marker.colors.reserve(landmarks.size());
+  for (const Landmark& landmark : landmarks) {
     geometry_msgs::Point point;
     point.x = landmark.position_map.x();
     point.y = landmark.position_map.y();

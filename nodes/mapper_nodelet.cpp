@@ -22,7 +22,7 @@ void MapperNodelet::onInit() {
   readParameters();
   ros::NodeHandle& nh = getNodeHandle();
   frames_.map = withTfPrefix(tf_prefix_, node_config_.map_frame);
-  outputs_ = std::make_unique<MapperOutputs>(nh, node_config_);
+  outputs_ = std::make_unique<MapperOutputs>(nh, node_config_.outputs);
   status_pub_ = nh.advertise<Status>("status", 100);
   mounting_ = std::make_unique<Mounting>(nh);
   diagnostics_ =
@@ -35,8 +35,8 @@ void MapperNodelet::onInit() {
   };
   tick_timer_ = every(kTick_s, [this] { processReady(); });
   second_timer_ = every(1.0, [this] { onSecond(); });
-  map_timer_ = every(1.0 / node_config_.map_publish_hz, [this] {
-    if (slam_) outputs_->publishMap(slam_->landmarks(), frames_.map);
+  map_timer_ = every(1.0 / node_config_.outputs.map_publish_hz, [this] {
+    if (slam_) outputs_->publishMap(slam_->landmarks().all(), frames_.map);
   });
   subscribeObserver();
   heights_ = std::make_unique<HeightTopic>(
@@ -80,10 +80,7 @@ void MapperNodelet::readParameters() {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;
   }
-  std::string key;
-  if (getPrivateNodeHandle().searchParam("tf_prefix", key)) {
-    getPrivateNodeHandle().getParam(key, tf_prefix_);
-  }
+  tf_prefix_ = tfPrefixOf(getPrivateNodeHandle());
   NODELET_INFO_STREAM("ardrone_vslam " ARDRONE_VSLAM_VERSION " mapper: "
                       << reader.summary()
                       << (tf_prefix_.empty() ? "" : " tf_prefix=" + tf_prefix_));

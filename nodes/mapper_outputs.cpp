@@ -8,7 +8,7 @@ constexpr std::uint32_t kQueue = 100;
 
 }  // namespace
 
-MapperOutputs::MapperOutputs(ros::NodeHandle& nh, const MapperNodeConfig& config)
+MapperOutputs::MapperOutputs(ros::NodeHandle& nh, const OutputsConfig& config)
     : config_(config),
       pose_pub_(nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue)),
       odometry_pub_(nh.advertise<nav_msgs::Odometry>("odometry_fused", kQueue)),
@@ -43,11 +43,13 @@ void MapperOutputs::publishTf(std::int64_t stamp_ns, const Eigen::Isometry3d& T_
   broadcaster_.sendTransform(transform);
 }
 
-void MapperOutputs::publishMap(const LandmarkMap& map, const std::string& map_frame) {
+void MapperOutputs::publishMap(const std::vector<Landmark>& landmarks,
+                               const std::string& map_frame) {
   if (path_.isDue(newest_ns_)) path_.publisher.publish(toPath(fused_poses_));
   if (observer_path_.isDue(newest_ns_)) observer_path_.publisher.publish(toPath(observer_poses_));
-  if (cloud_.isDue(newest_ns_)) cloud_.publisher.publish(toCloud(map, map_frame, newest_ns_));
-  if (markers_.isDue(newest_ns_)) markers_.publisher.publish(toMarker(map, map_frame, newest_ns_));
+  if (cloud_.isDue(newest_ns_)) cloud_.publisher.publish(toCloud(landmarks, map_frame, newest_ns_));
+  if (markers_.isDue(newest_ns_))
+    markers_.publisher.publish(toMarker(landmarks, map_frame, newest_ns_));
 }
 
 void MapperOutputs::clear() {

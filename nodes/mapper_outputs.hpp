@@ -6,16 +6,18 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <deque>
+#include <string>
+#include <vector>
 
 #include "conversions.hpp"
 #include "node_config.hpp"
 
 namespace ardrone_vslam {
 
-/// Everything that the mapper publishes beside its status.
+/// Everything that the mapper publishes beside its status; onboard_bridge, too.
 class MapperOutputs {
  public:
-  MapperOutputs(ros::NodeHandle& nh, const MapperNodeConfig& config);
+  MapperOutputs(ros::NodeHandle& nh, const OutputsConfig& config);
 
   /// Pose, odometry and correction of one image; remembers the path.
   /// @param observer  at the image's stamp
@@ -26,7 +28,7 @@ class MapperOutputs {
 
   /// Paths, cloud and markers: large, so only to those who look, and only when there is something
   /// new. Called at a bounded rate.
-  void publishMap(const LandmarkMap& map, const std::string& map_frame);
+  void publishMap(const std::vector<Landmark>& landmarks, const std::string& map_frame);
 
   /// The map began anew: empties the paths.
   void clear();
@@ -45,7 +47,7 @@ class MapperOutputs {
   void remember(Poses& poses, const Eigen::Isometry3d& T_a_b, const Frames& frames);
   static nav_msgs::Path toPath(const Poses& poses);
 
-  MapperNodeConfig config_;
+  OutputsConfig config_;
   ros::Publisher pose_pub_;
   ros::Publisher odometry_pub_;
   ros::Publisher correction_pub_;

@@ -187,12 +187,8 @@ void MapperNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrappe
   const bool is_stuck = latest_.state == Status::WAITING_FOR_ODOMETRY ||
                         latest_.state == Status::WAITING_FOR_EXTRINSICS ||
                         latest_.state == Status::NOT_FINITE || standstill_.isStuck();
-  const bool is_well =
-      (latest_.state == Status::LOCALISED || latest_.state == Status::BUILDING_MAP ||
-       latest_.state == Status::TRACKING || latest_.state == Status::RESTING ||
-       latest_.state == Status::ROTATING || latest_.state == Status::RELOCATED ||
-       latest_.state == Status::OBSERVER_ONLY) &&
-      speed_.absurd_m_s() == 0 && odom_frame_fault_.empty() && heights_->missing().empty();
+  const bool is_well = isWell(latest_.state) && speed_.absurd_m_s() == 0 &&
+                       odom_frame_fault_.empty() && heights_->missing().empty();
   const auto level = is_stuck  ? DiagnosticStatus::ERROR
                      : is_well ? DiagnosticStatus::OK
                                : DiagnosticStatus::WARN;

@@ -51,10 +51,7 @@ void ObserverFusionNodelet::readParameters() {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;
   }
-  std::string key;
-  if (getPrivateNodeHandle().searchParam("tf_prefix", key)) {
-    getPrivateNodeHandle().getParam(key, tf_prefix_);
-  }
+  tf_prefix_ = tfPrefixOf(getPrivateNodeHandle());
   NODELET_INFO_STREAM("ardrone_vslam " ARDRONE_VSLAM_VERSION " observer_fusion: "
                       << reader.summary()
                       << (tf_prefix_.empty() ? "" : " tf_prefix=" + tf_prefix_));

@@ -19,6 +19,13 @@ std::string textOf(XmlRpc::XmlRpcValue& value) {
 
 }  // namespace
 
+std::string tfPrefixOf(const ros::NodeHandle& private_nh) {
+  std::string key;
+  std::string prefix;
+  if (private_nh.searchParam("tf_prefix", key)) private_nh.getParam(key, prefix);
+  return prefix;
+}
+
 bool ParamReader::convert(XmlRpc::XmlRpcValue& given, bool& value) {
   if (given.getType() != XmlRpc::XmlRpcValue::TypeBoolean) return false;
   value = static_cast<bool>(given);

@@ -13,6 +13,9 @@
 
 namespace ardrone_vslam {
 
+/// The parameter tf_prefix of this namespace or the nearest above it; empty where there is none.
+std::string tfPrefixOf(const ros::NodeHandle& private_nh);
+
 /// Reads *Config structs from a private namespace. What is not set there keeps the struct's own
 /// default; faults are collected and thrown together by `finish`.
 class ParamReader {

@@ -55,7 +55,7 @@ bool TelemetryReader::read(const std::uint8_t* datagram, std::size_t size) {
   from = vslam_get(from, &landmark_count, 2);
   const std::size_t expected = Telemetry::kFixedBytes + feature_count * Telemetry::kFeatureBytes +
                                landmark_count * Telemetry::kLandmarkBytes + VSLAM_CRC_BYTES;
-  if (size != expected || stamp_ns <= 0) return false;
+  if (size != expected || stamp_ns <= 0 || stamp_ns > kLatest_ns) return false;
 
   const std::uint8_t* of_landmarks = from + feature_count * Telemetry::kFeatureBytes;
   arrived_.clear();

@@ -61,6 +61,7 @@ TEST(NodeConfig, NoNameIsUsedTwiceInANode) {
   check(namesOf(TrackerNodeConfig{}), namesOf(TrackerConfig{}));
   check(namesOf(MapperNodeConfig{}), namesOf(SlamConfig{}));
   check(namesOf(ObserverFusionNodeConfig{}), namesOf(LateFusionConfig{}));
+  check(namesOf(OnboardBridgeConfig{}), {});
 }
 
 TEST(NodeConfig, ShippedFilesLoad) {

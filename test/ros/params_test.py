@@ -3,6 +3,7 @@
 """Wrong parameters: a node does not start, and says all that is wrong at once; unknown ones are
 only warned of, with the name that was meant."""
 import signal
+import socket
 import subprocess
 import tempfile
 import time
@@ -47,6 +48,19 @@ class Params(unittest.TestCase):
             "__name:=bad_fusion", "_observer_buffer_s:=0", "_scale_deviation:=much"], [
                 "observer_buffer_s is 0 but must be between 0.1 and 600",
                 "/bad_fusion/scale_deviation is 'much' but must be a number"])
+
+    def test_onboard_bridge_names_what_it_cannot_do(self):
+        self.assert_refused("onboard_bridge_node", [
+            "__name:=bad_bridge", "_port:=70000", "_silent_s:=0", "_same_clock:=1"], [
+                "port is 70000 but must be between 0 and 65535",
+                "silent_s is 0 but must be between 0.001 and 3600",
+                "/bad_bridge/same_clock is '1' but must be true or false"])
+        self.assert_refused("onboard_bridge_node", ["__name:=bad_camera", "_camera:=/none/of/this.yaml"], ["camera: ", "/none/of/this.yaml: cannot be read; check the path"])
+        self.assert_refused("onboard_bridge_node", ["__name:=bad_address", "_address:=drone"], ["drone:5582: is no address", "set `address` to"])
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+            other.bind(("127.0.0.1", 0))
+            self.assert_refused("onboard_bridge_node", ["__name:=bad_port", "_address:=127.0.0.1", "_port:=%d" % other.getsockname()[1]],
+                                ["cannot receive there", "`port` to one that no other program receives at"])
 
     def test_unknown_parameter_is_warned_of(self):
         process = start("tracker_node", "__name:=odd_tracker", "_thresold:=30",
@@ -125,7 +139,7 @@ class Params(unittest.TestCase):
         self.assertIn("REQUIRED process [other/", ended.stdout)
 
     def test_help_and_version(self):
-        for executable in ["tracker_node", "mapper_node", "observer_fusion_node"]:
+        for executable in ["tracker_node", "mapper_node", "observer_fusion_node", "onboard_bridge_node"]:
             for argument, code, said in [("--help", 0, "Usage"), ("--version", 0, "ardrone_vslam "),
                                          ("--bogus", 2, "--bogus")]:
                 process = start(executable, argument)

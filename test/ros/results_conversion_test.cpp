@@ -175,7 +175,7 @@ LandmarkMap someMap() {
 
 TEST(MapConversion, Cloud) {
   const LandmarkMap map = someMap();
-  const auto cloud = toCloud(map, "map", 9);
+  const auto cloud = toCloud(map.all(), "map", 9);
   ASSERT_EQ(cloud.width * cloud.height, map.size());
   sensor_msgs::PointCloud2ConstIterator<float> y(cloud, "y");
   sensor_msgs::PointCloud2ConstIterator<float> deviation(cloud, "deviation");
@@ -195,12 +195,12 @@ TEST(MapConversion, Cloud) {
 
 TEST(MapConversion, EmptyMap) {
   const LandmarkMap map(LandmarkMapConfig{});
-  EXPECT_EQ(toCloud(map, "map", 9).width, 0U);
-  EXPECT_EQ(toMarker(map, "map", 9).action, visualization_msgs::Marker::DELETE);
+  EXPECT_EQ(toCloud(map.all(), "map", 9).width, 0U);
+  EXPECT_EQ(toMarker(map.all(), "map", 9).action, visualization_msgs::Marker::DELETE);
 }
 
 TEST(MapConversion, MarkerColoursByDeviation) {
-  const auto marker = toMarker(someMap(), "map", 9);
+  const auto marker = toMarker(someMap().all(), "map", 9);
   ASSERT_EQ(marker.points.size(), 5U);
   ASSERT_EQ(marker.colors.size(), 5U);
   EXPECT_EQ(marker.points[3].y, 6);

@@ -89,6 +89,7 @@ std::string parameterTable() {
   writeTable<PathNodeConfig>("path nodelet", out);
   writeTable<FakeDriverConfig>("fake_driver", out);
   writeTable<OnboardConfig>("onboard, read by vslam_onboard only (docs/onboard.md)", out);
+  writeTable<OnboardBridgeConfig>("onboard_bridge (docs/onboard.md)", out);
   return out.str();
 }
 
