@@ -28,6 +28,13 @@ const std::uint8_t* getPixel(const std::uint8_t* from, float& pixel_px) {
   return from;
 }
 
+const std::uint8_t* getCount(const std::uint8_t* from, std::size_t& count) {
+  std::uint64_t wide = 0;
+  from = vslam_get(from, &wide, 2);
+  count = static_cast<std::size_t>(wide);
+  return from;
+}
+
 const std::uint8_t* getLandmark(const std::uint8_t* from, Landmark& landmark) {
   from = vslam_get_u32(from, &landmark.id);
   for (int axis = 0; axis < 3; ++axis) from = getFloat(from, landmark.position_map[axis]);
@@ -46,26 +53,26 @@ bool TelemetryReader::read(const std::uint8_t* datagram, std::size_t size) {
   std::int64_t stamp_ns = 0;
   std::uint32_t on_drone = 0;
   std::uint32_t round = 0;
-  std::uint64_t feature_count = 0;
-  std::uint64_t landmark_count = 0;
+  std::size_t feature_count = 0;
+  std::size_t landmark_count = 0;
   const std::uint8_t* from = vslam_get_i64(datagram + VSLAM_HEADER_BYTES, &stamp_ns);
   from = vslam_get_u32(from, &on_drone);
   from = vslam_get_u32(from, &round);
-  from = vslam_get(from, &feature_count, 2);
-  from = vslam_get(from, &landmark_count, 2);
+  from = getCount(from, feature_count);
+  from = getCount(from, landmark_count);
   const std::size_t expected = Telemetry::kFixedBytes + feature_count * Telemetry::kFeatureBytes +
                                landmark_count * Telemetry::kLandmarkBytes + VSLAM_CRC_BYTES;
   if (size != expected || stamp_ns <= 0 || stamp_ns > kLatest_ns) return false;
 
   const std::uint8_t* of_landmarks = from + feature_count * Telemetry::kFeatureBytes;
   arrived_.clear();
-  for (std::uint64_t i = 0; i < landmark_count; ++i) {
+  for (std::size_t i = 0; i < landmark_count; ++i) {
     of_landmarks = getLandmark(of_landmarks, arrived_.emplace_back());
     if (!isFinite(arrived_.back())) return false;
   }
   features_.clear();
   features_.stamp_ns = stamp_ns;
-  for (std::uint64_t i = 0; i < feature_count; ++i) {
+  for (std::size_t i = 0; i < feature_count; ++i) {
     std::uint64_t age = 0;
     Eigen::Vector2f& pixel_px = features_.pixel_px.emplace_back();
     from = getPixel(from, pixel_px.x());
