@@ -44,6 +44,7 @@ class OnboardLoop {
   int timeout_ms(std::int64_t now) const;
   bool mayReadFrame(std::int64_t now) const;
   bool readFrame();
+  void whileWaiting();
   void readObserver();
   void answer();
   void giveUp(std::uint32_t state);
