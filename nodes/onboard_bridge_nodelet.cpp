@@ -146,7 +146,7 @@ void OnboardBridgeNodelet::onAnswer(const VslamPose& pose) {
   Status status;
   toStatus(pose, status);
   status.header.stamp = ros::Time::now();
-  if (pose.state == VSLAM_NOT_FINITE) outputs_->clear();
+  if (beganMapAnew(pose)) outputs_->clear();
   const bool is_valid = (pose.flags & VSLAM_POSE_IS_VALID) != 0;
   const auto stamp_ns = is_valid ? toOwnClock(pose.stamp_ns) : std::nullopt;
   if (stamp_ns) {

@@ -81,7 +81,8 @@ void OnboardBridgeNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper&
   const bool is_stuck =
       latest_.state == Status::DRONE_SILENT || latest_.state == Status::ENDED ||
       latest_.state == Status::CAMERA_LOST || latest_.state == Status::CONTROLLER_SILENT ||
-      latest_.state == Status::WAITING_FOR_ODOMETRY || latest_.state == Status::NOT_FINITE;
+      latest_.state == Status::WAITING_FOR_ODOMETRY || latest_.state == Status::NOT_FINITE ||
+      latest_.state == Status::OUT_OF_MEMORY;
   const auto level = is_stuck                                        ? DiagnosticStatus::ERROR
                      : isWell(latest_.state) && clock_fault_.empty() ? DiagnosticStatus::OK
                                                                      : DiagnosticStatus::WARN;

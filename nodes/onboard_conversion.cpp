@@ -61,6 +61,12 @@ void toStatus(const VslamPose& pose, Status& status) {
                "be of one clock (`realtime_clock`), and come within `odometry_wait_s`",
                status);
       break;
+    case VSLAM_OUT_OF_MEMORY:
+      setState(Status::OUT_OF_MEMORY, "out_of_memory",
+               "the memory that vslam_onboard took at its start does not suffice, and the map "
+               "begins anew: raise `working_mb` or `max_map_mb`",
+               status);
+      break;
     case VSLAM_ENDING:
       setState(Status::ENDED, "ended", "vslam_onboard has ended: it was stopped, or its images end",
                status);

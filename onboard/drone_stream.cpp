@@ -15,7 +15,8 @@ constexpr std::size_t kVersionAt = 4;
 constexpr std::size_t kKindAt = 5;
 
 bool isKnown(std::uint32_t state) {
-  return state <= VSLAM_DISTRUSTED || (state >= VSLAM_WAITING_FOR_IMAGES && state <= VSLAM_ENDING);
+  return state <= VSLAM_DISTRUSTED ||
+         (state >= VSLAM_WAITING_FOR_IMAGES && state <= VSLAM_OUT_OF_MEMORY);
 }
 
 template <std::size_t N>
@@ -121,7 +122,7 @@ DroneStream::Read DroneStream::readPose(const std::uint8_t* datagram, std::size_
   const bool is_valid = (pose.flags & VSLAM_POSE_IS_VALID) != 0;
   if (is_valid && pose.stamp_ns <= stamp_ns_) return drop(DatagramFault::kRefused);
   if (has_stamp) stamp_ns_ = pose.stamp_ns;
-  if (pose.state == VSLAM_NOT_FINITE) telemetry_.forgetLandmarks();
+  if (beganMapAnew(pose)) telemetry_.forgetLandmarks();
   pose_ = pose;
   ++counts_.poses;
   return Read::kPose;

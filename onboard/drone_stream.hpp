@@ -25,6 +25,11 @@ constexpr std::size_t kDatagramFaultCount = 7;
 /// What is wrong, and what helps.
 const char* explain(DatagramFault fault);
 
+/// Whether the drone's map begins anew after this answer.
+inline bool beganMapAnew(const VslamPose& answer) {
+  return answer.state == VSLAM_NOT_FINITE || answer.state == VSLAM_OUT_OF_MEMORY;
+}
+
 /// What a workstation gets of vslam_onboard: answers and telemetry, through one port.
 class DroneStream {
  public:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <new>
 
 #include "clocks.hpp"
 
@@ -28,27 +29,46 @@ OnboardLoop::OnboardLoop(const Settings& settings, int stop_fd)
       observer_source_(settings.onboard, stop_fd),
       output_(settings.onboard),
       frames_(settings.onboard,
-              sizeOf(pipeline_.cameraModel().intrinsics(), settings.onboard.halve), stop_fd),
+              sizeOf(pipeline_.cameraModel().intrinsics(), settings.onboard.halve), stop_fd,
+              [this] { whileWaiting(); }),
       share_(settings.onboard.cpu_share),
       began_ns_(now_ns()) {}
 
 bool OnboardLoop::run() {
-  bool is_good = true;
-  while (waitForInput()) {
-    if (observer_source_.isLive()) readObserver();
-    if (pipeline_.isWaiting()) {
-      answer();
-    } else if (frames_.isLost()) {
-      frames_.openAgain(now_ns());
-      is_good = !frames_.isOver();
-      if (frames_.isOver()) break;
-    } else if (mayReadFrame(now_ns()) && frames_.hasMore() && !readFrame()) {
-      break;
+  bool goes_on = true;
+  while (goes_on && waitForInput()) {
+    try {
+      goes_on = step();
+    } catch (const std::bad_alloc&) {
+      startOver();
     }
-    sayState(now_ns());
   }
   output_.sendState(frames_.isOver() ? VSLAM_CAMERA_LOST : VSLAM_ENDING, 0, counters());
-  return is_good;
+  return !frames_.isOver();
+}
+
+/// @return false when the program is to stop
+bool OnboardLoop::step() {
+  if (observer_source_.isLive()) readObserver();
+  if (pipeline_.isWaiting()) {
+    answer();
+  } else if (frames_.isLost()) {
+    frames_.openAgain(now_ns());
+    if (frames_.isOver()) return false;
+  } else if (mayReadFrame(now_ns()) && frames_.hasMore() && !readFrame()) {
+    return false;
+  }
+  sayState(now_ns());
+  return true;
+}
+
+/// Without the map there is memory again.
+void OnboardLoop::startOver() {
+  ++out_of_memory_;
+  pipeline_.startOver();
+  share_.end(cpu_ns());
+  output_.sendState(VSLAM_OUT_OF_MEMORY, pipeline_.features().stamp_ns, counters());
+  said_ns_ = now_ns();
 }
 
 /// @return false when the program is to stop
@@ -86,12 +106,11 @@ int OnboardLoop::timeout_ms(std::int64_t now) const {
 /// @return false at the end of the images
 bool OnboardLoop::readFrame() {
   Frame frame;
-  const std::int64_t now = now_ns();
-  share_.begin(now, cpu_ns());
+  share_.begin(now_ns(), cpu_ns());
   const FrameSource::Read read = frames_.read(frame);
   if (read == FrameSource::Read::kEnd) return false;
   if (read != FrameSource::Read::kFrame) return true;
-  frame_ns_ = now;
+  frame_ns_ = now_ns();
   if (pipeline_.track(frame)) {
     answer();
   } else {
@@ -99,6 +118,12 @@ bool OnboardLoop::readFrame() {
   }
   share_.end(cpu_ns());
   return true;
+}
+
+/// An image has begun to come and does not go on.
+void OnboardLoop::whileWaiting() {
+  if (observer_source_.isLive()) readObserver();
+  sayState(now_ns());
 }
 
 void OnboardLoop::readObserver() {
@@ -169,7 +194,7 @@ void OnboardLoop::sayState(std::int64_t now) {
 }
 
 AnswerOutput::Counters OnboardLoop::counters() const {
-  return {frames_.dropped() + stamps_refused_ + without_observer_,
+  return {frames_.dropped() + stamps_refused_ + without_observer_ + out_of_memory_,
           observer_input_.counts().dropped(),
           static_cast<std::uint32_t>(pipeline_.landmarks().size())};
 }
@@ -179,11 +204,12 @@ void OnboardLoop::printSummary() const {
   std::fprintf(
       stderr,
       "vslam_onboard: %u images answered, %u without observer, %u with bad stamps, %u made "
-      "way for newer ones; %u records, dropped: %u of a wrong size, %u of a wrong kind, %u "
+      "way for newer ones, %u times out of memory; %u records, dropped: %u of a wrong size, %u of "
+      "a wrong kind, %u "
       "corrupted, %u old, %u refused; %zu landmarks, %d restarts\n",
-      answered_, without_observer_, stamps_refused_, frames_.dropped(), records.accepted,
-      records.wrong_size, records.wrong_kind, records.corrupted, records.old, records.refused,
-      pipeline_.landmarks().size(), pipeline_.restarts());
+      answered_, without_observer_, stamps_refused_, frames_.dropped(), out_of_memory_,
+      records.accepted, records.wrong_size, records.wrong_kind, records.corrupted, records.old,
+      records.refused, pipeline_.landmarks().size(), pipeline_.restarts());
 }
 
 }  // namespace ardrone_vslam

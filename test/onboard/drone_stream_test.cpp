@@ -180,15 +180,19 @@ TEST_F(DroneStreamTest, AClockThatIsSetBackIsARestartAndASmallStepIsRefused) {
   EXPECT_EQ(stream_.counts().restarts, 1U);
 }
 
-TEST_F(DroneStreamTest, AMapThatIsNotFiniteIsForgotten) {
+TEST_F(DroneStreamTest, AMapThatBeganAnewIsForgotten) {
   TelemetryFlight flight(6);
   flight.grow(10);
-  ASSERT_EQ(read(flight.next(1)), Read::kTelemetry);
-  VslamPose pose = somePose(1);
-  pose.flags = 0;
-  pose.state = VSLAM_NOT_FINITE;
-  EXPECT_EQ(read(pose), Read::kPose);
-  EXPECT_EQ(stream_.telemetry().size(), 0U);
+  std::uint32_t sequence = 0;
+  for (const int state : {VSLAM_NOT_FINITE, VSLAM_OUT_OF_MEMORY}) {
+    ASSERT_EQ(read(flight.next(1)), Read::kTelemetry);
+    EXPECT_EQ(stream_.telemetry().size(), 10U);
+    VslamPose pose = somePose(++sequence);
+    pose.flags = 0;
+    pose.state = static_cast<std::uint32_t>(state);
+    EXPECT_EQ(read(pose), Read::kPose);
+    EXPECT_EQ(stream_.telemetry().size(), 0U);
+  }
 }
 
 TEST_F(DroneStreamTest, AnswersWithoutAPoseNeedNoStamp) {

@@ -1,72 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "onboard_loop.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <thread>
 
-#include "flight_records.hpp"
+#include "flight_fixture.hpp"
 #include "map_file.hpp"
 #include "udp.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
 
-constexpr std::int64_t kFirst_ns = 1'000'000'000;
-constexpr std::int64_t kPeriod_ns = 50'000'000;
-constexpr int kImages = 4;
-
-/// A camera at rest before a generated picture.
-class OnboardLoopTest : public ::testing::Test {
- protected:
-  OnboardLoopTest() {
-    folder_ = ::testing::TempDir() + "onboard_loop_XXXXXX";
-    EXPECT_NE(::mkdtemp(folder_.data()), nullptr);
-    writeFile(
-        file("camera.yaml"),
-        "image_width: 160\nimage_height: 120\ncamera_matrix:\n  data: [150, 0, 80, 0, 150, 60, "
-        "0, 0, 1]\ndistortion_model: plumb_bob\ndistortion_coefficients:\n  data: []\n");
-    std::string stream;
-    for (int i = 0; i < kImages; ++i) stream += pgm(stampOf(i), image_);
-    writeFile(file("frames"), stream);
-    settings_.onboard.camera = file("camera.yaml");
-    settings_.onboard.frames = file("frames");
-    settings_.onboard.poses = file("poses");
-    settings_.onboard.pose_port = 0;
-    settings_.onboard.observer_port = 0;  // any
-    settings_.onboard.cpu_share = 1;
-    settings_.odometry_wait_s = 0.01;
-  }
-  ~OnboardLoopTest() override {
-    for (const char* name : {"camera.yaml", "frames", "poses", "observer", "map"})
-      std::remove(file(name).c_str());
-    ::rmdir(folder_.c_str());
-  }
-
-  static std::int64_t stampOf(int image) { return kFirst_ns + image * kPeriod_ns; }
-  std::string file(const std::string& name) const { return folder_ + "/" + name; }
-  std::vector<VslamPose> poses() const { return posesIn(file("poses")); }
-
-  /// States from before the first image to after the last.
-  static std::string records() {
-    std::string bytes;
-    for (int i = -1; i <= kImages; ++i) {
-      VslamObserver observer = observerAt(stampOf(i), static_cast<std::uint32_t>(i + 10));
-      observer.position_m[0] = 0.5;
-      const Record record = recordOf(observer);
-      bytes.append(record.begin(), record.end());
-    }
-    return bytes;
-  }
-
-  std::string folder_;
-  TestImage image_ = generatedImage(160, 120);
-  Settings settings_;
-  Pipe stop_;
-};
+using OnboardLoopTest = FlightFixture;
 
 TEST_F(OnboardLoopTest, AnswersEachImageOfAFileFromAFileOfRecords) {
   writeFile(file("observer"), records());
@@ -159,6 +109,56 @@ TEST_F(OnboardLoopTest, AMissingCameraIsSaidUntilItIsToStop) {
   EXPECT_TRUE(is_good);
   EXPECT_EQ(poses().front().state, static_cast<std::uint32_t>(VSLAM_CAMERA_LOST));
   EXPECT_EQ(poses().back().state, static_cast<std::uint32_t>(VSLAM_ENDING));
+}
+
+TEST_F(OnboardLoopTest, AFifoOfRecordsThatStopsWithinOneHoldsNothingUp) {
+  ASSERT_EQ(::mkfifo(file("observer").c_str(), 0600), 0);
+  settings_.onboard.observer = file("observer");
+  settings_.onboard.controller_silent_s = 60;
+  const std::string good = records();
+  const FileDescriptor controller(::open(file("observer").c_str(), O_RDWR));
+  const std::size_t bytes = 3 * VSLAM_OBSERVER_BYTES + 70;  // to image 1, and half a record
+  ASSERT_EQ(::write(controller.get(), good.data(), bytes), static_cast<ssize_t>(bytes));
+  EXPECT_TRUE(OnboardLoop(settings_, stop_.ends[0]).run());
+  const auto answers = poses();
+  ASSERT_EQ(answers.size(), kImages + 1U);
+  EXPECT_EQ(answers[1].flags, VSLAM_POSE_IS_VALID);
+  EXPECT_EQ(answers[2].state, static_cast<std::uint32_t>(VSLAM_NO_OBSERVER));
+}
+
+TEST_F(OnboardLoopTest, ImagesThatStopWithinOneAreSaid) {
+  const std::string stream = readFile(file("frames"));
+  std::remove(file("frames").c_str());
+  ASSERT_EQ(::mkfifo(file("frames").c_str(), 0600), 0);
+  writeFile(file("observer"), records());
+  settings_.onboard.observer = file("observer");
+  settings_.onboard.every_frame = true;
+  const FileDescriptor camera(::open(file("frames").c_str(), O_RDWR));
+  const std::size_t half = stream.size() / (2 * kImages);
+  ASSERT_EQ(::write(camera.get(), stream.data(), half), static_cast<ssize_t>(half));
+  OnboardLoop loop(settings_, stop_.ends[0]);
+  std::thread program([&] { loop.run(); });
+  const auto isSaid = [&] {
+    const auto answers = poses();
+    return !answers.empty() &&
+           answers.back().state == static_cast<std::uint32_t>(VSLAM_CAMERA_LOST);
+  };
+  while (!isSaid()) std::this_thread::yield();
+  // It goes on where it was.
+  for (std::size_t at = half; at < stream.size();) {
+    const ssize_t written = ::write(camera.get(), stream.data() + at, stream.size() - at);
+    ASSERT_GT(written, 0);
+    at += static_cast<std::size_t>(written);
+  }
+  const auto isAnswered = [&] {
+    const auto answers = poses();
+    return std::any_of(answers.begin(), answers.end(), [](const VslamPose& answer) {
+      return answer.stamp_ns == stampOf(kImages - 1);
+    });
+  };
+  while (!isAnswered()) std::this_thread::yield();
+  stop_.write("x");
+  program.join();
 }
 
 TEST_F(OnboardLoopTest, AStampThatDoesNotAscendIsDropped) {

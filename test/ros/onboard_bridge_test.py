@@ -94,7 +94,7 @@ class OnboardBridge(unittest.TestCase):
     @classmethod
     def command(cls, **sets):
         """The controller is the second bridge."""
-        sets = {"camera_x_m": 0, "camera_y_m": 0, "camera_roll_deg": -90, "camera_yaw_deg": -90, "cpu_share": 1, "map": '""',
+        sets = {"camera_x_m": 0, "camera_y_m": 0, "camera_roll_deg": -90, "camera_yaw_deg": -90, "cpu_share": 1, "lock_memory": "false", "map": '""',
                 "observer_port": 0, "pose_port": cls.port_of("estimated"), "telemetry_address": "127.0.0.1",
                 "telemetry_port": cls.port, "telemetry_hz": 100, **sets}
         sets = [f"onboard/{name}={value}" for name, value in sets.items()]
