@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <regex>
 
 #include "ardrone_vslam/late_fusion.hpp"
 #include "config_file.hpp"
@@ -62,6 +65,21 @@ TEST(NodeConfig, NoNameIsUsedTwiceInANode) {
   check(namesOf(MapperNodeConfig{}), namesOf(SlamConfig{}));
   check(namesOf(ObserverFusionNodeConfig{}), namesOf(LateFusionConfig{}));
   check(namesOf(OnboardBridgeConfig{}), {});
+}
+
+TEST(NodeConfig, TheBridgesLaunchFileSetsItsParameters) {
+  std::ifstream file(ARDRONE_VSLAM_SOURCE_DIR "/launch/onboard_bridge.launch");
+  const std::string all((std::istreambuf_iterator<char>(file)), {});
+  const std::string node =
+      all.substr(std::min(all.find("type=\"onboard_bridge_node\""), all.size()));
+  const std::vector<std::string> known = namesOf(OnboardBridgeConfig{});
+  const std::regex parameter("<param name=\"(\\w+)\"");
+  int count = 0;
+  for (std::sregex_iterator it(node.begin(), node.end(), parameter), end; it != end; ++it) {
+    EXPECT_EQ(std::count(known.begin(), known.end(), (*it)[1].str()), 1) << (*it)[1];
+    ++count;
+  }
+  EXPECT_GE(count, 9);
 }
 
 TEST(NodeConfig, ShippedFilesLoad) {
