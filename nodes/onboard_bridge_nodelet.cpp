@@ -104,14 +104,18 @@ void OnboardBridgeNodelet::receiveAll() {
   }
 }
 
+void OnboardBridgeNodelet::warn(const std::string& sentence) {
+  if (limiter_.allows(sentence, static_cast<double>(now_ns()) * 1e-9))
+    NODELET_WARN_STREAM(sentence);
+}
+
 void OnboardBridgeNodelet::onDatagram(const std::uint8_t* datagram, std::size_t size) {
   const std::int64_t now = now_ns();
   const std::uint64_t restarts = stream_.counts().restarts;
   const DroneStream::Read read = stream_.read(datagram, size, now);
   if (stream_.counts().restarts > restarts) restart();
   if (read == DroneStream::Read::kNothing) {
-    const std::string sentence = receiving_at_ + ": datagram not used: " + explain(stream_.fault());
-    if (limiter_.allows(sentence, static_cast<double>(now) * 1e-9)) NODELET_WARN_STREAM(sentence);
+    warn(receiving_at_ + ": datagram not used: " + explain(stream_.fault()));
     return;
   }
   heard_ns_ = now;
@@ -123,7 +127,11 @@ void OnboardBridgeNodelet::onDatagram(const std::uint8_t* datagram, std::size_t 
 }
 
 void OnboardBridgeNodelet::restart() {
-  NODELET_WARN_STREAM("vslam_onboard was started again, or its clock set: the map begins anew");
+  warn(
+      "vslam_onboard was started again, or its clock set: the map begins anew; again and again: "
+      "two "
+      "programs send to " +
+      receiving_at_);
   clock_.clear();
   drone_ns_ = 0;
   outputs_->clear();

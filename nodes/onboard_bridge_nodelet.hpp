@@ -49,6 +49,8 @@ class OnboardBridgeNodelet : public nodelet::Nodelet {
   /// With same_clock: whether they are.
   void noteClock(std::int64_t drone_ns);
   void restart();
+  /// Unless the same has just been said.
+  void warn(const std::string& sentence);
 
   void publishStatus(Status& status);
   bool isSilent() const;
