@@ -157,7 +157,9 @@ void OnboardLoop::answer() {
     return giveUp(idleState(now));
   }
   if (answer == PosePipeline::Answer::kNever) return giveUp(idleState(now));
-  share_.end(cpu_ns());
+  const std::int64_t cost_ns = share_.end(cpu_ns());
+  all_cost_ns_ += cost_ns;
+  most_cost_ns_ = std::max(most_cost_ns_, cost_ns);
   ++answered_;
   said_ns_ = now;
   const FrameResult& result = pipeline_.result();
@@ -210,6 +212,10 @@ void OnboardLoop::printSummary() const {
       answered_, without_observer_, stamps_refused_, frames_.dropped(), out_of_memory_,
       records.accepted, records.wrong_size, records.wrong_kind, records.corrupted, records.old,
       records.refused, pipeline_.landmarks().size(), pipeline_.restarts());
+  if (answered_ == 0) return;
+  std::fprintf(stderr, "vslam_onboard: %.2f ms of processor time an image, at most %.2f\n",
+               static_cast<double>(all_cost_ns_) / 1e6 / answered_,
+               static_cast<double>(most_cost_ns_) / 1e6);
 }
 
 }  // namespace ardrone_vslam
