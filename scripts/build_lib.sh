@@ -29,3 +29,18 @@ need_number() {
   echo "$1: $2 '$3': must be a number, for example 1" >&2
   exit 2
 }
+
+# $1: what is done, $2: name of its log; the rest: the command. Prints every twentieth step of a build. Of the caller's:
+# `script`, its name, and `out`, in whose log/ the logs are.
+stage() {
+  local what=$1 log=$out/log/$2.log begin=$SECONDS
+  shift 2
+  echo "$script: $what"
+  if ! "$@" 2>&1 | tee "$log" | awk '/^\[[0-9]+\/[0-9]+\]/ { if (++n % 20 == 0) { print "  " $1; fflush() } }'; then
+    grep -E 'error|FAILED' -A 5 "$log" | head -n 30 >&2 || true
+    tail -n 5 "$log" >&2
+    echo "$script: $what: failed; all that it said is in $log" >&2
+    exit 1
+  fi
+  echo "$script:   done in $((SECONDS - begin)) s"
+}
