@@ -15,6 +15,7 @@
 #include "ardrone_vslam/instruction_set.hpp"
 #include "map_file.hpp"
 #include "onboard_loop.hpp"
+#include "program_memory.hpp"
 #include "self_test.hpp"
 #include "settings.hpp"
 #include "stop_signal.hpp"
@@ -97,6 +98,11 @@ int parse(int argc, char** argv, Arguments& arguments) {
   return kWrongUse;
 }
 
+void takeMemoryFor(const Settings& settings) {
+  const int megabytes = settings.onboard.working_mb + settings.onboard.max_map_mb;
+  takeMemory(static_cast<std::size_t>(megabytes) * 1'000'000, settings.onboard.lock_memory);
+}
+
 int run(const Settings& settings) {
   if (::setpriority(PRIO_PROCESS, 0, settings.onboard.priority) != 0)
     std::fprintf(stderr, "vslam_onboard: priority %d is refused: %s\n", settings.onboard.priority,
@@ -104,6 +110,10 @@ int run(const Settings& settings) {
   OnboardLoop loop(settings, installStopSignal());
   const bool is_good = loop.run();
   loop.printSummary();
+  const MemoryUse memory = memoryUse();
+  std::fprintf(stderr, "vslam_onboard: of %.1f MB of memory at most %.1f were in use\n",
+               static_cast<double>(memory.capacity_bytes) / 1e6,
+               static_cast<double>(memory.most_bytes) / 1e6);
   if (settings.onboard.map.empty()) return is_good ? 0 : kFault;
   const std::string fault = writeLandmarks(settings.onboard.map, loop.landmarks());
   if (!fault.empty()) std::fprintf(stderr, "vslam_onboard: %s\n", fault.c_str());
@@ -120,10 +130,11 @@ int main(int argc, char** argv) {
     const std::string& kernels_fault = instructionSetInUse().fault;
     if (!kernels_fault.empty()) std::fprintf(stderr, "vslam_onboard: %s\n", kernels_fault.c_str());
     const Settings settings = loadSettings(arguments.config, arguments.overrides);
+    takeMemoryFor(settings);
     if (arguments.is_self_test) return selfTest(settings) ? 0 : kFault;
     return run(settings);
   } catch (const std::bad_alloc&) {
-    std::fputs("vslam_onboard: out of memory: set onboard/max_map_mb lower\n", stderr);
+    std::fputs("vslam_onboard: out of memory: set onboard/working_mb higher\n", stderr);
   } catch (const ConfigError& e) {
     std::fprintf(stderr, "vslam_onboard: %s\n", e.what());
     return kWrongUse;

@@ -35,6 +35,8 @@ struct OnboardConfig {
   int priority = 10;
   double cpu_share = 0.5;
   int max_map_mb = 16;
+  int working_mb = 12;
+  bool lock_memory = false;
 };
 
 template <class Visitor>
@@ -102,6 +104,12 @@ void visitParameters(OnboardConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"max_map_mb", "MB", 1, 4000,
                       "what the landmarks may take: bounds mapper/max_landmarks"},
         c.max_map_mb);
+  visit(ParameterInfo{"working_mb", "MB", 1, 1000,
+                      "what all else may take; both are taken from the system at the start"},
+        c.working_mb);
+  visit(ParameterInfo{"lock_memory", "switch", 0, 0,
+                      "program and memory are never paged out; needs root"},
+        c.lock_memory);
 }
 
 }  // namespace ardrone_vslam

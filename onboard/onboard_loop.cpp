@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <new>
 
 #include "clocks.hpp"
 
@@ -33,22 +34,40 @@ OnboardLoop::OnboardLoop(const Settings& settings, int stop_fd)
       began_ns_(now_ns()) {}
 
 bool OnboardLoop::run() {
-  bool is_good = true;
-  while (waitForInput()) {
-    if (observer_source_.isLive()) readObserver();
-    if (pipeline_.isWaiting()) {
-      answer();
-    } else if (frames_.isLost()) {
-      frames_.openAgain(now_ns());
-      is_good = !frames_.isOver();
-      if (frames_.isOver()) break;
-    } else if (mayReadFrame(now_ns()) && frames_.hasMore() && !readFrame()) {
-      break;
+  bool goes_on = true;
+  while (goes_on && waitForInput()) {
+    try {
+      goes_on = step();
+    } catch (const std::bad_alloc&) {
+      startOver();
     }
-    sayState(now_ns());
   }
   output_.sendState(frames_.isOver() ? VSLAM_CAMERA_LOST : VSLAM_ENDING, 0, counters());
-  return is_good;
+  return !frames_.isOver();
+}
+
+/// @return false when the program is to stop
+bool OnboardLoop::step() {
+  if (observer_source_.isLive()) readObserver();
+  if (pipeline_.isWaiting()) {
+    answer();
+  } else if (frames_.isLost()) {
+    frames_.openAgain(now_ns());
+    if (frames_.isOver()) return false;
+  } else if (mayReadFrame(now_ns()) && frames_.hasMore() && !readFrame()) {
+    return false;
+  }
+  sayState(now_ns());
+  return true;
+}
+
+/// Without the map there is memory again.
+void OnboardLoop::startOver() {
+  ++out_of_memory_;
+  pipeline_.startOver();
+  share_.end(cpu_ns());
+  output_.sendState(VSLAM_OUT_OF_MEMORY, pipeline_.features().stamp_ns, counters());
+  said_ns_ = now_ns();
 }
 
 /// @return false when the program is to stop
@@ -169,7 +188,7 @@ void OnboardLoop::sayState(std::int64_t now) {
 }
 
 AnswerOutput::Counters OnboardLoop::counters() const {
-  return {frames_.dropped() + stamps_refused_ + without_observer_,
+  return {frames_.dropped() + stamps_refused_ + without_observer_ + out_of_memory_,
           observer_input_.counts().dropped(),
           static_cast<std::uint32_t>(pipeline_.landmarks().size())};
 }
@@ -179,11 +198,12 @@ void OnboardLoop::printSummary() const {
   std::fprintf(
       stderr,
       "vslam_onboard: %u images answered, %u without observer, %u with bad stamps, %u made "
-      "way for newer ones; %u records, dropped: %u of a wrong size, %u of a wrong kind, %u "
+      "way for newer ones, %u times out of memory; %u records, dropped: %u of a wrong size, %u of "
+      "a wrong kind, %u "
       "corrupted, %u old, %u refused; %zu landmarks, %d restarts\n",
-      answered_, without_observer_, stamps_refused_, frames_.dropped(), records.accepted,
-      records.wrong_size, records.wrong_kind, records.corrupted, records.old, records.refused,
-      pipeline_.landmarks().size(), pipeline_.restarts());
+      answered_, without_observer_, stamps_refused_, frames_.dropped(), out_of_memory_,
+      records.accepted, records.wrong_size, records.wrong_kind, records.corrupted, records.old,
+      records.refused, pipeline_.landmarks().size(), pipeline_.restarts());
 }
 
 }  // namespace ardrone_vslam

@@ -15,7 +15,8 @@
 namespace ardrone_vslam {
 
 /// The program: waits for images and records in one thread, answers each image, and says at least
-/// every kSayState_ns how it is. Allocates nothing of its own after construction.
+/// every kSayState_ns how it is. Allocates nothing of its own after construction; when the core has
+/// no memory left the map begins anew.
 class OnboardLoop {
  public:
   static constexpr std::int64_t kSayState_ns = 200'000'000;
@@ -38,6 +39,8 @@ class OnboardLoop {
 
  private:
   bool waitForInput();
+  bool step();
+  void startOver();
   int timeout_ms(std::int64_t now) const;
   bool mayReadFrame(std::int64_t now) const;
   bool readFrame();
@@ -63,6 +66,7 @@ class OnboardLoop {
   std::uint32_t answered_ = 0;
   std::uint32_t stamps_refused_ = 0;
   std::uint32_t without_observer_ = 0;
+  std::uint32_t out_of_memory_ = 0;
 };
 
 }  // namespace ardrone_vslam

@@ -21,23 +21,30 @@ PosePipeline::PosePipeline(const TrackerConfig& tracker, const SlamConfig& slam,
       buffer_(slam.observer),
       heights_(slam.height_input, slam.observer.buffer_s) {
   slam_.emplace(config_, T_base_cam_);
+  slam_->reserveMap();
   features_.reserve(static_cast<std::size_t>(tracker.corners.features_per_frame));
   ready_.reserve(64);
 }
 
 void PosePipeline::beginAnew() {
-  slam_.emplace(config_, T_base_cam_);
   result_ = nullptr;
+  slam_.emplace(config_, T_base_cam_);
+  slam_->reserveMap();
   ++restarts_;
+}
+
+void PosePipeline::startOver() {
+  is_waiting_ = false;
+  buffer_.clear();
+  heights_.clear();
+  beginAnew();
 }
 
 bool PosePipeline::track(const Frame& frame) {
   const bool is_ascending = newest_ns_ == 0 || frame.stamp_ns > newest_ns_;
   if (!is_ascending && frame.stamp_ns > newest_ns_ - kRestart_ns) return false;
   if (!is_ascending) {
-    buffer_.clear();
-    heights_.clear();
-    beginAnew();
+    startOver();
   } else if (result_ != nullptr && result_->state == SlamState::kNotFinite) {
     beginAnew();
   }

@@ -29,6 +29,8 @@ class PosePipeline {
   bool isWaiting() const { return is_waiting_; }
   /// Gives the waiting frame up.
   void forgetFrame() { is_waiting_ = false; }
+  /// Gives map, waiting frame and observer states up, and begins anew.
+  void startOver();
 
   /// @return whether it, and those that burst with it, are used
   bool addObserver(const ObserverState& message);
@@ -52,7 +54,6 @@ class PosePipeline {
  private:
   void beginAnew();
   bool take(ObserverBuffer::Push answer);
-  std::optional<double> heightFor(const ObserverState& state);
 
   SlamConfig config_;
   Eigen::Isometry3d T_base_cam_;

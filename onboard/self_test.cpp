@@ -92,13 +92,12 @@ bool testKernels() {
 }
 
 bool testMemory(const Settings& settings) {
-  constexpr std::size_t kBesideMap_bytes = 8'000'000;
-  const std::size_t bytes =
-      kBesideMap_bytes + static_cast<std::size_t>(settings.onboard.max_map_mb) * 1'000'000;
+  const auto all_mb =
+      static_cast<std::size_t>(settings.onboard.working_mb + settings.onboard.max_map_mb);
+  const std::size_t bytes = all_mb * 1'000'000 / 8 * 7;  // at once, of what was taken
   const std::unique_ptr<std::uint8_t[]> memory(new (std::nothrow) std::uint8_t[bytes]);
   const std::string amount = std::to_string(bytes / 1'000'000) + " MB";
-  if (!memory)
-    return report(false, "memory", amount + " cannot be had: set onboard/max_map_mb lower");
+  if (!memory) return report(false, "memory", amount + " in one piece cannot be had");
   std::memset(memory.get(), 0x5a, bytes);
   std::size_t good = 0;
   for (std::size_t i = 0; i < bytes; i += 4096) good += memory[i] == 0x5a;

@@ -69,7 +69,7 @@ struct CornerDetector::State {
   std::vector<Corner> thinned;           ///< what suppression leaves of them
 
   void reset(const ImageView& image);
-  void reserve();
+  void reserve(const ImageView& image);
   template <class NextHits, class EndRow>
   void scan(const ImageView& image, int passes, const NextHits& nextHits, const EndRow& endRow);
   void keepMaxima(const ImageView& image, CornerMaxima::Ties ties);
@@ -111,21 +111,22 @@ void CornerDetector::detect(const ImageView& image, std::vector<Corner>& corners
 void CornerDetector::State::reset(const ImageView& image) {
   assert(std::max(image.width_px, image.height_px) <= std::numeric_limits<std::int16_t>::max() &&
          "corner positions have 16 bits");
+  width_px = 0;  // without memory for this size it stays so, and the next image tries again
+  cells.reset(image.width_px, image.height_px, config.cell_size_px);
+  thresholds.reset(config, cells.count());
+  row_groups.resize(static_cast<std::size_t>(image.width_px));
+  row_columns.resize(static_cast<std::size_t>(image.width_px + kernels::kMaximaPadding));
+  row_scores.assign(static_cast<std::size_t>(image.width_px + kernels::kScorePadding), 0);
+  reserve(image);
   width_px = image.width_px;
   height_px = image.height_px;
-  cells.reset(width_px, height_px, config.cell_size_px);
-  thresholds.reset(config, cells.count());
-  row_groups.resize(static_cast<std::size_t>(width_px));
-  row_columns.resize(static_cast<std::size_t>(width_px + kernels::kMaximaPadding));
-  row_scores.assign(static_cast<std::size_t>(width_px + kernels::kScorePadding), 0);
-  reserve();
 }
 
 /// Room for the richest image, so that none allocates but the first of its size. What is never
 /// written to costs address space only.
-void CornerDetector::State::reserve() {
-  const auto width = static_cast<std::size_t>(width_px);
-  const auto height = static_cast<std::size_t>(height_px);
+void CornerDetector::State::reserve(const ImageView& image) {
+  const auto width = static_cast<std::size_t>(image.width_px);
+  const auto height = static_cast<std::size_t>(image.height_px);
   const std::size_t maxima_at_most = (width + 1) / 2 * ((height + 1) / 2);  // no two are neighbours
   thinned.reserve(maxima_at_most);
   by_cell.reserve(maxima_at_most);

@@ -42,6 +42,15 @@ kernels::ProjectCamera cameraOf(const FrameView& view, const ProjectionLimits& l
 
 }  // namespace
 
+void LandmarkColumns::reserve(std::size_t count) {
+  for (auto* column : {&x_m_, &y_m_, &z_m_, &height_m_, &view_x_, &view_y_, &view_z_, &seen_m2_}) {
+    column->reserve(count);
+  }
+  position_variance_m2_.reserve(count);
+  track_id_.reserve(count);
+  anchor_id_.reserve(count);
+}
+
 void LandmarkColumns::resize(std::size_t count) {
   for (auto* column : {&x_m_, &y_m_, &z_m_, &height_m_, &view_x_, &view_y_, &view_z_, &seen_m2_}) {
     column->resize(count);

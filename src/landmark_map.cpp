@@ -10,6 +10,14 @@ LandmarkMap::LandmarkMap(const LandmarkMapConfig& config) : config_(config) {
   validate(config);
 }
 
+void LandmarkMap::reserve(std::size_t landmarks) {
+  landmarks_.reserve(landmarks);
+  index_of_id_.reserve(landmarks);
+  columns_.reserve(landmarks);
+  stale_.reserve(landmarks);
+  stale_for_columns_.reserve(landmarks);
+}
+
 std::uint32_t LandmarkMap::add(const Landmark& landmark) {
   const std::uint32_t id = next_id_++;
   index_of_id_.emplace(id, landmarks_.size());

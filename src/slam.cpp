@@ -63,6 +63,12 @@ const LandmarkMap& Slam::landmarks() const {
   return state_->landmark_map;
 }
 
+void Slam::reserveMap() {
+  constexpr std::size_t kOfOneImage = 500;
+  const auto most = static_cast<std::size_t>(state_->config.landmark_map.max_landmarks);
+  state_->landmark_map.reserve(most + kOfOneImage);
+}
+
 Eigen::Isometry3d Slam::T_map_odom() const {
   if (state_->constraint) return state_->result.T_map_base * state_->result.T_odom_base.inverse();
   // Both poses have the observer's orientation, so that only the positions differ; this form stays

@@ -35,6 +35,8 @@ struct VisibleLandmarks {
 /// that follows the camera: within 256 m + d of it they are rounded by less than 16 um + 6e-8 d.
 class LandmarkColumns {
  public:
+  /// Takes the memory for so many landmarks.
+  void reserve(std::size_t count);
   /// Makes room for, or forgets, landmarks at the end.
   void resize(std::size_t count);
   /// Copies a landmark to its place.

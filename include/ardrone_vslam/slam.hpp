@@ -107,6 +107,8 @@ class Slam {
 
   /// The map, up to the last frame.
   const LandmarkMap& landmarks() const;
+  /// Takes the memory for max_landmarks, and for those that one image adds before the oldest go.
+  void reserveMap();
   /// REP-105: corrects the odometry's drift. Identity until the first correction.
   Eigen::Isometry3d T_map_odom() const;
 

@@ -2,71 +2,19 @@
 #include "onboard_loop.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
 #include <cstdio>
 #include <thread>
 
-#include "flight_records.hpp"
+#include "flight_fixture.hpp"
 #include "map_file.hpp"
 #include "udp.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
 
-constexpr std::int64_t kFirst_ns = 1'000'000'000;
-constexpr std::int64_t kPeriod_ns = 50'000'000;
-constexpr int kImages = 4;
-
-/// A camera at rest before a generated picture.
-class OnboardLoopTest : public ::testing::Test {
- protected:
-  OnboardLoopTest() {
-    folder_ = ::testing::TempDir() + "onboard_loop_XXXXXX";
-    EXPECT_NE(::mkdtemp(folder_.data()), nullptr);
-    writeFile(
-        file("camera.yaml"),
-        "image_width: 160\nimage_height: 120\ncamera_matrix:\n  data: [150, 0, 80, 0, 150, 60, "
-        "0, 0, 1]\ndistortion_model: plumb_bob\ndistortion_coefficients:\n  data: []\n");
-    std::string stream;
-    for (int i = 0; i < kImages; ++i) stream += pgm(stampOf(i), image_);
-    writeFile(file("frames"), stream);
-    settings_.onboard.camera = file("camera.yaml");
-    settings_.onboard.frames = file("frames");
-    settings_.onboard.poses = file("poses");
-    settings_.onboard.pose_port = 0;
-    settings_.onboard.observer_port = 0;  // any
-    settings_.onboard.cpu_share = 1;
-    settings_.odometry_wait_s = 0.01;
-  }
-  ~OnboardLoopTest() override {
-    for (const char* name : {"camera.yaml", "frames", "poses", "observer", "map"})
-      std::remove(file(name).c_str());
-    ::rmdir(folder_.c_str());
-  }
-
-  static std::int64_t stampOf(int image) { return kFirst_ns + image * kPeriod_ns; }
-  std::string file(const std::string& name) const { return folder_ + "/" + name; }
-  std::vector<VslamPose> poses() const { return posesIn(file("poses")); }
-
-  /// States from before the first image to after the last.
-  static std::string records() {
-    std::string bytes;
-    for (int i = -1; i <= kImages; ++i) {
-      VslamObserver observer = observerAt(stampOf(i), static_cast<std::uint32_t>(i + 10));
-      observer.position_m[0] = 0.5;
-      const Record record = recordOf(observer);
-      bytes.append(record.begin(), record.end());
-    }
-    return bytes;
-  }
-
-  std::string folder_;
-  TestImage image_ = generatedImage(160, 120);
-  Settings settings_;
-  Pipe stop_;
-};
+using OnboardLoopTest = FlightFixture;
 
 TEST_F(OnboardLoopTest, AnswersEachImageOfAFileFromAFileOfRecords) {
   writeFile(file("observer"), records());

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// vslam_onboard's loop when memory ends, at each place where it can.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <new>
+#include <optional>
+
+#include "counted_allocations.hpp"
+#include "onboard/flight_fixture.hpp"
+#include "onboard_loop.hpp"
+
+namespace ardrone_vslam::test {
+namespace {
+
+/// A flight along a wall, so that there is a map to lose.
+class OutOfMemory : public FlightFixture {
+ protected:
+  OutOfMemory() {
+    constexpr int kStep_px = 6;
+    const TestImage wall = generatedImage(160 + kStep_px * kAlong, 120);
+    std::string frames;
+    std::string observer;
+    for (int i = -1; i <= kAlong; ++i) {
+      VslamObserver state = observerAt(stampOf(i), static_cast<std::uint32_t>(i + 10));
+      state.position_m[1] = -0.1 * i;
+      const Record record = recordOf(state);
+      observer.append(record.begin(), record.end());
+      if (i < 0 || i == kAlong) continue;
+      TestImage image(160, 120);
+      for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x) image.at(x, y) = wall.at(x + kStep_px * i, y);
+      frames += pgm(stampOf(i), image);
+    }
+    writeFile(file("frames"), frames);
+    writeFile(file("observer"), observer);
+    settings_.onboard.observer = file("observer");
+    settings_.tracker.corners.features_per_frame = 30;
+    settings_.mapper.landmark_map.max_landmarks = 1000;
+  }
+  ~OutOfMemory() override { failing_allocation = -1; }
+
+  /// @return allocations of the flight when the one of this number fails, from 1 on; 0: none does
+  long fly(long failing) {
+    loop_.emplace(settings_, stop_.ends[0]);
+    const long before = allocations;
+    failing_allocation = failing == 0 ? -1 : before + failing;
+    EXPECT_TRUE(loop_->run());
+    failing_allocation = -1;
+    return allocations - before;
+  }
+
+  static constexpr int kAlong = 40;
+  std::optional<OnboardLoop> loop_;
+};
+
+long countOf(const std::vector<VslamPose>& answers, std::uint32_t state) {
+  return std::count_if(answers.begin(), answers.end(),
+                       [&](const VslamPose& answer) { return answer.state == state; });
+}
+
+TEST_F(OutOfMemory, InFlightTheMapBeginsAnew) {
+  const long all = fly(0);
+  const auto untroubled = poses();
+  ASSERT_EQ(untroubled.size(), kAlong + 1U);
+  ASSERT_GT(untroubled[kAlong - 1].landmarks, 10U) << "there is no map to lose";
+  ASSERT_GT(all, 100);
+  const long step = std::max(all / 150, 1L);
+  for (long failing = 1; failing <= all; failing += step) {
+    fly(failing);
+    const auto answers = poses();
+    ASSERT_EQ(countOf(answers, VSLAM_OUT_OF_MEMORY), 1) << "allocation " << failing;
+    // One image at most was lost; the others have poses.
+    const auto poses_given = std::count_if(answers.begin(), answers.end(), [](const auto& answer) {
+      return answer.flags == VSLAM_POSE_IS_VALID;
+    });
+    ASSERT_GE(poses_given, kAlong - 1) << "allocation " << failing;
+    ASSERT_EQ(answers.back().state, static_cast<std::uint32_t>(VSLAM_ENDING));
+    ASSERT_GE(answers.back().frames_dropped, 1U);
+  }
+}
+
+TEST_F(OutOfMemory, AtTheStartItIsAnError) {
+  const long before = allocations;
+  OnboardLoop(settings_, stop_.ends[0]);
+  const long all = allocations - before;
+  for (long failing = 1; failing <= all; ++failing) {
+    failing_allocation = allocations + failing;
+    EXPECT_THROW(OnboardLoop(settings_, stop_.ends[0]), std::bad_alloc) << "allocation " << failing;
+    failing_allocation = -1;
+  }
+}
+
+}  // namespace
+}  // namespace ardrone_vslam::test
