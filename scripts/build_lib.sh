@@ -44,3 +44,12 @@ stage() {
   fi
   echo "$script:   done in $((SECONDS - begin)) s"
 }
+
+# The workstation's build without ROS, in the folder `native`; the arguments: what of it.
+build_native() {
+  local generator=()
+  [ -e "$native/CMakeCache.txt" ] || generator=(-G Ninja)
+  stage "the workstation's build" native_configure cmake "${generator[@]}" -S "$root" -B "$native" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_DISABLE_FIND_PACKAGE_catkin=1
+  stage "building what renders and flies the flight" native_build cmake --build "$native" --target "$@"
+}
