@@ -15,9 +15,11 @@ class CpuShare {
     began_ns_ = now_ns;
     cpu_ns_ = cpu_ns;
   }
-  void end(std::int64_t cpu_ns) {
-    next_ns_ =
-        began_ns_ + static_cast<std::int64_t>(static_cast<double>(cpu_ns - cpu_ns_) / share_);
+  /// @return c
+  std::int64_t end(std::int64_t cpu_ns) {
+    const std::int64_t cost_ns = cpu_ns - cpu_ns_;
+    next_ns_ = began_ns_ + static_cast<std::int64_t>(static_cast<double>(cost_ns) / share_);
+    return cost_ns;
   }
   /// Of the next work; in the past: it may begin.
   std::int64_t next_ns() const { return next_ns_; }

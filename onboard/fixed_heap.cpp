@@ -26,7 +26,8 @@ struct alignas(FixedHeap::kAlignment) FixedHeap::Block {
 
 namespace {
 
-constexpr std::size_t kLargest = std::size_t{1} << 31;
+/// With room for an alignment, and rounded up, a size stays below 2^32.
+constexpr std::size_t kLargest = FixedHeap::kLargestRegion;
 /// Below it there is a list for each size.
 constexpr std::size_t kLarge = 256;
 

@@ -16,11 +16,13 @@ class FixedHeap {
  public:
   /// All addresses and sizes are multiples of it.
   static constexpr std::size_t kAlignment = 16;
+  static constexpr std::size_t kLargestRegion = std::size_t{1} << 30;
 
   /// Constant, as the first call comes before any constructor of the program has run.
   constexpr FixedHeap() = default;
 
-  /// Adds memory to give out. @param region  aligned to kAlignment @param bytes  below 2 GB
+  /// Adds memory to give out. @param region  aligned to kAlignment @param bytes  kLargestRegion at
+  /// most
   void add(void* region, std::size_t bytes);
   /// @param alignment  a power of two @return nullptr when there is no block so large
   void* allocate(std::size_t bytes, std::size_t alignment = kAlignment);

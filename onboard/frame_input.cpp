@@ -28,8 +28,13 @@ bool isDevice(const std::string& path) {
 
 }  // namespace
 
-FrameInput::FrameInput(const OnboardConfig& config, const FrameSize& size, int stop_fd)
-    : config_(config), size_(size), stop_fd_(stop_fd), is_device_(isDevice(config.frames)) {
+FrameInput::FrameInput(const OnboardConfig& config, const FrameSize& size, int stop_fd,
+                       std::function<void()> waiting)
+    : config_(config),
+      size_(size),
+      stop_fd_(stop_fd),
+      waiting_(std::move(waiting)),
+      is_device_(isDevice(config.frames)) {
   openAgain(now_ns());
 }
 
@@ -57,7 +62,7 @@ void FrameInput::open() {
   if (!file.isOpen() || ::fstat(file.get(), &status) != 0)
     throw std::runtime_error(config_.frames + ": cannot be read: " + std::strerror(errno));
   const bool every_frame = config_.every_frame || S_ISREG(status.st_mode);
-  source_ = std::make_unique<FrameStream>(std::move(file), stop_fd_, size_, every_frame);
+  source_ = std::make_unique<FrameStream>(std::move(file), stop_fd_, size_, every_frame, waiting_);
 }
 
 FrameSource::Read FrameInput::read(Frame& frame) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -15,7 +16,9 @@ namespace ardrone_vslam {
 /// for again each second; a file that is not good is a fault for good.
 class FrameInput {
  public:
-  FrameInput(const OnboardConfig& config, const FrameSize& size, int stop_fd);
+  /// @param waiting  called now and then while an image has begun to come and does not go on
+  FrameInput(const OnboardConfig& config, const FrameSize& size, int stop_fd,
+             std::function<void()> waiting = {});
 
   /// To poll; negative while there is no source.
   int descriptor() const { return source_ ? source_->descriptor() : -1; }
@@ -37,6 +40,7 @@ class FrameInput {
   OnboardConfig config_;
   FrameSize size_;
   int stop_fd_;
+  std::function<void()> waiting_;
   bool is_device_;
   std::unique_ptr<FrameSource> source_;
   std::uint32_t dropped_ = 0;  // of sources before

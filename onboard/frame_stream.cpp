@@ -21,8 +21,9 @@ std::string sizeText(std::int64_t width, std::int64_t height) {
 
 }  // namespace
 
-FrameStream::FrameStream(FileDescriptor file, int stop_fd, const FrameSize& size, bool every_frame)
-    : input_(std::move(file), stop_fd),
+FrameStream::FrameStream(FileDescriptor file, int stop_fd, const FrameSize& size, bool every_frame,
+                         std::function<void()> waiting)
+    : input_(std::move(file), stop_fd, std::move(waiting)),
       size_(size),
       every_frame_(every_frame),
       pixels_(static_cast<std::size_t>(size.sourceWidth_px()) *

@@ -16,7 +16,9 @@ namespace ardrone_vslam {
 class FrameStream : public FrameSource {
  public:
   /// @param every_frame  false: of those that have come, the newest
-  FrameStream(FileDescriptor file, int stop_fd, const FrameSize& size, bool every_frame);
+  /// @param waiting  called now and then while an image has begun to come and does not go on
+  FrameStream(FileDescriptor file, int stop_fd, const FrameSize& size, bool every_frame,
+              std::function<void()> waiting = {});
 
   int descriptor() const override { return input_.descriptor(); }
   bool isBuffered() const override { return input_.isBuffered(); }

@@ -10,7 +10,10 @@ namespace ardrone_vslam {
 std::size_t InputBuffer::fill(std::uint8_t* to, std::size_t count) {
   while (!is_stopped_) {
     std::array<pollfd, 2> entries{{{file_.get(), POLLIN, 0}, {stop_fd_, POLLIN, 0}}};
-    if (::poll(entries.data(), entries.size(), -1) < 0 && errno != EINTR) return 0;
+    const int ready = ::poll(entries.data(), entries.size(), waiting_ ? kWaiting_ms : -1);
+    if (ready < 0 && errno != EINTR) return 0;
+    if (ready == 0) waiting_();
+    if (ready <= 0) continue;
     is_stopped_ = entries[1].revents != 0;
     if (is_stopped_ || entries[0].revents == 0) continue;
     const ssize_t got = ::read(file_.get(), to, count);
@@ -27,6 +30,10 @@ int InputBuffer::next() {
     if (end_ == 0) return -1;
   }
   return bytes_[begin_++];
+}
+
+std::size_t InputBuffer::readSome(std::uint8_t* to, std::size_t count) {
+  return isBuffered() ? read(to, std::min(count, end_ - begin_)) : fill(to, count);
 }
 
 std::size_t InputBuffer::read(std::uint8_t* to, std::size_t count) {

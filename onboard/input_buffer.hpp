@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 #include "file_descriptor.hpp"
 
@@ -12,13 +13,19 @@ namespace ardrone_vslam {
 /// Reads a file or FIFO through a buffer of fixed size, and gives up when the program is to stop.
 class InputBuffer {
  public:
+  static constexpr int kWaiting_ms = 100;
+
   /// @param stop_fd  becomes readable when the program is to stop; negative: never
-  InputBuffer(FileDescriptor file, int stop_fd) : file_(std::move(file)), stop_fd_(stop_fd) {}
+  /// @param waiting  called every kWaiting_ms while nothing comes
+  InputBuffer(FileDescriptor file, int stop_fd, std::function<void()> waiting = {})
+      : file_(std::move(file)), stop_fd_(stop_fd), waiting_(std::move(waiting)) {}
 
   /// The next byte, or -1 at the end.
   int next();
   /// @return how many of `count` bytes there were before the end
   std::size_t read(std::uint8_t* to, std::size_t count);
+  /// What there is without waiting for more. @pre hasMore() @return 0 at the end
+  std::size_t readSome(std::uint8_t* to, std::size_t count);
   /// Whether next() has something without waiting for it (or the end).
   bool hasMore() const { return begin_ < end_ || isReadable(file_.get()); }
   /// The end came because the program is to stop.
@@ -32,6 +39,7 @@ class InputBuffer {
 
   FileDescriptor file_;
   int stop_fd_;
+  std::function<void()> waiting_;
   bool is_stopped_ = false;
   std::array<std::uint8_t, 4096> bytes_{};
   std::size_t begin_ = 0;

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "udp.hpp"
 
@@ -26,8 +27,16 @@ ObserverSource::ObserverSource(const OnboardConfig& config, int stop_fd) {
 ObserverSource::Read ObserverSource::read(const std::uint8_t*& record, std::size_t& size) {
   record = bytes_.data();
   if (file_) {
-    size = file_->read(bytes_.data(), VSLAM_OBSERVER_BYTES);
-    return size == 0 ? Read::kEnd : Read::kRecord;
+    while (filled_ < VSLAM_OBSERVER_BYTES) {
+      if (!file_->hasMore()) return Read::kNone;
+      const std::size_t got =
+          file_->readSome(bytes_.data() + filled_, VSLAM_OBSERVER_BYTES - filled_);
+      if (got == 0 && filled_ == 0) return Read::kEnd;
+      if (got == 0) break;
+      filled_ += got;
+    }
+    size = std::exchange(filled_, 0);
+    return Read::kRecord;
   }
   const long got = receive(socket_, bytes_.data(), bytes_.size());
   if (got < 0) return Read::kNone;

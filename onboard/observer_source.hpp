@@ -25,7 +25,7 @@ class ObserverSource {
   int descriptor() const { return file_ ? file_->descriptor() : socket_.get(); }
   /// Whether read() of a file need not wait.
   bool hasMore() const { return file_ && file_->hasMore(); }
-  /// Of one record, which may be wrong in every way.
+  /// Of one record, which may be wrong in every way. kNone: no whole one has come.
   Read read(const std::uint8_t*& record, std::size_t& size);
 
  private:
@@ -33,6 +33,7 @@ class ObserverSource {
   std::array<std::uint8_t, VSLAM_OBSERVER_BYTES + 1> bytes_{};
   FileDescriptor socket_;
   std::optional<InputBuffer> file_;
+  std::size_t filled_ = 0;  // of a record of the file
 };
 
 }  // namespace ardrone_vslam

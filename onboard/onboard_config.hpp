@@ -101,7 +101,7 @@ void visitParameters(OnboardConfig& c, Visitor&& visit) {
                       "at most this share of the processor: after an image it waits as long as "
                       "that takes"},
         c.cpu_share);
-  visit(ParameterInfo{"max_map_mb", "MB", 1, 4000,
+  visit(ParameterInfo{"max_map_mb", "MB", 1, 1000,
                       "what the landmarks may take: bounds mapper/max_landmarks"},
         c.max_map_mb);
   visit(ParameterInfo{"working_mb", "MB", 1, 1000,

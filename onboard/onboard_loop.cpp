@@ -29,7 +29,8 @@ OnboardLoop::OnboardLoop(const Settings& settings, int stop_fd)
       observer_source_(settings.onboard, stop_fd),
       output_(settings.onboard),
       frames_(settings.onboard,
-              sizeOf(pipeline_.cameraModel().intrinsics(), settings.onboard.halve), stop_fd),
+              sizeOf(pipeline_.cameraModel().intrinsics(), settings.onboard.halve), stop_fd,
+              [this] { whileWaiting(); }),
       share_(settings.onboard.cpu_share),
       began_ns_(now_ns()) {}
 
@@ -105,12 +106,11 @@ int OnboardLoop::timeout_ms(std::int64_t now) const {
 /// @return false at the end of the images
 bool OnboardLoop::readFrame() {
   Frame frame;
-  const std::int64_t now = now_ns();
-  share_.begin(now, cpu_ns());
+  share_.begin(now_ns(), cpu_ns());
   const FrameSource::Read read = frames_.read(frame);
   if (read == FrameSource::Read::kEnd) return false;
   if (read != FrameSource::Read::kFrame) return true;
-  frame_ns_ = now;
+  frame_ns_ = now_ns();
   if (pipeline_.track(frame)) {
     answer();
   } else {
@@ -118,6 +118,12 @@ bool OnboardLoop::readFrame() {
   }
   share_.end(cpu_ns());
   return true;
+}
+
+/// An image has begun to come and does not go on.
+void OnboardLoop::whileWaiting() {
+  if (observer_source_.isLive()) readObserver();
+  sayState(now_ns());
 }
 
 void OnboardLoop::readObserver() {
@@ -151,7 +157,9 @@ void OnboardLoop::answer() {
     return giveUp(idleState(now));
   }
   if (answer == PosePipeline::Answer::kNever) return giveUp(idleState(now));
-  share_.end(cpu_ns());
+  const std::int64_t cost_ns = share_.end(cpu_ns());
+  all_cost_ns_ += cost_ns;
+  most_cost_ns_ = std::max(most_cost_ns_, cost_ns);
   ++answered_;
   said_ns_ = now;
   const FrameResult& result = pipeline_.result();
@@ -204,6 +212,10 @@ void OnboardLoop::printSummary() const {
       answered_, without_observer_, stamps_refused_, frames_.dropped(), out_of_memory_,
       records.accepted, records.wrong_size, records.wrong_kind, records.corrupted, records.old,
       records.refused, pipeline_.landmarks().size(), pipeline_.restarts());
+  if (answered_ == 0) return;
+  std::fprintf(stderr, "vslam_onboard: %.2f ms of processor time an image, at most %.2f\n",
+               static_cast<double>(all_cost_ns_) / 1e6 / answered_,
+               static_cast<double>(most_cost_ns_) / 1e6);
 }
 
 }  // namespace ardrone_vslam

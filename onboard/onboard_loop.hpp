@@ -34,7 +34,7 @@ class OnboardLoop {
   /// UDP; for one that was given as 0.
   int observerPort() const { return portOf(observer_source_.descriptor()); }
   const LandmarkMap& landmarks() const { return pipeline_.landmarks(); }
-  /// One line: what was answered, lost and dropped.
+  /// What was answered, lost and dropped, and what it cost: a line each.
   void printSummary() const;
 
  private:
@@ -44,6 +44,7 @@ class OnboardLoop {
   int timeout_ms(std::int64_t now) const;
   bool mayReadFrame(std::int64_t now) const;
   bool readFrame();
+  void whileWaiting();
   void readObserver();
   void answer();
   void giveUp(std::uint32_t state);
@@ -64,6 +65,8 @@ class OnboardLoop {
   std::int64_t frame_ns_ = 0;  // when the newest image came; 0: none has
   std::int64_t said_ns_ = 0;
   std::uint32_t answered_ = 0;
+  std::int64_t all_cost_ns_ = 0;  // processor time of the images answered
+  std::int64_t most_cost_ns_ = 0;
   std::uint32_t stamps_refused_ = 0;
   std::uint32_t without_observer_ = 0;
   std::uint32_t out_of_memory_ = 0;

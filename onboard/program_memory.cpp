@@ -50,7 +50,9 @@ void takeMemory(std::size_t bytes, bool lock) {
   if (lock && ::mlockall(MCL_CURRENT) != 0)
     std::fprintf(stderr, "vslam_onboard: memory is not locked: %s; it needs root\n",
                  std::strerror(errno));
-  heap.add(region, bytes);
+  for (std::size_t at = 0; at < bytes; at += FixedHeap::kLargestRegion)
+    heap.add(static_cast<unsigned char*>(region) + at,
+             std::min(bytes - at, FixedHeap::kLargestRegion));
 }
 
 MemoryUse memoryUse() {

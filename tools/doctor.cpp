@@ -12,7 +12,7 @@
 #include "doctor_live.hpp"
 #include "doctor_tracks.hpp"
 #include "progress_line.hpp"
-#include "run_report.hpp"
+#include "run_files.hpp"
 #include "tool_main.hpp"
 
 namespace {

@@ -15,10 +15,10 @@
 #include "profile_option.hpp"
 #include "progress_line.hpp"
 #include "run_all.hpp"
+#include "run_files.hpp"
 #include "run_observers.hpp"
 #include "run_page.hpp"
 #include "run_print.hpp"
-#include "run_report.hpp"
 #include "run_verdict.hpp"
 #include "tool_main.hpp"
 #ifdef ARDRONE_VSLAM_WITH_ROS

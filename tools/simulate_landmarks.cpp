@@ -11,7 +11,7 @@
 #include "profile_option.hpp"
 #include "progress_line.hpp"
 #include "run_all.hpp"
-#include "run_report.hpp"
+#include "run_files.hpp"
 #include "sequence.hpp"
 #include "simulated_street.hpp"
 #include "tool_main.hpp"

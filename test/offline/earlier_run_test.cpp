@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "run_files.hpp"
 #include "run_report.hpp"
 #include "support/sequence_folders.hpp"
 

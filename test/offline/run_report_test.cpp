@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "run_files.hpp"
 #include "run_verdict.hpp"
 #include "support/sequence_folders.hpp"
 

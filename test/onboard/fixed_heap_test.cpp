@@ -130,7 +130,10 @@ TEST(FixedHeap, SizesThatCannotBeAreRefused) {
   OwnHeap own;
   for (const std::size_t bytes : {kRegion_bytes, std::size_t{1} << 31, SIZE_MAX - 15, SIZE_MAX})
     EXPECT_EQ(own.heap.allocate(bytes), nullptr) << bytes;
-  EXPECT_EQ(own.heap.allocate(16, std::size_t{1} << 31), nullptr);
+  for (const int power : {29, 30, 31}) {
+    EXPECT_EQ(own.heap.allocate(16, std::size_t{1} << power), nullptr) << power;
+    EXPECT_EQ(own.heap.allocate((std::size_t{1} << 30) - 1, std::size_t{1} << power), nullptr);
+  }
   EXPECT_EQ(own.heap.used(), 0U);
 }
 

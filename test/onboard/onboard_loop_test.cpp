@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "onboard_loop.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <thread>
 
@@ -107,6 +109,56 @@ TEST_F(OnboardLoopTest, AMissingCameraIsSaidUntilItIsToStop) {
   EXPECT_TRUE(is_good);
   EXPECT_EQ(poses().front().state, static_cast<std::uint32_t>(VSLAM_CAMERA_LOST));
   EXPECT_EQ(poses().back().state, static_cast<std::uint32_t>(VSLAM_ENDING));
+}
+
+TEST_F(OnboardLoopTest, AFifoOfRecordsThatStopsWithinOneHoldsNothingUp) {
+  ASSERT_EQ(::mkfifo(file("observer").c_str(), 0600), 0);
+  settings_.onboard.observer = file("observer");
+  settings_.onboard.controller_silent_s = 60;
+  const std::string good = records();
+  const FileDescriptor controller(::open(file("observer").c_str(), O_RDWR));
+  const std::size_t bytes = 3 * VSLAM_OBSERVER_BYTES + 70;  // to image 1, and half a record
+  ASSERT_EQ(::write(controller.get(), good.data(), bytes), static_cast<ssize_t>(bytes));
+  EXPECT_TRUE(OnboardLoop(settings_, stop_.ends[0]).run());
+  const auto answers = poses();
+  ASSERT_EQ(answers.size(), kImages + 1U);
+  EXPECT_EQ(answers[1].flags, VSLAM_POSE_IS_VALID);
+  EXPECT_EQ(answers[2].state, static_cast<std::uint32_t>(VSLAM_NO_OBSERVER));
+}
+
+TEST_F(OnboardLoopTest, ImagesThatStopWithinOneAreSaid) {
+  const std::string stream = readFile(file("frames"));
+  std::remove(file("frames").c_str());
+  ASSERT_EQ(::mkfifo(file("frames").c_str(), 0600), 0);
+  writeFile(file("observer"), records());
+  settings_.onboard.observer = file("observer");
+  settings_.onboard.every_frame = true;
+  const FileDescriptor camera(::open(file("frames").c_str(), O_RDWR));
+  const std::size_t half = stream.size() / (2 * kImages);
+  ASSERT_EQ(::write(camera.get(), stream.data(), half), static_cast<ssize_t>(half));
+  OnboardLoop loop(settings_, stop_.ends[0]);
+  std::thread program([&] { loop.run(); });
+  const auto isSaid = [&] {
+    const auto answers = poses();
+    return !answers.empty() &&
+           answers.back().state == static_cast<std::uint32_t>(VSLAM_CAMERA_LOST);
+  };
+  while (!isSaid()) std::this_thread::yield();
+  // It goes on where it was.
+  for (std::size_t at = half; at < stream.size();) {
+    const ssize_t written = ::write(camera.get(), stream.data() + at, stream.size() - at);
+    ASSERT_GT(written, 0);
+    at += static_cast<std::size_t>(written);
+  }
+  const auto isAnswered = [&] {
+    const auto answers = poses();
+    return std::any_of(answers.begin(), answers.end(), [](const VslamPose& answer) {
+      return answer.stamp_ns == stampOf(kImages - 1);
+    });
+  };
+  while (!isAnswered()) std::this_thread::yield();
+  stop_.write("x");
+  program.join();
 }
 
 TEST_F(OnboardLoopTest, AStampThatDoesNotAscendIsDropped) {

@@ -24,7 +24,7 @@ TEST(CpuShareTest, TheNextWorkWaitsForItsShare) {
   CpuShare share(0.25);
   EXPECT_LE(share.next_ns(), 0);
   share.begin(1000, 50);
-  share.end(70);
+  EXPECT_EQ(share.end(70), 20);
   EXPECT_EQ(share.next_ns(), 1080);
 }
 

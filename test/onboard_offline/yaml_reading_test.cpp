@@ -102,7 +102,7 @@ TEST(YamlReading, AConfigurationMeansTheSameAsForReplay) {
     ++files;
     // The mode is not offered on board; and more room than max_landmarks asks for.
     const std::string mode = "mapper/observer_mode=pose";
-    const Settings onboard = loadSettings(path, {mode, "onboard/max_map_mb=4000"});
+    const Settings onboard = loadSettings(path, {mode, "onboard/max_map_mb=1000"});
     const PipelineConfig replay = loadConfig(path, {mode});
     EXPECT_EQ(written(onboard.tracker), written(replay.tracker));
     EXPECT_EQ(written(onboard.mapper), written(replay.mapper));

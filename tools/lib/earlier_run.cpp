@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "run_report.hpp"
+#include "run_files.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -5,13 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iomanip>
 #include <iterator>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
 #include "ardrone_vslam/instruction_set.hpp"
 #include "metrics.hpp"
@@ -138,60 +133,6 @@ void addCost(const RunResult& run, Json& summary) {
   summary["instruction_set"] = nameOf(instructionSetInUse().set);
 }
 
-void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e) {
-  out << "index,stamp_ns,state,match_method,features,landmarks_in_view,landmark_candidates,"
-         "landmark_matches,"
-         "landmark_mismatches,"
-         "feature_candidates,feature_matches,feature_mismatches,new_landmarks,removed_landmarks,"
-         "landmarks,map_features,"
-         "deviation_m,fix_nis,camera_x_m,camera_y_m,camera_z_m,camera_deviation_m,fused_error_m,"
-         "observer_"
-         "error_m,camera_error_m,nees";
-  for (const char* name : kStageNames) out << ",ms_" << name;
-  out << ",ms_total\n" << std::setprecision(9);
-  const auto cell = [&out](double value) {
-    out << ',';
-    if (std::isfinite(value)) out << value;
-  };
-  const auto valueAt = [](const std::vector<double>& values, std::size_t i) {
-    return i < values.size() ? values[i] : kNone;
-  };
-  for (std::size_t i = 0; i < run.frames.size(); ++i) {
-    const FrameResult& r = run.frames[i].result;
-    out << i << ',' << r.stamp_ns << ',' << kSlamStateNames[static_cast<std::size_t>(r.state)]
-        << ',' << nameOf(r.match_method);
-    for (const int count :
-         {r.features, r.landmarks_in_view, r.landmark_candidates, r.landmark_matches,
-          r.landmark_candidates - r.landmark_matches, r.feature_candidates, r.feature_matches,
-          r.feature_candidates - r.feature_matches, r.new_landmarks, r.removed_landmarks,
-          r.landmarks, r.map_features}) {
-      out << ',' << count;
-    }
-    cell(r.deviation_m);
-    cell(r.fix_nis > 0 ? r.fix_nis : kNone);
-    for (int axis = 0; axis < 3; ++axis)
-      cell(r.camera_position_map ? (*r.camera_position_map)[axis] : kNone);
-    cell(r.camera_position_map ? r.camera_deviation_m : kNone);
-    cell(valueAt(e.fused_error_m, i));
-    cell(valueAt(e.observer_error_m, i));
-    cell(valueAt(e.camera_error_m, i));
-    cell(valueAt(e.nees, i));
-    for (const double ms : run.frames[i].times_ms) cell(ms);
-    cell(total_ms(run.frames[i].times_ms));
-    out << '\n';
-  }
-}
-
-void writeLandmarks(std::ostream& out, const RunResult& run) {
-  out << "id,x_m,y_m,z_m,deviation_m,depth_deviation_m,times_seen\n" << std::setprecision(9);
-  for (const Landmark& l : run.landmarks) {
-    if (isNotFinite(l)) continue;
-    out << l.id << ',' << l.position_map.x() << ',' << l.position_map.y() << ','
-        << l.position_map.z() << ',' << l.deviation_m << ',' << l.depth_deviation_m << ','
-        << l.times_seen << '\n';
-  }
-}
-
 }  // namespace
 
 bool isNotFinite(const Landmark& landmark) {
@@ -305,38 +246,6 @@ Json summaryOfSeeds(const std::vector<Json>& summaries) {
   }
   result["runs"] = summaries;
   return result;
-}
-
-void writeText(const std::string& path, const std::string& text) {
-  std::ofstream out(path);
-  out << text;
-  out.close();
-  if (!out)
-    throw std::runtime_error(
-        path + ": cannot be written; check that the folder exists and the disk has room");
-}
-
-std::string seedFolder(const std::string& folder, std::uint64_t seed) {
-  return folder + "/seed_" + std::to_string(seed);
-}
-
-void writeRun(const std::string& folder, const RunResult& run, const RunEvaluation& evaluation,
-              const Json& summary) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw std::runtime_error(folder + ": cannot be made (" + error.message() +
-                             "); choose another --out");
-  writeTum(folder + "/observer.tum", evaluation.observer);
-  writeTum(folder + "/fused.tum", evaluation.fused);
-  if (!evaluation.truth.empty()) writeTum(folder + "/truth.tum", evaluation.truth);
-  std::ostringstream frames;
-  writeFrames(frames, run, evaluation);
-  writeText(folder + "/frames.csv", frames.str());
-  std::ostringstream landmarks;
-  writeLandmarks(landmarks, run);
-  writeText(folder + "/landmarks.csv", landmarks.str());
-  writeText(folder + "/summary.json", summary.dump(2) + "\n");
 }
 
 }  // namespace ardrone_vslam

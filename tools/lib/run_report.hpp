@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -50,23 +49,5 @@ nlohmann::ordered_json summaryOf(const RunResult& run, const RunEvaluation& eval
 /// Median and worst over the summaries of several seeds, for every numeric entry where larger is
 /// worse.
 nlohmann::ordered_json summaryOfSeeds(const std::vector<nlohmann::ordered_json>& summaries);
-
-/// All that a run writes.
-constexpr std::array<const char*, 6> kRunFiles{"observer.tum", "fused.tum",     "truth.tum",
-                                               "frames.csv",   "landmarks.csv", "summary.json"};
-
-/// What scripts/evaluate writes beside them when it is asked for a report of the folder.
-constexpr std::array<const char*, 2> kPageFiles{"report.html", "evaluation.json"};
-
-/// Where the files of one of several seeds go.
-std::string seedFolder(const std::string& folder, std::uint64_t seed);
-
-/// Writes kRunFiles (truth.tum if it is known) into the folder, which is made. @throws
-/// std::runtime_error naming the file that cannot be written
-void writeRun(const std::string& folder, const RunResult& run, const RunEvaluation& evaluation,
-              const nlohmann::ordered_json& summary);
-
-/// Writes text to a file. @throws std::runtime_error naming the file
-void writeText(const std::string& path, const std::string& text);
 
 }  // namespace ardrone_vslam

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "run_report.hpp"
+
+namespace ardrone_vslam {
+
+/// All that a run writes.
+constexpr std::array<const char*, 6> kRunFiles{"observer.tum", "fused.tum",     "truth.tum",
+                                               "frames.csv",   "landmarks.csv", "summary.json"};
+
+/// What scripts/evaluate writes beside them when it is asked for a report of the folder.
+constexpr std::array<const char*, 2> kPageFiles{"report.html", "evaluation.json"};
+
+/// Where the files of one of several seeds go.
+std::string seedFolder(const std::string& folder, std::uint64_t seed);
+
+/// Writes kRunFiles (truth.tum if it is known) into the folder, which is made. @throws
+/// std::runtime_error naming the file that cannot be written
+void writeRun(const std::string& folder, const RunResult& run, const RunEvaluation& evaluation,
+              const nlohmann::ordered_json& summary);
+
+/// Writes text to a file. @throws std::runtime_error naming the file
+void writeText(const std::string& path, const std::string& text);
+
+}  // namespace ardrone_vslam
