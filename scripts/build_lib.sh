@@ -29,3 +29,27 @@ need_number() {
   echo "$1: $2 '$3': must be a number, for example 1" >&2
   exit 2
 }
+
+# $1: what is done, $2: name of its log; the rest: the command. Prints every twentieth step of a build. Of the caller's:
+# `script`, its name, and `out`, in whose log/ the logs are.
+stage() {
+  local what=$1 log=$out/log/$2.log begin=$SECONDS
+  shift 2
+  echo "$script: $what"
+  if ! "$@" 2>&1 | tee "$log" | awk '/^\[[0-9]+\/[0-9]+\]/ { if (++n % 20 == 0) { print "  " $1; fflush() } }'; then
+    grep -E 'error|FAILED' -A 5 "$log" | head -n 30 >&2 || true
+    tail -n 5 "$log" >&2
+    echo "$script: $what: failed; all that it said is in $log" >&2
+    exit 1
+  fi
+  echo "$script:   done in $((SECONDS - begin)) s"
+}
+
+# The workstation's build without ROS, in the folder `native`; the arguments: what of it.
+build_native() {
+  local generator=()
+  [ -e "$native/CMakeCache.txt" ] || generator=(-G Ninja)
+  stage "the workstation's build" native_configure cmake "${generator[@]}" -S "$root" -B "$native" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_DISABLE_FIND_PACKAGE_catkin=1
+  stage "building what renders and flies the flight" native_build cmake --build "$native" --target "$@"
+}

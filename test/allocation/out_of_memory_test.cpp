@@ -85,6 +85,7 @@ TEST_F(OutOfMemory, InFlightTheMapBeginsAnew) {
 }
 
 TEST_F(OutOfMemory, AtTheStartItIsAnError) {
+  OnboardLoop(settings_, stop_.ends[0]);  // some libraries keep what they allocate at first
   const long before = allocations;
   OnboardLoop(settings_, stop_.ends[0]);
   const long all = allocations - before;

@@ -22,6 +22,7 @@ def load(name):
 
 
 CHECK = load("check_executable")
+BOARD = load("board_report")
 
 
 def function(*texts):
@@ -64,6 +65,50 @@ class Poses(unittest.TestCase):
         self.assertEqual(self.compare("1000 nan 2 3 0 0 0 1 localised 10 20"), 1)
         self.assertEqual(self.compare("1001 1 2 3 0 0 0 1 localised 10 20"), 1)
         self.assertEqual(self.compare("1000 1 2 3 0 0 0 1 building_map 10 20", state="building_map"), 1)  # the observer's
+
+
+class EmulatedBoard(unittest.TestCase):
+    FACTS = "== part 0xc08\r\n== features half thumb neon vfpv3\r\n== memory 128080 kB\r\n"
+    RUNS = (("self_test", 0, "self-test passed"), ("no_camera", 1, "FAULT  camera     /dev/video2: see above"),
+            ("self_test_memory", 1, "FAULT  memory     15 MB cannot be had"), ("flight", 0, "vslam_onboard: 9 images answered"),
+            ("stopped", 0, "vslam_onboard: 4 images answered"), ("cut_off", 1, "vslam_onboard: -: the images end within one"),
+            ("memory_2", 1, "vslam_onboard: out of memory: set it lower"),
+            ("memory_4", 0, "vslam_onboard: 9 images answered"))
+
+    @staticmethod
+    def run_lines(name, exit_code, said, signal=0):
+        return (f"== run {name}\r\n{said}\r\n== end {name} exit {exit_code} signal {signal} maxrss_kb 2048 user_us 5000 "
+                "system_us 100\r\n")
+
+    def faults(self, facts=FACTS, done="== done\r\n", **other):
+        runs = "".join(other.get(run[0], self.run_lines(*run)) for run in self.RUNS)
+        board = BOARD.Board("U-Boot\r\n" + facts + runs + done)
+        return BOARD.faults_of_board(board) + BOARD.faults_of_runs(board.runs)
+
+    def test_a_good_board_has_no_fault(self):
+        self.assertEqual(self.faults(), [])
+
+    def test_each_fault_is_found(self):
+        for changed in (
+                {"done": ""}, {"facts": self.FACTS.replace("0xc08", "0xc0f")}, {"facts": self.FACTS.replace("neon ", "")},
+                {"facts": self.FACTS.replace("128080", "512000")}, {"facts": self.FACTS + "== fault /card.ko: no such file\r\n"},
+                {"flight": ""}, {"flight": "== run flight\r\n"}, {"flight": self.run_lines("flight", 0, "")},
+                {"self_test": self.run_lines("self_test", 1, "self-test failed")},
+                {"no_camera": self.run_lines("no_camera", 0, "self-test passed")},
+                {"stopped": self.run_lines("stopped", -1, "", signal=15)},
+                {"memory_2": self.run_lines("memory_2", -1, "", signal=11)},  # crashed
+                {"memory_2": self.run_lines("memory_2", 1, "vslam_onboard: std::exception")},
+                {"memory_2": self.run_lines("memory_2", 0, "2 images answered")},  # nothing was refused
+                {"memory_4": self.run_lines("memory_4", 1, "vslam_onboard: out of memory")}):  # nothing was enough
+            with self.subTest(changed=changed):
+                self.assertNotEqual(self.faults(**changed), [])
+
+    def test_files_come_whole_or_are_refused(self):
+        good = "== file /poses.bin 5 907060870\r\n68656c\r\n6c6f\r\n== file_end\r\n"
+        self.assertEqual(BOARD.Board(good).files, {"/poses.bin": b"hello"})
+        for bad in (good.replace("6c6f", "6c6e"), good.replace("6c6f", "6c"), good.replace("6c6f", "6c6"), good.replace("6c6f", "[ 5.6]")):
+            board = BOARD.Board(bad)
+            self.assertEqual((board.files, len(board.faults)), ({}, 1))
 
 
 class Cost(unittest.TestCase):

@@ -30,6 +30,10 @@ Descriptor flipped(const Descriptor& original, int bits, std::mt19937_64& random
   return descriptor;
 }
 
+const Descriptor& anyOf(const std::vector<Descriptor>& descriptors, std::mt19937_64& random) {
+  return descriptors[static_cast<std::size_t>(random() % descriptors.size())];
+}
+
 /// Like those of images: many near a few hundred kinds, a fifth like nothing else, some twice.
 std::vector<Descriptor> clusteredDescriptors(int count, std::mt19937_64& random) {
   std::vector<Descriptor> kinds(300);
@@ -37,11 +41,11 @@ std::vector<Descriptor> clusteredDescriptors(int count, std::mt19937_64& random)
   std::vector<Descriptor> descriptors;
   for (int i = 0; i < count; ++i) {
     if (i % 10 == 9) {
-      descriptors.push_back(descriptors[random() % descriptors.size()]);
+      descriptors.push_back(anyOf(descriptors, random));
     } else if (i % 5 == 4) {
       descriptors.push_back(randomDescriptor(random));
     } else {
-      descriptors.push_back(flipped(kinds[random() % kinds.size()], 120, random));
+      descriptors.push_back(flipped(anyOf(kinds, random), 120, random));
     }
   }
   return descriptors;
@@ -51,7 +55,7 @@ std::vector<Descriptor> queriesNear(const std::vector<Descriptor>& descriptors, 
                                     std::mt19937_64& random) {
   std::vector<Descriptor> queries;
   for (int i = 0; i < count; ++i)
-    queries.push_back(flipped(descriptors[random() % descriptors.size()], 60, random));
+    queries.push_back(flipped(anyOf(descriptors, random), 60, random));
   return queries;
 }
 

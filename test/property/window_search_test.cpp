@@ -14,6 +14,10 @@
 namespace ardrone_vslam::test {
 namespace {
 
+std::size_t drawBelow(std::size_t bound, std::mt19937_64& random) {
+  return static_cast<std::size_t>(random() % bound);
+}
+
 using Places = std::vector<Eigen::Vector2f>;
 using Descriptors = std::vector<Descriptor>;
 
@@ -92,7 +96,7 @@ TEST_P(WindowSearchForms, EqualBruteForce) {
       for (std::size_t i = 0; i < count; ++i) {
         // Clustered, so that there are empty cells and full ones, and some are at one place.
         const bool again = !places_px.empty() && random() % 4 == 0;
-        places_px.push_back(again ? places_px[random() % places_px.size()] : place(0));
+        places_px.push_back(again ? places_px[drawBelow(places_px.size(), random)] : place(0));
       }
       const std::uint64_t mask = trial % 2 == 0 ? 3 : ~std::uint64_t{0};
       const Descriptors descriptors = draw(count, mask, random);
@@ -202,11 +206,11 @@ TEST(FrameTrackerTracks, EqualTheDefinition) {
       ImageFeatures features;
       features.width_px = 640;
       features.height_px = 360;
-      const std::size_t count = frame == 5 ? 0 : 100 + random() % 300;
+      const std::size_t count = frame == 5 ? 0 : 100 + drawBelow(300, random);
       for (std::size_t i = 0; i < count; ++i) {
         features.pixel_px.emplace_back(static_cast<float>(random() % 640),
                                        static_cast<float>(random() % 360));
-        features.descriptor.push_back(kinds[random() % kinds.size()]);
+        features.descriptor.push_back(kinds[drawBelow(kinds.size(), random)]);
         for (int flips = static_cast<int>(random() % 60); flips > 0; --flips)
           features.descriptor.back().words[random() % 8] ^= std::uint64_t{1} << (random() % 64);
       }

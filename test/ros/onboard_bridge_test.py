@@ -9,7 +9,6 @@ import sys
 import tempfile
 import time
 import unittest
-from importlib.machinery import SourceFileLoader
 from pathlib import Path
 
 import numpy as np
@@ -24,16 +23,15 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
 
 HERE = Path(os.path.abspath(__file__)).parent
-sys.path.insert(0, str(HERE))
+sys.path[:0] = [str(HERE), str(HERE.parent / "onboard")]
 sys.dont_write_bytecode = True
 from drone import TIMEOUT_S, Recorder, matrix  # noqa: E402
-
-flight_test = SourceFileLoader("flight_test", str(HERE.parent / "onboard" / "flight_test")).load_module()
+from pose_records import read_poses  # noqa: E402
 
 SOURCE = HERE.parent.parent
 RATE_HZ = 15
 TOLERANCE = rospy.Duration(0.2)  # transform_tolerance_s
-# Of the answers, as flight_test reads them.
+# Of the answers, as pose_records reads them.
 FLAGS, STATE, STAMP_NS, FUSED, OBSERVER, COUNTS, DEVIATION = range(7)
 # The program's states in the order of its protocol, and those of Status.
 STATES = [Status.BUILDING_MAP, Status.LOCALISED, Status.TOO_FEW_LANDMARKS, Status.FIX_REJECTED, Status.OBSERVER_ONLY,
@@ -105,9 +103,9 @@ class OnboardBridge(unittest.TestCase):
     @classmethod
     def fly(cls):
         flight, packed = cls.out / "flight", cls.out / "packed"
-        flight_test.run(rospy.get_param("~make_world"), "laps", "--seconds", 8, "--rate", RATE_HZ, "--camera", "front",
-                        "--observer-profile", "drone", "--seed", 1, "--out", flight, stdout=subprocess.DEVNULL)
-        flight_test.run(SOURCE / "scripts" / "onboard_flight", flight, packed, stdout=subprocess.DEVNULL)
+        subprocess.run([rospy.get_param("~make_world"), "laps", "--seconds", "8", "--rate", str(RATE_HZ), "--camera", "front",
+                        "--observer-profile", "drone", "--seed", "1", "--out", flight], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([SOURCE / "scripts" / "onboard_flight", flight, packed], check=True, stdout=subprocess.DEVNULL)
         cls.images = len((flight / "times.txt").read_text().split())
         stream = (packed / "frames.pgm").read_bytes()
         size = len(stream) // cls.images
@@ -123,7 +121,7 @@ class OnboardBridge(unittest.TestCase):
         program.stdin.close()
         assert program.wait() == 0
         cls.ended_s = time.time()
-        cls.answers = flight_test.read_poses(packed / "poses.bin")
+        cls.answers = read_poses(packed / "poses.bin")
         cls.valid = [answer for answer in cls.answers if answer[FLAGS] == 1]
         cls.of_stamp = {answer[STAMP_NS]: answer for answer in cls.valid}
 
