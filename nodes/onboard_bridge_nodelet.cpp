@@ -188,11 +188,12 @@ void OnboardBridgeNodelet::publishOdomTf(const FrameResult& result) {
 }
 
 void OnboardBridgeNodelet::onTelemetry() {
-  const auto stamp_ns = toOwnClock(stream_.telemetry().features().stamp_ns);
-  if (!stamp_ns) {
+  // It comes behind its image's answer. Only answers tell the time: one wrong telemetry would mute
+  // them.
+  if (stream_.telemetry().features().stamp_ns != drone_ns_) {
     ++telemetry_late_;
   } else if (camera_) {
-    publishFeatures(*stamp_ns);
+    publishFeatures(own_ns_);
   }
 }
 

@@ -79,7 +79,7 @@ class OnboardBridgeNodelet : public nodelet::Nodelet {
   std::int64_t own_ns_ = 0;    // and by this computer's
   std::int64_t heard_ns_ = 0;  // when something good came last, by the monotonic clock; 0: nothing
   std::uint64_t poses_ = 0;
-  std::uint64_t telemetry_late_ = 0;    // of an image before the newest answer's
+  std::uint64_t telemetry_late_ = 0;    // of another image than the newest answer's
   std::uint64_t features_outside_ = 0;  // of the calibration's image
   Status latest_;                       // as published last
   std::string clock_fault_;             // with same_clock

@@ -96,7 +96,7 @@ void OnboardBridgeNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper&
   wrapper.add("answers lost", stream_.posesLost());
   wrapper.add("telemetry", counts.telemetry);
   wrapper.add("telemetry lost", stream_.telemetryLost());
-  wrapper.add("telemetry overtaken by a newer answer", telemetry_late_);
+  wrapper.add("telemetry without the answer of its image", telemetry_late_);
   for (std::size_t i = 0; i < kDatagramFaultCount; ++i)
     wrapper.add(kCountNames[i], counts.faults[i]);
   wrapper.add("restarts", counts.restarts);

@@ -13,6 +13,9 @@ inline std::int64_t clock_ns(clockid_t clock) {
   return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
+/// Stamps beyond it (the year 2096) are damage; sums of stamps below it do not overflow.
+constexpr std::int64_t kLatestStamp_ns = 4'000'000'000'000'000'000;
+
 /// Never goes back.
 inline std::int64_t now_ns() {
   return clock_ns(CLOCK_MONOTONIC);

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "clocks.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -31,8 +33,7 @@ bool isRotation(const double (&q)[4]) {
 }
 
 bool canBe(const VslamPose& pose) {
-  if (!isKnown(pose.state) || pose.stamp_ns < 0 || pose.stamp_ns > TelemetryReader::kLatest_ns)
-    return false;
+  if (!isKnown(pose.state) || pose.stamp_ns < 0 || pose.stamp_ns > kLatestStamp_ns) return false;
   if ((pose.flags & VSLAM_POSE_IS_VALID) == 0) return true;
   return pose.state <= VSLAM_DISTRUSTED && pose.state != VSLAM_NOT_FINITE && pose.stamp_ns > 0 &&
          allFinite(pose.position_m) && isRotation(pose.quaternion) && allFinite(pose.deviation) &&

@@ -11,7 +11,6 @@
 
 #include "clocks.hpp"
 #include "frame_stream.hpp"
-#include "v4l2_camera.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -29,11 +28,12 @@ bool isDevice(const std::string& path) {
 }  // namespace
 
 FrameInput::FrameInput(const OnboardConfig& config, const FrameSize& size, int stop_fd,
-                       std::function<void()> waiting)
+                       std::function<void()> waiting, const V4l2Calls& calls)
     : config_(config),
       size_(size),
       stop_fd_(stop_fd),
       waiting_(std::move(waiting)),
+      calls_(calls),
       is_device_(isDevice(config.frames)) {
   openAgain(now_ns());
 }
@@ -41,6 +41,7 @@ FrameInput::FrameInput(const OnboardConfig& config, const FrameSize& size, int s
 void FrameInput::openAgain(std::int64_t now) {
   if (source_ || (tried_ns_ != 0 && (!is_device_ || now - tried_ns_ < kTryAgain_ns))) return;
   tried_ns_ = now;
+  heard_ns_ = now;
   try {
     open();
     if (!said_.empty()) say(config_.frames + ": the camera is there again");
@@ -53,11 +54,12 @@ void FrameInput::openAgain(std::int64_t now) {
 void FrameInput::open() {
   if (is_device_) {
     source_ = std::make_unique<V4l2Camera>(
-        config_.frames, size_, config_.realtime_clock ? CLOCK_REALTIME : CLOCK_MONOTONIC);
+        config_.frames, size_, config_.realtime_clock ? CLOCK_REALTIME : CLOCK_MONOTONIC, calls_);
     return;
   }
-  FileDescriptor file(config_.frames == "-" ? ::dup(STDIN_FILENO)
-                                            : ::open(config_.frames.c_str(), O_RDONLY));
+  FileDescriptor file(config_.frames == "-"
+                          ? ::dup(STDIN_FILENO)
+                          : ::open(config_.frames.c_str(), O_RDONLY | O_NONBLOCK));
   struct stat status {};
   if (!file.isOpen() || ::fstat(file.get(), &status) != 0)
     throw std::runtime_error(config_.frames + ": cannot be read: " + std::strerror(errno));
@@ -73,7 +75,16 @@ FrameSource::Read FrameInput::read(Frame& frame) {
     source_.reset();
     tried_ns_ = now_ns();
   }
+  if (answer == FrameSource::Read::kFrame) heard_ns_ = now_ns();
   return answer;
+}
+
+void FrameInput::closeSilent(std::int64_t now) {
+  if (!source_ || !is_device_ || now - heard_ns_ < kSilent_ns) return;
+  say(config_.frames + ": no image for a second; the camera is opened again each second");
+  dropped_ += source_->dropped();
+  source_.reset();
+  tried_ns_ = now;
 }
 
 void FrameInput::say(const std::string& fault) {

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "clocks.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -51,12 +53,15 @@ FrameSource::Read FrameStream::read(Frame& frame) {
 }
 
 FrameSource::Read FrameStream::cutOff() {
-  return input_.isStopped() ? Read::kNone
-                            : lost("the images end within one: was it written whole?");
+  if (input_.isStopped()) return Read::kNone;
+  return lost(input_.error() == 0
+                  ? std::string("the images end within one: was it written whole?")
+                  : std::string("the images cannot be read: ") + std::strerror(input_.error()));
 }
 
 FrameSource::Read FrameStream::readOne() {
   const int first = input_.next();
+  if (first < 0 && input_.error() != 0) return cutOff();
   if (first < 0) return input_.isStopped() ? Read::kNone : Read::kEnd;
   std::array<std::uint8_t, 4> magic{static_cast<std::uint8_t>(first)};
   const std::size_t letters = first == 'U' ? 4 : 2;
@@ -73,6 +78,7 @@ FrameSource::Read FrameStream::readOne() {
       return input_.isStopped() ? Read::kNone : lost("an image's header is damaged or cut off");
   }
   if (stamp_ns_ <= 0) return lost("an image without its stamp: write '# stamp_ns N' below its P5");
+  if (stamp_ns_ > kLatestStamp_ns) return lost("an image's stamp is no time: it is in nanoseconds");
   if (numbers[0] != size_.sourceWidth_px() || numbers[1] != size_.sourceHeight_px() ||
       numbers[2] != 255)
     return lost("an image of " + sizeText(numbers[0], numbers[1]) + ", largest value " +

@@ -28,6 +28,8 @@ class InputBuffer {
   std::size_t readSome(std::uint8_t* to, std::size_t count);
   /// Whether next() has something without waiting for it (or the end).
   bool hasMore() const { return begin_ < end_ || isReadable(file_.get()); }
+  /// Why the end came, as errno; 0: it is the end.
+  int error() const { return error_; }
   /// The end came because the program is to stop.
   bool isStopped() const { return is_stopped_; }
   int descriptor() const { return file_.get(); }
@@ -41,6 +43,7 @@ class InputBuffer {
   int stop_fd_;
   std::function<void()> waiting_;
   bool is_stopped_ = false;
+  int error_ = 0;
   std::array<std::uint8_t, 4096> bytes_{};
   std::size_t begin_ = 0;
   std::size_t end_ = 0;

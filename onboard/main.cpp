@@ -9,6 +9,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -107,6 +108,9 @@ int run(const Settings& settings) {
   if (::setpriority(PRIO_PROCESS, 0, settings.onboard.priority) != 0)
     std::fprintf(stderr, "vslam_onboard: priority %d is refused: %s\n", settings.onboard.priority,
                  std::strerror(errno));
+  const std::string& map = settings.onboard.map;
+  const std::string map_fault = map.empty() ? "" : mapFileFault(map);
+  if (!map_fault.empty()) throw std::runtime_error(map_fault);
   OnboardLoop loop(settings, installStopSignal());
   const bool is_good = loop.run();
   loop.printSummary();
@@ -114,8 +118,12 @@ int run(const Settings& settings) {
   std::fprintf(stderr, "vslam_onboard: of %.1f MB of memory at most %.1f were in use\n",
                static_cast<double>(memory.capacity_bytes) / 1e6,
                static_cast<double>(memory.most_bytes) / 1e6);
-  if (settings.onboard.map.empty()) return is_good ? 0 : kFault;
-  const std::string fault = writeLandmarks(settings.onboard.map, loop.landmarks());
+  if (map.empty()) return is_good ? 0 : kFault;
+  if (loop.answered() == 0) {
+    std::fprintf(stderr, "vslam_onboard: no image was answered: %s stays as it was\n", map.c_str());
+    return is_good ? 0 : kFault;
+  }
+  const std::string fault = writeLandmarks(map, loop.landmarks());
   if (!fault.empty()) std::fprintf(stderr, "vslam_onboard: %s\n", fault.c_str());
   return is_good && fault.empty() ? 0 : kFault;
 }

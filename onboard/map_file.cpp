@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_file.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 
 namespace ardrone_vslam {
+namespace {
+
+std::string faultOf(const std::string& path) {
+  return path + ": the map cannot be written: " + std::strerror(errno);
+}
+
+}  // namespace
 
 std::string writeLandmarks(const std::string& path, const LandmarkMap& map) {
   const std::string part = path + ".part";
@@ -20,11 +29,21 @@ std::string writeLandmarks(const std::string& path, const LandmarkMap& map) {
       std::fprintf(file, "%u,%.9g,%.9g,%.9g,%.9g,%.9g,%d\n", l.id, p.x(), p.y(), p.z(),
                    l.deviation_m, l.depth_deviation_m, l.times_seen);
     }
-    is_good = std::ferror(file) == 0;
+    // The drone may be switched off next.
+    is_good = std::ferror(file) == 0 && std::fflush(file) == 0 && ::fsync(::fileno(file)) == 0;
     is_good = std::fclose(file) == 0 && is_good;
   }
   if (is_good) is_good = std::rename(part.c_str(), path.c_str()) == 0;
-  return is_good ? "" : path + ": the map cannot be written: " + std::strerror(errno);
+  return is_good ? "" : faultOf(path);
+}
+
+std::string mapFileFault(const std::string& path) {
+  const std::string part = path + ".part";
+  std::FILE* file = std::fopen(part.c_str(), "w");
+  if (file == nullptr) return faultOf(path);
+  std::fclose(file);
+  std::remove(part.c_str());
+  return "";
 }
 
 }  // namespace ardrone_vslam

@@ -11,4 +11,7 @@ namespace ardrone_vslam {
 /// never half a map. @return a sentence when it cannot be written
 std::string writeLandmarks(const std::string& path, const LandmarkMap& map);
 
+/// Whether writeLandmarks() could write there. @return a sentence when not
+std::string mapFileFault(const std::string& path);
+
 }  // namespace ardrone_vslam

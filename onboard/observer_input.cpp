@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clocks.hpp"
 #include "vslam_protocol.h"
 
 namespace ardrone_vslam {
@@ -22,7 +23,8 @@ bool isFinite(const VslamObserver& o) {
 
 std::optional<ObserverState> toState(const VslamObserver& o) {
   const Eigen::Quaterniond q(o.quaternion[3], o.quaternion[0], o.quaternion[1], o.quaternion[2]);
-  if (!isFinite(o) || std::abs(q.norm() - 1) > kNormTolerance || o.stamp_ns <= 0)
+  if (!isFinite(o) || std::abs(q.norm() - 1) > kNormTolerance || o.stamp_ns <= 0 ||
+      o.stamp_ns > kLatestStamp_ns)
     return std::nullopt;
   ObserverState state;
   state.stamp_ns = o.stamp_ns;

@@ -50,6 +50,7 @@ bool OnboardLoop::run() {
 /// @return false when the program is to stop
 bool OnboardLoop::step() {
   if (observer_source_.isLive()) readObserver();
+  frames_.closeSilent(now_ns());
   if (pipeline_.isWaiting()) {
     answer();
   } else if (frames_.isLost()) {
@@ -181,16 +182,17 @@ void OnboardLoop::giveUp(std::uint32_t state) {
 /// Why there is no pose.
 std::uint32_t OnboardLoop::idleState(std::int64_t now) const {
   const std::int64_t since_ns = now - std::max(frame_ns_, began_ns_);
-  if (frames_.isLost() || since_ns > kCameraSilent_ns) return VSLAM_CAMERA_LOST;
+  if (frames_.isLost() || since_ns > FrameInput::kSilent_ns) return VSLAM_CAMERA_LOST;
   if (observer_input_.isSilent(now, settings_.onboard.controller_silent_s))
     return VSLAM_CONTROLLER_SILENT;
   return frame_ns_ == 0 ? VSLAM_WAITING_FOR_IMAGES : VSLAM_NO_OBSERVER;
 }
 
 void OnboardLoop::sayState(std::int64_t now) {
-  if (now - said_ns_ < kSayState_ns || pipeline_.isWaiting()) return;
-  const std::uint32_t state = idleState(now);
-  if (state == VSLAM_NO_OBSERVER) return;  // images come, slowly: each has its answer
+  if (now - said_ns_ < kSayState_ns) return;
+  std::uint32_t state = idleState(now);
+  // Images come, slowly.
+  if (state == VSLAM_NO_OBSERVER && !pipeline_.isWaiting()) state = VSLAM_WAITING_FOR_IMAGES;
   said_ns_ = now;
   output_.sendState(state, 0, counters());
 }

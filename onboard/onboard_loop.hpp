@@ -20,8 +20,6 @@ namespace ardrone_vslam {
 class OnboardLoop {
  public:
   static constexpr std::int64_t kSayState_ns = 200'000'000;
-  /// A camera that says nothing for so long counts as lost.
-  static constexpr std::int64_t kCameraSilent_ns = 1'000'000'000;
 
   /// @param stop_fd  becomes readable when the program is to stop
   /// @throws ConfigError, std::runtime_error, std::invalid_argument
@@ -34,6 +32,7 @@ class OnboardLoop {
   /// UDP; for one that was given as 0.
   int observerPort() const { return portOf(observer_source_.descriptor()); }
   const LandmarkMap& landmarks() const { return pipeline_.landmarks(); }
+  std::uint32_t answered() const { return answered_; }
   /// What was answered, lost and dropped, and what it cost: a line each.
   void printSummary() const;
 
@@ -63,7 +62,7 @@ class OnboardLoop {
   bool is_observer_over_ = false;
   std::int64_t began_ns_;
   std::int64_t frame_ns_ = 0;  // when the newest image came; 0: none has
-  std::int64_t said_ns_ = 0;
+  std::int64_t said_ns_ = began_ns_;
   std::uint32_t answered_ = 0;
   std::int64_t all_cost_ns_ = 0;  // processor time of the images answered
   std::int64_t most_cost_ns_ = 0;

@@ -72,7 +72,8 @@ class SectionReader {
 YamlSections readFile(const std::string& path, std::vector<std::string>& faults) {
   std::string text;
   if (!readText(path, text)) {
-    faults.push_back(path + ": cannot be read; check the path");
+    faults.push_back(path +
+                     ": cannot be read, or is no text of a configuration's size; check the path");
     return {};
   }
   std::vector<std::string> line_faults;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "clocks.hpp"
 #include "telemetry.hpp"
 #include "vslam_protocol.h"
 
@@ -62,7 +63,7 @@ bool TelemetryReader::read(const std::uint8_t* datagram, std::size_t size) {
   from = getCount(from, landmark_count);
   const std::size_t expected = Telemetry::kFixedBytes + feature_count * Telemetry::kFeatureBytes +
                                landmark_count * Telemetry::kLandmarkBytes + VSLAM_CRC_BYTES;
-  if (size != expected || stamp_ns <= 0 || stamp_ns > kLatest_ns) return false;
+  if (size != expected || stamp_ns <= 0 || stamp_ns > kLatestStamp_ns) return false;
 
   const std::uint8_t* of_landmarks = from + feature_count * Telemetry::kFeatureBytes;
   arrived_.clear();

@@ -17,8 +17,6 @@ class TelemetryReader {
  public:
   /// A landmark that does not come for so many rounds is no longer in the drone's map.
   static constexpr std::uint32_t kForgetRounds = 2;
-  /// Stamps beyond it are none: ROS's time ends in the year 2106.
-  static constexpr std::int64_t kLatest_ns = 4'000'000'000'000'000'000;
 
   /// One datagram, in order. @pre vslam_check calls it good (asserted)
   /// @return false when its contents cannot be; nothing of it is used then

@@ -8,7 +8,8 @@
  * Each record: magic, version, kind, size, sequence, fields in the order below, CRC-32 (as zlib's) of all bytes before it.
  *
  * A controller sends, for each state of its observer:
- *   VslamObserver o = {0};
+ *   VslamObserver o;
+ *   memset(&o, 0, sizeof o);
  *   o.sequence = ++count; o.stamp_ns = now; o.position_m[0] = ...; o.quaternion[3] = 1;
  *   uint8_t bytes[VSLAM_OBSERVER_BYTES];
  *   vslam_write_observer(&o, bytes);
@@ -66,7 +67,8 @@ typedef struct VslamObserver {
   int64_t stamp_ns;
   double position_m[3]; /* of base in odom: the frame that drifts, z up */
   double quaternion[4]; /* base to odom; base: x forward, y left, z up */
-  double variance[6];   /* position [m^2], rotation vector [rad^2], axes of odom */
+  double variance[6];   /* position [m^2], rotation vector [rad^2], axes of odom; their growth tells the drift. Beyond 0 ..
+                           1e4 m^2 they count as not given */
   double height_m;      /* of base above the floor, measured at the stamp */
 } VslamObserver;
 

@@ -183,6 +183,8 @@ bool toSwitch(const std::string& text, bool& value) {
   return value || isOneOf({"false", "no", "off", "n"});
 }
 
+constexpr std::size_t kLargestFile_bytes = 256 * 1024;
+
 bool readText(const std::string& path, std::string& text) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
@@ -190,7 +192,7 @@ bool readText(const std::string& path, std::string& text) {
   std::array<char, 4096> part;
   text.clear();
   for (std::size_t got; (got = std::fread(part.data(), 1, part.size(), file.get())) > 0;)
-    text.append(part.data(), got);
+    if (text.append(part.data(), got).size() > kLargestFile_bytes) return false;
   return std::ferror(file.get()) == 0;
 }
 

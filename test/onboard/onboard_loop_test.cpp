@@ -126,6 +126,56 @@ TEST_F(OnboardLoopTest, AFifoOfRecordsThatStopsWithinOneHoldsNothingUp) {
   EXPECT_EQ(answers[2].state, static_cast<std::uint32_t>(VSLAM_NO_OBSERVER));
 }
 
+TEST_F(OnboardLoopTest, AControllerMayCloseItsFifoAndComeAgain) {
+  ASSERT_EQ(::mkfifo(file("observer").c_str(), 0600), 0);
+  settings_.onboard.observer = file("observer");
+  const std::string good = records();
+  OnboardLoop loop(settings_, stop_.ends[0]);  // needs no writer
+  for (std::size_t at = 0; at < good.size(); at += good.size() / 2) {
+    const FileDescriptor controller(::open(file("observer").c_str(), O_WRONLY));
+    ASSERT_EQ(::write(controller.get(), good.data() + at, good.size() / 2),
+              static_cast<ssize_t>(good.size() / 2));
+  }
+  EXPECT_TRUE(loop.run());
+  const auto answers = poses();
+  ASSERT_EQ(answers.size(), kImages + 1U);
+  for (int i = 0; i < kImages; ++i)
+    EXPECT_EQ(answers[static_cast<std::size_t>(i)].flags, VSLAM_POSE_IS_VALID) << i;
+}
+
+TEST_F(OnboardLoopTest, AfterBytesThatAreNoRecordTheNextOneIsFound) {
+  std::string bytes = records();
+  bytes.insert(2 * VSLAM_OBSERVER_BYTES, "VSLnoise");
+  bytes.insert(0, 1, '\0');
+  writeFile(file("observer"), bytes);
+  settings_.onboard.observer = file("observer");
+  EXPECT_TRUE(OnboardLoop(settings_, stop_.ends[0]).run());
+  const auto answers = poses();
+  ASSERT_EQ(answers.size(), kImages + 1U);
+  for (int i = 0; i < kImages; ++i)
+    EXPECT_EQ(answers[static_cast<std::size_t>(i)].flags, VSLAM_POSE_IS_VALID) << i;
+  EXPECT_GE(answers.back().records_dropped, 2U);
+}
+
+TEST_F(OnboardLoopTest, WhatCannotBeReadIsAFault) {
+  settings_.onboard.frames = ::testing::TempDir();  // a folder
+  OnboardLoop loop(settings_, stop_.ends[0]);
+  EXPECT_FALSE(loop.run());
+  EXPECT_EQ(poses().back().state, static_cast<std::uint32_t>(VSLAM_CAMERA_LOST));
+}
+
+TEST_F(OnboardLoopTest, ARecordOfADamagedTimeIsRefused) {
+  VslamObserver late = observerAt(INT64_MAX, 1);
+  const Record record = recordOf(late);
+  writeFile(file("observer"), std::string(record.begin(), record.end()) + records());
+  settings_.onboard.observer = file("observer");
+  OnboardLoop(settings_, stop_.ends[0]).run();
+  const auto answers = poses();
+  ASSERT_EQ(answers.size(), kImages + 1U);
+  EXPECT_EQ(answers[1].flags, VSLAM_POSE_IS_VALID);
+  EXPECT_EQ(answers.back().records_dropped, 1U);
+}
+
 TEST_F(OnboardLoopTest, ImagesThatStopWithinOneAreSaid) {
   const std::string stream = readFile(file("frames"));
   std::remove(file("frames").c_str());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "clocks.hpp"
+#include "frame_input.hpp"
 #include "v4l2_buffer.hpp"
 
 namespace ardrone_vslam::test {
@@ -135,6 +136,30 @@ TEST_F(V4l2CameraTest, StampsAreOfTheClockAskedForWhicheverTheDriverUsed) {
       camera_.queued.clear();
     }
   }
+}
+
+TEST_F(V4l2CameraTest, ASilentCameraIsOpenedAgain) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  OnboardConfig config;
+  config.frames = "/dev/null";  // a device; the calls are the test's
+  FrameInput input(config, kSize, -1, {}, kFakeCalls);
+  ASSERT_FALSE(input.isLost());
+  fake->stamp_ns = now_ns();
+  fake->shoot(7);
+  Frame frame;
+  ASSERT_EQ(input.read(frame), FrameSource::Read::kFrame);
+  const std::int64_t heard_ns = now_ns();
+  input.closeSilent(heard_ns + kSecond_ns / 2);
+  EXPECT_FALSE(input.isLost());
+  input.closeSilent(heard_ns + kSecond_ns);
+  EXPECT_TRUE(input.isLost());
+  EXPECT_FALSE(input.isOver());
+  EXPECT_FALSE(fake->is_streaming);
+  input.openAgain(heard_ns + kSecond_ns * 3 / 2);
+  EXPECT_TRUE(input.isLost()) << "it is left alone for a second";
+  input.openAgain(heard_ns + 2 * kSecond_ns);
+  EXPECT_FALSE(input.isLost());
+  fake->queued.clear();
 }
 
 TEST_F(V4l2CameraTest, ALostCameraIsSaid) {
