@@ -2,6 +2,7 @@
 // The first and only process of the emulated board (scripts/emulated_board). It does what /plan
 // says, a line each, and tells on the serial port what came of it; board_report reads that.
 //   module FILE: load a kernel module
+//   copy FILE OFFSET BYTES: write it from the card's bytes
 //   run NAME LIMIT_MB IMAGE_BYTES close|term COMMAND...: run it in so much address space; that many
 //     of the card's first bytes go to its standard input, which then ends, or it gets SIGTERM
 //   send FILE: its bytes in hexadecimal digits, with their CRC-32
@@ -81,6 +82,24 @@ void feed(int to, long bytes) {
   if (card >= 0) ::close(card);
 }
 
+/// The flight's records are too long for what the kernel unpacks at its start.
+void copy(const std::string& path, off_t offset, long bytes) {
+  const int card = ::open(kCard, O_RDONLY);
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  bool is_good = card >= 0 && file != nullptr && ::lseek(card, offset, SEEK_SET) == offset;
+  std::vector<char> part(65536);
+  while (is_good && bytes > 0) {
+    const std::size_t wanted = std::min(part.size(), static_cast<std::size_t>(bytes));
+    const ssize_t got = ::read(card, part.data(), wanted);
+    is_good = got > 0 && std::fwrite(part.data(), 1, static_cast<std::size_t>(got), file) ==
+                             static_cast<std::size_t>(got);
+    bytes -= got;
+  }
+  if (file != nullptr) is_good = std::fclose(file) == 0 && is_good;
+  if (card >= 0) ::close(card);
+  if (!is_good) std::printf("== fault %s: %s\n", path.c_str(), std::strerror(errno));
+}
+
 [[noreturn]] void execute(const std::vector<std::string>& command, rlim_t limit_mb) {
   const rlimit limit{limit_mb << 20, limit_mb << 20};
   std::vector<char*> arguments;
@@ -155,6 +174,9 @@ int main() {
     words >> what;
     if (what == "run") run(words);
     if (what == "module" && words >> path) loadModule(path);
+    off_t offset = 0;
+    long bytes = 0;
+    if (what == "copy" && words >> path >> offset >> bytes) copy(path, offset, bytes);
     if (what == "send" && words >> path) send(path);
     std::fflush(stdout);
   }
