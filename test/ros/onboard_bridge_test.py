@@ -4,11 +4,13 @@
 computed; then a damaged link, a program that is started again without a camera or a controller, and silence."""
 import os
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -266,6 +268,23 @@ class OnboardBridge(unittest.TestCase):
                                  s.level == DiagnosticStatus.ERROR)
         self.assertIsNotNone(silent)
         self.assertEqual(len(self.all("pose")), self.images)
+
+    def test_i_only_answers_tell_the_time(self):
+        """Telemetry of a far time, of another program perhaps, does not mute the answers that follow."""
+        sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+
+        def send(body):
+            sender.sendto(body + struct.pack("<I", zlib.crc32(body)), ("127.0.0.1", self.port))
+
+        send(struct.pack("<4sBBHIqIIHH", b"VSLM", 1, 3, 36, 10**6, 39 * 10**17, 0, 0, 0, 0))
+        self.assertIsNotNone(self.diagnostic("vslam", lambda s: any(
+            v.key == "telemetry without the answer of its image" and int(v.value) > 0 for v in s.values)))
+        answer = bytearray((self.out / "packed" / "poses.bin").read_bytes()[-2 * 204:-204][:-4])  # before ENDING
+        stamp_ns = self.valid[-1][STAMP_NS] + 10**9
+        struct.pack_into("<I", answer, 8, 10**6)
+        struct.pack_into("<q", answer, 20, stamp_ns)
+        send(bytes(answer))
+        self.assertIsNotNone(self.topics["pose"].wait(lambda p: p.header.stamp.to_nsec() == stamp_ns))
 
 
 if __name__ == "__main__":
