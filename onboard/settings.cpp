@@ -71,9 +71,9 @@ class SectionReader {
 
 YamlSections readFile(const std::string& path, std::vector<std::string>& faults) {
   std::string text;
-  if (!readText(path, text)) {
-    faults.push_back(path +
-                     ": cannot be read, or is no text of a configuration's size; check the path");
+  const std::string unread = readText(path, text);
+  if (!unread.empty()) {
+    faults.push_back(path + ": " + unread);
     return {};
   }
   std::vector<std::string> line_faults;

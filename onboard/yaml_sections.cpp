@@ -15,6 +15,9 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr std::size_t kLargestFile_bytes = 256 * 1024;
+constexpr const char* kUnreadable = "cannot be read; check the path";
+
 std::string trimmed(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \t\r");
   if (begin == std::string::npos) return {};
@@ -183,17 +186,16 @@ bool toSwitch(const std::string& text, bool& value) {
   return value || isOneOf({"false", "no", "off", "n"});
 }
 
-constexpr std::size_t kLargestFile_bytes = 256 * 1024;
-
-bool readText(const std::string& path, std::string& text) {
+std::string readText(const std::string& path, std::string& text) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
-  if (!file) return false;
+  if (!file) return kUnreadable;
   std::array<char, 4096> part;
   text.clear();
   for (std::size_t got; (got = std::fread(part.data(), 1, part.size(), file.get())) > 0;)
-    if (text.append(part.data(), got).size() > kLargestFile_bytes) return false;
-  return std::ferror(file.get()) == 0;
+    if (text.append(part.data(), got).size() > kLargestFile_bytes)
+      return "is too large for a configuration or a calibration; check the path";
+  return std::ferror(file.get()) == 0 ? "" : kUnreadable;
 }
 
 }  // namespace ardrone_vslam

@@ -25,7 +25,7 @@ bool toNumber(const std::string& text, int& value);
 /// As YAML 1.1 has it: true, yes, on, y and their opposites.
 bool toSwitch(const std::string& text, bool& value);
 
-/// A file's bytes. @return false when it cannot be read
-bool readText(const std::string& path, std::string& text);
+/// A configuration's or calibration's text. @return what is wrong with the file, else nothing
+std::string readText(const std::string& path, std::string& text);
 
 }  // namespace ardrone_vslam

@@ -117,6 +117,20 @@ TEST(SettingsTest, EveryFaultIsNamed) {
   EXPECT_THROW(loadSettings("/nowhere/config.yaml", {}), ConfigError);
 }
 
+TEST(SettingsTest, FilesThatAreNoneAreRefused) {
+  const auto faultOf = [](const std::string& path) -> std::string {
+    try {
+      loadSettings(path, {});
+    } catch (const ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_NE(faultOf("/dev/zero").find("/dev/zero: is too large"), std::string::npos);
+  EXPECT_NE(faultOf("/none").find("/none: cannot be read"), std::string::npos);
+  EXPECT_NE(faultOf("/").find("/: cannot be read"), std::string::npos);
+}
+
 TEST(SettingsTest, ACalibrationThatIsNoneIsRefused) {
   const std::string path = ::testing::TempDir() + "onboard_calibration.yaml";
   const std::string good =
