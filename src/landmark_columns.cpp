@@ -42,22 +42,22 @@ kernels::ProjectCamera cameraOf(const FrameView& view, const ProjectionLimits& l
 
 }  // namespace
 
-void LandmarkColumns::reserve(std::size_t count) {
+template <class Action>
+void LandmarkColumns::forEachColumn(const Action& action) {
   for (auto* column : {&x_m_, &y_m_, &z_m_, &height_m_, &view_x_, &view_y_, &view_z_, &seen_m2_}) {
-    column->reserve(count);
+    action(*column);
   }
-  position_variance_m2_.reserve(count);
-  track_id_.reserve(count);
-  anchor_id_.reserve(count);
+  action(position_variance_m2_);
+  action(track_id_);
+  action(anchor_id_);
+}
+
+void LandmarkColumns::reserve(std::size_t count) {
+  forEachColumn([count](auto& column) { column.reserve(count); });
 }
 
 void LandmarkColumns::resize(std::size_t count) {
-  for (auto* column : {&x_m_, &y_m_, &z_m_, &height_m_, &view_x_, &view_y_, &view_z_, &seen_m2_}) {
-    column->resize(count);
-  }
-  position_variance_m2_.resize(count);
-  track_id_.resize(count);
-  anchor_id_.resize(count);
+  forEachColumn([count](auto& column) { column.resize(count); });
 }
 
 void LandmarkColumns::set(std::size_t index, const Landmark& landmark) {

@@ -63,6 +63,9 @@ class LandmarkColumns {
   float seenDistance_m(std::size_t index) const;
 
  private:
+  template <class Action>
+  void forEachColumn(const Action& action);
+
   Eigen::Vector3d origin_map_ = Eigen::Vector3d::Zero();
   std::vector<float> x_m_;
   std::vector<float> y_m_;
