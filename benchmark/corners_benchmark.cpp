@@ -2,7 +2,7 @@
 #include <memory>
 #include <opencv2/features2d.hpp>
 
-#include "ardrone_vslam/corner_detector.hpp"
+#include "corners/corner_detector.hpp"
 #include "frames.hpp"
 #include "row.hpp"
 #include "rows.hpp"

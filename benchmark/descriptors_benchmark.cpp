@@ -2,9 +2,9 @@
 #include <memory>
 #include <opencv2/features2d.hpp>
 
-#include "ardrone_vslam/freak.hpp"
 #include "ardrone_vslam/tracker.hpp"
 #include "frames.hpp"
+#include "freak/freak.hpp"
 #include "row.hpp"
 #include "rows.hpp"
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "ardrone_vslam/association.hpp"
+#include "matching/association.hpp"
 #include "row.hpp"
 #include "rows.hpp"
 
@@ -43,8 +43,8 @@ struct Street {
       Landmark landmark;
       landmark.descriptor = randomDescriptor(random);
       landmark.position_map << uniform(0, 400), uniform(-30, 30), uniform(-2, 8);
-      const double turn_rad = uniform(-M_PI, M_PI);
-      landmark.view_direction_map << std::cos(turn_rad), std::sin(turn_rad), 0;
+      const double rotation_rad = uniform(-M_PI, M_PI);
+      landmark.view_direction_map << std::cos(rotation_rad), std::sin(rotation_rad), 0;
       landmark.seen_distance_m = uniform(5, 40);
       map.add(landmark);
     }

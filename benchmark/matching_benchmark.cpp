@@ -5,9 +5,9 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/flann.hpp>
 
-#include "ardrone_vslam/descriptor_index.hpp"
-#include "ardrone_vslam/descriptor_matcher.hpp"
 #include "descriptors_of_frames.hpp"
+#include "matching/descriptor_index.hpp"
+#include "matching/descriptor_matcher.hpp"
 #include "row.hpp"
 #include "rows.hpp"
 

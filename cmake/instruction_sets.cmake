@@ -1,9 +1,9 @@
-# Only src/kernels/*_avx2.cpp, *_avx512.cpp and *_neon.cpp get instruction-set flags; which of them runs is chosen at run
+# Only src/kernels/*/*_avx2.cpp, *_avx512.cpp and *_neon.cpp get instruction-set flags; which of them runs is chosen at run
 # time, so that one build runs on every processor of its architecture.
 function(ardrone_vslam_instruction_sets target)
-  file(GLOB avx2 CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/kernels/*_avx2.cpp)
-  file(GLOB avx512 CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/kernels/*_avx512.cpp)
-  file(GLOB neon CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/kernels/*_neon.cpp)
+  file(GLOB avx2 CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/kernels/*/*_avx2.cpp)
+  file(GLOB avx512 CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/kernels/*/*_avx512.cpp)
+  file(GLOB neon CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/kernels/*/*_neon.cpp)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set_source_files_properties(${avx2} PROPERTIES COMPILE_OPTIONS "-mavx2;-mbmi;-mbmi2;-mpopcnt")
     set_source_files_properties(${avx512} PROPERTIES

@@ -7,12 +7,12 @@
 #include <optional>
 #include <string>
 
-#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 #include "mounting.hpp"
 
 namespace ardrone_vslam {
 
-/// The turn of the image by the observer's attitude (topic `attitude`, the observer's odometry).
+/// The turn of the image by the odometry's attitude (topic `attitude`, the odometry's odometry).
 /// An image does not wait for it: what the newest message says is near enough.
 class AttitudeInput {
  public:
@@ -22,8 +22,8 @@ class AttitudeInput {
   AttitudeInput(ros::NodeHandle nh, double image_time_offset_s);
 
   /// @return nothing when the latest attitude is more than kOldest_ns older than the exposure, the
-  ///   camera's mounting is not known, or gravity does not say (sceneTurn_rad)
-  std::optional<float> sceneTurn_rad(std::int64_t stamp_ns, const std::string& camera_frame);
+  ///   camera's mounting is not known, or gravity does not say (imageRoll_rad)
+  std::optional<float> imageRoll_rad(std::int64_t stamp_ns, const std::string& camera_frame);
 
   std::uint64_t imagesWithout() const { return images_without_; }
   /// Why the latest image had none, with the remedy; empty if it had.
@@ -35,7 +35,7 @@ class AttitudeInput {
 
   Mounting mounting_;
   std::int64_t image_time_offset_ns_;
-  ObserverBuffer buffer_;
+  OdometryBuffer buffer_;
   std::string base_frame_;
   std::string topic_;
   std::string fault_;

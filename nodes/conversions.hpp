@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "ardrone_vslam/delayed_fusion.hpp"
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/height_input.hpp"
-#include "ardrone_vslam/landmark_map.hpp"
-#include "ardrone_vslam/late_fusion.hpp"
-#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/landmark.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 #include "ardrone_vslam/odometry_faults.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/time_offset.hpp"
@@ -36,10 +36,10 @@ ros::Time toRosTime(std::int64_t stamp_ns);
 
 /// Pose of base in odom with a normalised quaternion, within rangeFault's bounds. The covariance is
 /// the message's, also one that counts as not given (covarianceFault).
-Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry);
+Checked<OdometryState> toOdometryState(const nav_msgs::Odometry& odometry);
 
-/// The same with any finite position and twist: for the ObserverAdapter, which repairs some.
-Checked<ObserverState> toUnboundedState(const nav_msgs::Odometry& odometry);
+/// The same with any finite position and twist: for the OdometryAdapter, which repairs some.
+Checked<OdometryState> toUnboundedState(const nav_msgs::Odometry& odometry);
 
 /// Its range is not looked at: HeightInput knows what is one.
 Checked<RangeReading> toRangeReading(const sensor_msgs::Range& message);
@@ -73,14 +73,14 @@ geometry_msgs::Transform toTransform(const Eigen::Isometry3d& T_a_b);
 /// The fused pose of base in map.
 geometry_msgs::PoseWithCovarianceStamped toPoseMessage(const FrameResult& result,
                                                        const Frames& frames);
-/// The same as odometry; the twist (of base, axes of base) is the observer's.
-/// @param observer  at the same stamp
+/// The same as odometry; the twist (of base, axes of base) is the odometry's.
+/// @param odometry  at the same stamp
 nav_msgs::Odometry toOdometryMessage(const FrameResult& result, const Frames& frames,
-                                     const ObserverState& observer);
-/// Live odometry seen from map; the twist (of base, axes of base) is the observer's.
+                                     const OdometryState& odometry);
+/// Live odometry seen from map; the twist (of base, axes of base) is the odometry's.
 nav_msgs::Odometry toOdometryMessage(const MapState& state, const Frames& frames);
-/// The observer's state as a driver would send it.
-nav_msgs::Odometry toOdometryMessage(const ObserverState& state, const std::string& odom_frame,
+/// The odometry's state as a driver would send it.
+nav_msgs::Odometry toOdometryMessage(const OdometryState& state, const std::string& odom_frame,
                                      const std::string& base_frame);
 PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
                                    const Frames& frames);

@@ -74,7 +74,7 @@ ros::Time toRosTime(std::int64_t stamp_ns) {
   return time.fromNSec(static_cast<std::uint64_t>(stamp_ns));
 }
 
-Checked<ObserverState> toUnboundedState(const nav_msgs::Odometry& odometry) {
+Checked<OdometryState> toUnboundedState(const nav_msgs::Odometry& odometry) {
   const auto T_odom_base = toIsometry(odometry.pose.pose);
   if (!T_odom_base.value) return {std::nullopt, T_odom_base.fault};
   const auto& covariance = odometry.pose.covariance;
@@ -85,7 +85,7 @@ Checked<ObserverState> toUnboundedState(const nav_msgs::Odometry& odometry) {
   const std::string twist_fault = faultOf(odometry.twist);
   if (!twist_fault.empty()) return {std::nullopt, twist_fault};
   if (odometry.header.stamp.isZero()) return {std::nullopt, "its stamp is zero; set header.stamp"};
-  ObserverState state;
+  OdometryState state;
   state.stamp_ns = toNanoseconds(odometry.header.stamp);
   state.T_odom_base = *T_odom_base.value;
   state.covariance = toMatrix(covariance);
@@ -96,7 +96,7 @@ Checked<ObserverState> toUnboundedState(const nav_msgs::Odometry& odometry) {
   return {state, {}};
 }
 
-Checked<ObserverState> toObserverState(const nav_msgs::Odometry& odometry) {
+Checked<OdometryState> toOdometryState(const nav_msgs::Odometry& odometry) {
   const auto checked = toUnboundedState(odometry);
   const std::string range_fault = checked.value ? rangeFault(*checked.value) : "";
   if (!range_fault.empty()) return {std::nullopt, range_fault};

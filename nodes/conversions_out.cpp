@@ -11,8 +11,8 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kGreenDeviation_m = 0.01;
-constexpr double kRedDeviation_m = 1.0;
+constexpr double kGreenSigma_m = 0.01;
+constexpr double kRedSigma_m = 1.0;
 constexpr double kMarkerSide_m = 0.05;
 
 std_msgs::Header headerOf(std::int64_t stamp_ns, const std::string& frame) {
@@ -54,7 +54,7 @@ std::uint8_t stateOf(SlamState state) {
       return Status::TOO_FEW_LANDMARKS;
     case SlamState::kFixRejected:
       return Status::FIX_REJECTED;
-    case SlamState::kObserverOnly:
+    case SlamState::kOdometryOnly:
       return Status::OBSERVER_ONLY;
     case SlamState::kNotFinite:
       return Status::NOT_FINITE;
@@ -74,10 +74,9 @@ std::uint8_t stateOf(SlamState state) {
 }
 
 /// Green over yellow to red, on a logarithmic scale.
-std_msgs::ColorRGBA colourOf(double deviation_m) {
-  const double clamped = std::clamp(deviation_m, kGreenDeviation_m, kRedDeviation_m);
-  const double share =
-      std::log(clamped / kGreenDeviation_m) / std::log(kRedDeviation_m / kGreenDeviation_m);
+std_msgs::ColorRGBA colourOf(double sigma_m) {
+  const double clamped = std::clamp(sigma_m, kGreenSigma_m, kRedSigma_m);
+  const double share = std::log(clamped / kGreenSigma_m) / std::log(kRedSigma_m / kGreenSigma_m);
   std_msgs::ColorRGBA colour;
   colour.r = static_cast<float>(std::min(1.0, 2 * share));
   colour.g = static_cast<float>(std::min(1.0, 2 * (1 - share)));
@@ -145,12 +144,12 @@ geometry_msgs::PoseWithCovarianceStamped toPoseMessage(const FrameResult& result
 }
 
 nav_msgs::Odometry toOdometryMessage(const FrameResult& result, const Frames& frames,
-                                     const ObserverState& observer) {
+                                     const OdometryState& odometry) {
   nav_msgs::Odometry message;
   message.header = headerOf(result.stamp_ns, frames.map);
   message.child_frame_id = frames.base;
   message.pose = toPoseWithCovariance(result);
-  fillTwist(observer.twist_base, observer.twist_covariance, message.twist);
+  fillTwist(odometry.twist_base, odometry.twist_covariance, message.twist);
   return message;
 }
 
@@ -164,7 +163,7 @@ nav_msgs::Odometry toOdometryMessage(const MapState& state, const Frames& frames
   return message;
 }
 
-nav_msgs::Odometry toOdometryMessage(const ObserverState& state, const std::string& odom_frame,
+nav_msgs::Odometry toOdometryMessage(const OdometryState& state, const std::string& odom_frame,
                                      const std::string& base_frame) {
   nav_msgs::Odometry message;
   message.header = headerOf(state.stamp_ns, odom_frame);
@@ -183,7 +182,7 @@ PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isome
   message.observer_pose = toPose(result.T_odom_base);
   message.fused_pose = toPoseWithCovariance(result);
   message.map_to_odom = toTransform(T_map_odom);
-  message.deviation = result.deviation_m;
+  message.deviation = result.sigma_m;
   message.corrected = result.state == SlamState::kLocalised ||
                       result.state == SlamState::kTracking || result.state == SlamState::kResting ||
                       result.state == SlamState::kRotating || result.state == SlamState::kRelocated;
@@ -217,10 +216,10 @@ void toStatus(const FrameResult& result, const std::string& map_frame, Status& s
   status.landmarks = count(result.landmarks);
   status.map_features = count(result.map_features);
   status.fix_nis = std::isfinite(result.fix_nis) ? result.fix_nis : 0;
-  const bool has_scale = std::isfinite(result.scale_error + result.scale_deviation);
+  const bool has_scale = std::isfinite(result.scale_error + result.scale_sigma);
   status.scale_error = has_scale ? result.scale_error : 0;
-  status.scale_deviation = has_scale ? result.scale_deviation : 0;
-  status.deviation = result.state == SlamState::kNotFinite ? 0 : result.deviation_m;
+  status.scale_deviation = has_scale ? result.scale_sigma : 0;
+  status.deviation = result.state == SlamState::kNotFinite ? 0 : result.sigma_m;
 }
 
 void toStatus(const OdometryFaultCounts& faults, Status& status) {
@@ -258,7 +257,7 @@ sensor_msgs::PointCloud2 toCloud(const std::vector<Landmark>& landmarks,
   for (const Landmark& landmark : landmarks) {
     for (int axis = 0; axis < 3; ++axis)
       xyzd[axis] = static_cast<float>(landmark.position_map[axis]);
-    xyzd[3] = static_cast<float>(landmark.deviation_m);
+    xyzd[3] = static_cast<float>(landmark.sigma_m);
     seen_id[0] = static_cast<std::uint32_t>(landmark.times_seen);
     seen_id[1] = landmark.id;
     ++xyzd;
@@ -287,7 +286,7 @@ visualization_msgs::Marker toMarker(const std::vector<Landmark>& landmarks,
     point.y = landmark.position_map.y();
     point.z = landmark.position_map.z();
     marker.points.push_back(point);
-    marker.colors.push_back(colourOf(landmark.deviation_m));
+    marker.colors.push_back(colourOf(landmark.sigma_m));
   }
   return marker;
 }

@@ -8,7 +8,7 @@
 
 namespace ardrone_vslam {
 
-FrameMatcher::FrameMatcher(const ObserverBufferConfig& config, double wait_s,
+FrameMatcher::FrameMatcher(const OdometryBufferConfig& config, double wait_s,
                            double image_time_offset_s)
     : buffer_(config),
       wait_s_(wait_s),
@@ -20,12 +20,12 @@ void FrameMatcher::addFeatures(const FeaturesConstPtr& features, double now_s) {
 
 std::optional<FrameMatcher::Frame> FrameMatcher::next(
     double now_s, const std::function<bool(const Features&)>& can_use) {
-  using Lookup = ObserverBuffer::Lookup;
+  using Lookup = OdometryBuffer::Lookup;
   while (!waiting_.empty()) {
     const bool is_late = now_s - waiting_.front().since_s > wait_s_;
     Frame frame{waiting_.front().features, {}};
     const Lookup answer = buffer_.at(
-        toNanoseconds(frame.features->header.stamp) + image_time_offset_ns_, frame.observer);
+        toNanoseconds(frame.features->header.stamp) + image_time_offset_ns_, frame.odometry);
     if (answer == Lookup::kFound) {
       const bool is_usable = can_use(*frame.features);
       if (!is_usable && !is_late) return std::nullopt;
@@ -56,8 +56,8 @@ bool FrameMatcher::forgetAfter(std::int64_t stamp_ns) {
   return is_old_odometry || waiting_.size() < count;
 }
 
-std::string explain(ObserverBuffer::Lookup miss, const std::string& odometry_topic) {
-  using Lookup = ObserverBuffer::Lookup;
+std::string explain(OdometryBuffer::Lookup miss, const std::string& odometry_topic) {
+  using Lookup = OdometryBuffer::Lookup;
   switch (miss) {
     case Lookup::kFound:
       return {};
@@ -71,28 +71,28 @@ std::string explain(ObserverBuffer::Lookup miss, const std::string& odometry_top
              "or it comes later than odometry_wait_s";
     case Lookup::kTooOld:
       return "the images' stamps are before all odometry kept from " + odometry_topic +
-             ": the clocks differ, or images come later than observer_buffer_s";
+             ": the clocks differ, or images come later than odometry_buffer_s";
     case Lookup::kGap:
       return "the odometry on " + odometry_topic +
-             " has a hole longer than observer_max_gap_s at the images' stamps; check its rate "
+             " has a hole longer than odometry_max_gap_s at the images' stamps; check its rate "
              "(`rostopic hz`)";
   }
   return {};
 }
 
-std::string explain(ObserverBuffer::Push answer, const ObserverState& message) {
+std::string explain(OdometryBuffer::Push answer, const OdometryState& message) {
   switch (answer) {
-    case ObserverBuffer::Push::kAccepted:
+    case OdometryBuffer::Push::kAccepted:
       return {};
-    case ObserverBuffer::Push::kNotFinite:
+    case OdometryBuffer::Push::kNotFinite:
       return "it is not finite";
-    case ObserverBuffer::Push::kOutOfRange: {
+    case OdometryBuffer::Push::kOutOfRange: {
       const std::string fault = rangeFault(message);
       return fault.empty() ? "its position jumped by kilometres" : fault;
     }
-    case ObserverBuffer::Push::kDuplicateStamp:
+    case OdometryBuffer::Push::kDuplicateStamp:
       return "its stamp is that of the message before";
-    case ObserverBuffer::Push::kBackwardStamp:
+    case OdometryBuffer::Push::kBackwardStamp:
       return "its stamp is before that of the message before; stamps must ascend";
   }
   return {};

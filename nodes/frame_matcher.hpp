@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 
 namespace ardrone_vslam {
 
@@ -18,14 +18,14 @@ class FrameMatcher {
  public:
   struct Frame {
     FeaturesConstPtr features;
-    ObserverState observer;  ///< interpolated at the exposure: the image's stamp plus its offset
+    OdometryState odometry;  ///< interpolated at the exposure: the image's stamp plus its offset
   };
 
   /// @throws ConfigError when the buffer's parameters are invalid
-  FrameMatcher(const ObserverBufferConfig& config, double wait_s, double image_time_offset_s = 0);
+  FrameMatcher(const OdometryBufferConfig& config, double wait_s, double image_time_offset_s = 0);
 
   void addFeatures(const FeaturesConstPtr& features, double now_s);
-  ObserverBuffer::Push addObserver(const ObserverState& state) { return buffer_.push(state); }
+  OdometryBuffer::Push addOdometry(const OdometryState& state) { return buffer_.push(state); }
 
   /// Takes out the oldest waiting frame if its odometry is there. Drops before it those that waited
   /// too long or whose odometry can never come.
@@ -40,8 +40,8 @@ class FrameMatcher {
   std::uint64_t droppedNoOdometry() const { return dropped_no_odometry_; }
   std::uint64_t droppedHeld() const { return dropped_held_; }
   /// Why the latest frame without odometry had none.
-  ObserverBuffer::Lookup lastMiss() const { return last_miss_; }
-  const ObserverBuffer& observers() const { return buffer_; }
+  OdometryBuffer::Lookup lastMiss() const { return last_miss_; }
+  const OdometryBuffer& odometries() const { return buffer_; }
   std::int64_t newestObserver_ns() const { return buffer_.newestStamp_ns(); }
 
  private:
@@ -50,19 +50,19 @@ class FrameMatcher {
     double since_s;
   };
 
-  ObserverBuffer buffer_;
+  OdometryBuffer buffer_;
   double wait_s_;
   std::int64_t image_time_offset_ns_;
   std::deque<Waiting> waiting_;
   std::uint64_t dropped_no_odometry_ = 0;
   std::uint64_t dropped_held_ = 0;
-  ObserverBuffer::Lookup last_miss_ = ObserverBuffer::Lookup::kEmpty;
+  OdometryBuffer::Lookup last_miss_ = OdometryBuffer::Lookup::kEmpty;
 };
 
 /// A sentence for users: why an image has no odometry, and what helps.
-std::string explain(ObserverBuffer::Lookup miss, const std::string& odometry_topic);
+std::string explain(OdometryBuffer::Lookup miss, const std::string& odometry_topic);
 
 /// Why an odometry message is not used; empty when it is.
-std::string explain(ObserverBuffer::Push answer, const ObserverState& message);
+std::string explain(OdometryBuffer::Push answer, const OdometryState& message);
 
 }  // namespace ardrone_vslam

@@ -54,9 +54,9 @@ void HeightTopic::take(const Checked<RangeReading>& reading) {
   }
 }
 
-std::optional<double> HeightTopic::at(const ObserverState& observer) {
+std::optional<double> HeightTopic::at(const OdometryState& odometry) {
   const std::uint64_t missing = input_.missing();
-  const auto height_m = input_.at(observer);
+  const auto height_m = input_.at(odometry);
   has_height_ = has_height_ || input_.missing() == missing;
   return height_m;
 }

@@ -25,7 +25,7 @@ class HeightTopic {
   HeightTopic(ros::NodeHandle nh, const HeightInputConfig& config, double buffer_s, Refuse refuse);
 
   /// @see HeightInput::at
-  std::optional<double> at(const ObserverState& observer);
+  std::optional<double> at(const OdometryState& odometry);
 
   bool isUsed() const { return subscriber_; }
   /// range or altitude

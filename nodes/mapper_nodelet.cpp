@@ -36,18 +36,18 @@ void MapperNodelet::onInit() {
   tick_timer_ = every(kTick_s, [this] { processReady(); });
   second_timer_ = every(1.0, [this] { onSecond(); });
   map_timer_ = every(1.0 / node_config_.outputs.map_publish_hz, [this] {
-    if (slam_) outputs_->publishMap(slam_->landmarks().all(), frames_.map);
+    if (slam_) outputs_->publishMap(slam_->landmarks(), frames_.map);
   });
-  subscribeObserver();
+  subscribeOdometry();
   heights_ = std::make_unique<HeightTopic>(
-      nh, config_.height_input, config_.observer.buffer_s,
+      nh, config_.height_input, config_.odometry.buffer_s,
       [this](const std::string& topic, const std::string& fault) { warn(topic, fault); });
   features_sub_ = nh.subscribe("features", static_cast<std::uint32_t>(node_config_.queue_size),
                                &MapperNodelet::onFeatures, this);
 }
 
-void MapperNodelet::subscribeObserver() {
-  if (config_.observer_adapter.mode != ObserverMode::kNavdata) {
+void MapperNodelet::subscribeOdometry() {
+  if (config_.odometry_adapter.mode != OdometryMode::kNavdata) {
     odometry_sub_ =
         getNodeHandle().subscribe("odometry", kOdometryQueue, &MapperNodelet::onOdometry, this,
                                   ros::TransportHints().tcpNoDelay());
@@ -73,8 +73,8 @@ void MapperNodelet::readParameters() {
     reader.finish();
     // Some faults lie between parameters: tell them now, not in mid-air.
     Slam(config_, Eigen::Isometry3d::Identity());
-    adapter_ = std::make_unique<ObserverAdapter>(config_.observer_adapter);
-    matcher_ = std::make_unique<FrameMatcher>(config_.observer, node_config_.odometry_wait_s,
+    adapter_ = std::make_unique<OdometryAdapter>(config_.odometry_adapter);
+    matcher_ = std::make_unique<FrameMatcher>(config_.odometry, node_config_.odometry_wait_s,
                                               config_.image_time_offset_s);
   } catch (const ConfigError& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
@@ -140,12 +140,12 @@ void MapperNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
   warn(odometry_sub_.getTopic(), fault);
 }
 
-std::string MapperNodelet::takeOdometry(const ObserverState& message) {
+std::string MapperNodelet::takeOdometry(const OdometryState& message) {
   ready_.clear();
   std::string fault = explain(adapter_->push(message, ready_), message);
-  for (const ObserverState& state : ready_) {
-    const ObserverBuffer::Push answer = matcher_->addObserver(state);
-    if (answer == ObserverBuffer::Push::kAccepted) {
+  for (const OdometryState& state : ready_) {
+    const OdometryBuffer::Push answer = matcher_->addOdometry(state);
+    if (answer == OdometryBuffer::Push::kAccepted) {
       noteSpeed(state);
     } else {
       fault = explain(answer, state);
@@ -199,7 +199,7 @@ void MapperNodelet::useCamera(const CameraIdentity& camera, const Eigen::Isometr
       slam_->changeCamera(T_base_cam);
       standstill_.reset();
     } else {
-      beginMapAnew(change + ", and mounting_deviation_deg is of one camera");
+      beginMapAnew(change + ", and extrinsics_sigma_deg is of one camera");
     }
   }
   if (!slam_) slam_ = std::make_unique<Slam>(config_, T_base_cam);
@@ -214,12 +214,12 @@ void MapperNodelet::useCamera(const CameraIdentity& camera, const Eigen::Isometr
 
 void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   toFeatures(*frame.features, features_);
-  ObserverState observer = frame.observer;
-  observer.height_m = heights_->at(observer);
-  observer.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
-  time_offset_->see(features_, matcher_->observers());
+  OdometryState odometry = frame.odometry;
+  odometry.height_m = heights_->at(odometry);
+  odometry.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
+  time_offset_->see(features_, matcher_->odometries());
   noteTimeOffset();
-  const FrameResult& result = slam_->process(features_, observer, stage_clock_.hook());
+  const FrameResult& result = slam_->process(features_, odometry, stage_clock_.hook());
   if (result.height == HeightOutcome::kRejected) ++totals_.heights_rejected;
   noteStep(result.odometry_step_m);
   noteDistrust(result.state);
@@ -227,8 +227,8 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   if (result.state == SlamState::kNotFinite) return refuseResult(result, *frame.features);
   answered_ns_ = result.stamp_ns;
   ++totals_.images;
-  standstill_.see(features_, frame.observer.T_odom_base * T_base_cam_);
-  outputs_->publishFrame(result, slam_->T_map_odom(), frames_, frame.observer);
+  standstill_.see(features_, frame.odometry.T_odom_base * T_base_cam_);
+  outputs_->publishFrame(result, slam_->T_map_odom(), frames_, frame.odometry);
   outputs_->publishTf(result.stamp_ns, mapToOdomOfTf(result), frames_);
   publishStatus(result, *frame.features);
 }
@@ -236,7 +236,7 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
 /// In tf, odom -> base is the driver's own, which is not what was integrated anew: map -> base
 /// comes out right all the same.
 Eigen::Isometry3d MapperNodelet::mapToOdomOfTf(const FrameResult& result) const {
-  if (config_.observer_adapter.mode == ObserverMode::kPose) return slam_->T_map_odom();
+  if (config_.odometry_adapter.mode == OdometryMode::kPose) return slam_->T_map_odom();
   const auto T_odom_base = mounting_->T_odom_base(frames_.odom, frames_.base, result.stamp_ns);
   return T_odom_base ? result.T_map_base * T_odom_base->inverse() : slam_->T_map_odom();
 }

@@ -32,7 +32,7 @@ class MapperNodelet : public nodelet::Nodelet {
   void readParameters();
 
   /// odometry, or navdata in its place.
-  void subscribeObserver();
+  void subscribeOdometry();
 
   void onFeatures(const FeaturesConstPtr& features);
   void onOdometry(const nav_msgs::OdometryConstPtr& odometry);
@@ -40,9 +40,9 @@ class MapperNodelet : public nodelet::Nodelet {
 
   bool acceptFeatures(const Features& features);
   /// Says once that the odometry's covariance counts as not given, and why.
-  void noteCovariance(const ObserverState& state);
+  void noteCovariance(const OdometryState& state);
   /// Says once that the odometry is too fast to be in metres.
-  void noteSpeed(const ObserverState& state);
+  void noteSpeed(const OdometryState& state);
   void noteStep(double step_m);
   /// Says that the camera is left out.
   void noteDistrust(SlamState state);
@@ -56,7 +56,7 @@ class MapperNodelet : public nodelet::Nodelet {
   /// Says once that the odometry's frame is not the one that tf has.
   void noteOdomFrame();
   /// What of a message is ready goes to the matcher. @return the sentence when it is not used
-  std::string takeOdometry(const ObserverState& message);
+  std::string takeOdometry(const OdometryState& message);
   void takeFrameNames(const nav_msgs::Odometry& odometry);
   /// Works on every image whose odometry has come.
   void processReady();
@@ -93,9 +93,9 @@ class MapperNodelet : public nodelet::Nodelet {
   std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
   std::unique_ptr<MapperOutputs> outputs_;
 
-  std::unique_ptr<NavdataInput> navdata_;  // observer_mode navdata
-  std::unique_ptr<ObserverAdapter> adapter_;
-  std::vector<ObserverState> ready_;       // from the adapter; kept for its memory
+  std::unique_ptr<NavdataInput> navdata_;  // odometry_mode navdata
+  std::unique_ptr<OdometryAdapter> adapter_;
+  std::vector<OdometryState> ready_;       // from the adapter; kept for its memory
   OdometryFaultCounts odometry_faults_{};  // those that were said
   std::unique_ptr<FrameMatcher> matcher_;
   std::unique_ptr<HeightTopic> heights_;

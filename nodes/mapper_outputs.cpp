@@ -20,14 +20,14 @@ MapperOutputs::MapperOutputs(ros::NodeHandle& nh, const OutputsConfig& config)
 }
 
 void MapperOutputs::publishFrame(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
-                                 const Frames& frames, const ObserverState& observer) {
+                                 const Frames& frames, const OdometryState& odometry) {
   newest_ns_ = result.stamp_ns;
   pose_pub_.publish(toPoseMessage(result, frames));
-  odometry_pub_.publish(toOdometryMessage(result, frames, observer));
+  odometry_pub_.publish(toOdometryMessage(result, frames, odometry));
   PoseCorrection correction = toCorrectionMessage(result, T_map_odom, frames);
-  correction.header.stamp = toRosTime(observer.stamp_ns);  // of the odometry it corrects
+  correction.header.stamp = toRosTime(odometry.stamp_ns);  // of the odometry it corrects
   correction_pub_.publish(correction);
-  // At the first image map equals odom, so in map the observer's own poses show its drift.
+  // At the first image map equals odom, so in map the odometry's own poses show its drift.
   remember(fused_poses_, result.T_map_base, frames);
   remember(observer_poses_, result.T_odom_base, frames);
 }

@@ -20,9 +20,9 @@ class MapperOutputs {
   MapperOutputs(ros::NodeHandle& nh, const OutputsConfig& config);
 
   /// Pose, odometry and correction of one image; remembers the path.
-  /// @param observer  at the image's stamp
+  /// @param odometry  at the image's stamp
   void publishFrame(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
-                    const Frames& frames, const ObserverState& observer);
+                    const Frames& frames, const OdometryState& odometry);
   /// @param T_map_odom  for the odom -> base that is in tf
   void publishTf(std::int64_t stamp_ns, const Eigen::Isometry3d& T_map_odom, const Frames& frames);
 

@@ -14,14 +14,14 @@ void MapperNodelet::warn(const std::string& topic, const std::string& fault) {
   if (limiter_.allows(sentence, ros::SteadyTime::now().toSec())) NODELET_WARN_STREAM(sentence);
 }
 
-void MapperNodelet::noteCovariance(const ObserverState& state) {
+void MapperNodelet::noteCovariance(const OdometryState& state) {
   if (!covariance_fault_.empty()) return;
   covariance_fault_ = covarianceFault(state);
   if (covariance_fault_.empty()) return;
   NODELET_WARN_STREAM(odometry_sub_.getTopic() << ": " << covariance_fault_);
 }
 
-void MapperNodelet::noteSpeed(const ObserverState& state) {
+void MapperNodelet::noteSpeed(const OdometryState& state) {
   if (speed_.absurd_m_s() > 0) return;
   speed_.see(state);
   if (speed_.absurd_m_s() == 0) return;
@@ -122,9 +122,9 @@ void MapperNodelet::publishWaiting() {
   } else {
     status.state = Status::WAITING_FOR_ODOMETRY;
     status.state_name = "waiting_for_odometry";
-    const ObserverBuffer::Lookup miss = matcher_->lastMiss();
+    const OdometryBuffer::Lookup miss = matcher_->lastMiss();
     status.reason =
-        navdata_ && miss == ObserverBuffer::Lookup::kEmpty
+        navdata_ && miss == OdometryBuffer::Lookup::kEmpty
             ? "no navdata has come on " + odometry_sub_.getTopic() +
                   " (ardrone_autonomy/Navdata): start the driver, or remap `navdata` to its topic "
                   "(launch files: navdata:=TOPIC)"

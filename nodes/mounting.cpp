@@ -33,7 +33,7 @@ std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
   try {
     const Eigen::Isometry3d T_base_cam = toIsometry(
         tf_.buffer().core().lookupTransform(base_frame, camera_frame, ros::Time(0)).transform);
-    const std::string wrong = mountingFault(T_base_cam);
+    const std::string wrong = extrinsicsFault(T_base_cam);
     if (wrong.empty()) return T_base_cam_[camera_frame] = T_base_cam;
     fault = "transform from " + base_frame + " to " + camera_frame + ": " + wrong;
   } catch (const tf2::TransformException& e) {

@@ -20,7 +20,7 @@ class Mounting {
   explicit Mounting(const ros::NodeHandle& nh);
 
   /// The latest transform, whatever its stamp: drivers stamp the mounting later than the image.
-  /// @param fault  set, with the remedy, when there is none or none that can be (mountingFault)
+  /// @param fault  set, with the remedy, when there is none or none that can be (extrinsicsFault)
   /// @return T_base_cam
   std::optional<Eigen::Isometry3d> find(const std::string& base_frame,
                                         const std::string& camera_frame, std::string& fault);

@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::uint32_t kQueue = 2000;  // 10 s at 200 Hz, in and out
 
-std::string explain(ObserverBuffer::Push answer) {
-  if (answer == ObserverBuffer::Push::kOutOfRange)
+std::string explain(OdometryBuffer::Push answer) {
+  if (answer == OdometryBuffer::Push::kOutOfRange)
     return "a velocity, force or height is out of bounds; check its unit";
-  return explain(answer, ObserverState{});
+  return explain(answer, OdometryState{});
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ void NavdataInput::onCommand(const geometry_msgs::TwistConstPtr& message) {
 }
 
 void NavdataInput::publishReady() {
-  for (const ObserverState& state : ready_) {
+  for (const OdometryState& state : ready_) {
     const auto odometry = boost::make_shared<nav_msgs::Odometry>(
         toOdometryMessage(state, withTfPrefix(frames_.tf_prefix, frames_.odom),
                           withTfPrefix(frames_.tf_prefix, frames_.base)));

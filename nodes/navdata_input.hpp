@@ -15,7 +15,7 @@
 
 namespace ardrone_vslam {
 
-/// The AR.Drone's navdata, IMU and commands -> the package's own observer (observer_mode navdata).
+/// The AR.Drone's navdata, IMU and commands -> the package's own observer (odometry_mode navdata).
 /// It is published (`observer_odometry`) and handed on as if it had been received.
 class NavdataInput {
  public:
@@ -46,7 +46,7 @@ class NavdataInput {
   Take take_;
   Refuse refuse_;
   DroneObserver observer_;
-  std::vector<ObserverState> ready_;  // kept for its memory
+  std::vector<OdometryState> ready_;  // kept for its memory
   ros::Publisher odometry_pub_;
   ros::Subscriber command_sub_;
   ros::Subscriber imu_sub_;

@@ -91,13 +91,13 @@ void visitParameters(MapperNodeConfig& c, Visitor&& visit) {
         c.queue_size);
 }
 
-struct ObserverFusionNodeConfig {
+struct OdometryFusionNodeConfig {
   std::string map_frame = "map";
   std::string base_frame;  // empty: the odometry's child_frame_id
 };
 
 template <class Visitor>
-void visitParameters(ObserverFusionNodeConfig& c, Visitor&& visit) {
+void visitParameters(OdometryFusionNodeConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"map_frame", "name", 0, 0, "as the mapper's"}, c.map_frame);
   visit(ParameterInfo{"base_frame", "name", 0, 0, "empty: the odometry's child_frame_id"},
         c.base_frame);

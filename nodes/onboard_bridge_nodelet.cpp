@@ -160,7 +160,7 @@ void OnboardBridgeNodelet::onAnswer(const VslamPose& pose) {
   if (stamp_ns) {
     const FrameResult result = toFrameResult(pose, *stamp_ns);
     const Eigen::Isometry3d T_map_odom = result.T_map_base * result.T_odom_base.inverse();
-    ObserverState observer;
+    OdometryState observer;
     observer.stamp_ns = result.stamp_ns;
     observer.T_odom_base = result.T_odom_base;
     // The answer has no twist.
@@ -171,7 +171,7 @@ void OnboardBridgeNodelet::onAnswer(const VslamPose& pose) {
     ++poses_;
     seconds_without_pose_ = 0;
     status.header.stamp = toRosTime(*stamp_ns);
-    status.deviation = result.deviation_m;
+    status.deviation = result.sigma_m;
     status.features = static_cast<std::uint32_t>(stream_.telemetry().features().size());
   }
   publishStatus(status);

@@ -30,7 +30,7 @@ FrameResult toFrameResult(const VslamPose& pose, std::int64_t stamp_ns) {
   result.T_map_base = toIsometry(pose.position_m, pose.quaternion);
   result.T_odom_base = toIsometry(pose.observer_position_m, pose.observer_quaternion);
   for (int i = 0; i < 6; ++i) result.covariance(i, i) = pose.deviation[i] * pose.deviation[i];
-  result.deviation_m = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace() / 3);
+  result.sigma_m = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace() / 3);
   result.landmarks = static_cast<int>(pose.landmarks);
   return result;
 }

@@ -7,7 +7,7 @@
 
 namespace ardrone_vslam {
 
-void SpeedWatch::see(const ObserverState& state) {
+void SpeedWatch::see(const OdometryState& state) {
   if (absurd_m_s_ > 0) return;  // said once
   const std::int64_t step_ns = state.stamp_ns - stamp_ns_;
   if (stamp_ns_ == 0 || step_ns <= 0) return begin(state);
@@ -23,7 +23,7 @@ void SpeedWatch::see(const ObserverState& state) {
   begin(state);
 }
 
-void SpeedWatch::begin(const ObserverState& state) {
+void SpeedWatch::begin(const OdometryState& state) {
   begin_ns_ = stamp_ns_ = state.stamp_ns;
   position_odom_ = state.T_odom_base.translation();
   speeds_m_s_.clear();

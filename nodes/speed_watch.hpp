@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 
 namespace ardrone_vslam {
 
@@ -20,13 +20,13 @@ class SpeedWatch {
 
   /// One state, in order; O(1). States that do not ascend begin
   /// anew.
-  void see(const ObserverState& state);
+  void see(const OdometryState& state);
 
   /// The median speed over the first window in which it was above kAbsurd_m_s; 0 before.
   double absurd_m_s() const { return absurd_m_s_; }
 
  private:
-  void begin(const ObserverState& state);
+  void begin(const OdometryState& state);
 
   std::int64_t begin_ns_ = 0;  // of the window
   std::int64_t stamp_ns_ = 0;  // of the step's begin; 0: there is none

@@ -131,12 +131,13 @@ void TrackerNodelet::onImage(const AnyImage& message, const sensor_msgs::CameraI
   const GreyImage image = toGrey(message);
   if (!image.fault.empty()) return drop(image_topic_, image.fault);
   if (!prepareTracker(info, header.frame_id, image)) return;
-  std::optional<float> turn_rad;
-  if (attitude_) turn_rad = attitude_->sceneTurn_rad(toNanoseconds(header.stamp), camera_frame_);
-  if (attitude_ && !turn_rad && limiter_.allows("attitude", ros::SteadyTime::now().toSec()))
+  std::optional<float> rotation_rad;
+  if (attitude_)
+    rotation_rad = attitude_->imageRoll_rad(toNanoseconds(header.stamp), camera_frame_);
+  if (attitude_ && !rotation_rad && limiter_.allows("attitude", ros::SteadyTime::now().toSec()))
     NODELET_WARN_STREAM(attitude_->fault() << "; until then each corner's own orientation");
   tracker_->process(image.view(), toNanoseconds(header.stamp), features_, stage_clock_.hook(),
-                    turn_rad);
+                    rotation_rad);
   next_track_id_ = tracker_->nextTrackId();
   publish(image, header);
 }

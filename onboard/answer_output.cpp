@@ -70,7 +70,7 @@ void AnswerOutput::send(VslamPose& pose, const Counters& counters) {
   pose_file_ = FileDescriptor();
 }
 
-void AnswerOutput::sendTelemetry(const ImageFeatures& features, const LandmarkMap& map,
+void AnswerOutput::sendTelemetry(const ImageFeatures& features, const std::vector<Landmark>& map,
                                  std::int64_t now_ns) {
   if (!telemetry_socket_.isOpen() || now_ns - telemetry_sent_ns_ < telemetry_period_ns_) return;
   telemetry_sent_ns_ = now_ns;

@@ -28,7 +28,8 @@ class AnswerOutput {
   /// Without a pose. @param state  VSLAM_...
   void sendState(std::uint32_t state, std::int64_t stamp_ns, const Counters& counters);
   /// At most telemetry_hz.
-  void sendTelemetry(const ImageFeatures& features, const LandmarkMap& map, std::int64_t now_ns);
+  void sendTelemetry(const ImageFeatures& features, const std::vector<Landmark>& map,
+                     std::int64_t now_ns);
 
  private:
   void send(VslamPose& pose, const Counters& counters);

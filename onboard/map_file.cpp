@@ -17,17 +17,17 @@ std::string faultOf(const std::string& path) {
 
 }  // namespace
 
-std::string writeLandmarks(const std::string& path, const LandmarkMap& map) {
+std::string writeLandmarks(const std::string& path, const std::vector<Landmark>& map) {
   const std::string part = path + ".part";
   std::FILE* file = std::fopen(part.c_str(), "w");
   bool is_good = file != nullptr;
   if (is_good) {
-    std::fputs("id,x_m,y_m,z_m,deviation_m,depth_deviation_m,times_seen\n", file);
-    for (const Landmark& l : map.all()) {
+    std::fputs("id,x_m,y_m,z_m,sigma_m,depth_sigma_m,times_seen\n", file);
+    for (const Landmark& l : map) {
       const Eigen::Vector3d& p = l.position_map;
-      if (!p.allFinite() || !std::isfinite(l.deviation_m + l.depth_deviation_m)) continue;
-      std::fprintf(file, "%u,%.9g,%.9g,%.9g,%.9g,%.9g,%d\n", l.id, p.x(), p.y(), p.z(),
-                   l.deviation_m, l.depth_deviation_m, l.times_seen);
+      if (!p.allFinite() || !std::isfinite(l.sigma_m + l.depth_sigma_m)) continue;
+      std::fprintf(file, "%u,%.9g,%.9g,%.9g,%.9g,%.9g,%d\n", l.id, p.x(), p.y(), p.z(), l.sigma_m,
+                   l.depth_sigma_m, l.times_seen);
     }
     // The drone may be switched off next.
     is_good = std::ferror(file) == 0 && std::fflush(file) == 0 && ::fsync(::fileno(file)) == 0;

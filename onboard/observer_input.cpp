@@ -21,12 +21,12 @@ bool isFinite(const VslamObserver& o) {
          std::isfinite(o.height_m);
 }
 
-std::optional<ObserverState> toState(const VslamObserver& o) {
+std::optional<OdometryState> toState(const VslamObserver& o) {
   const Eigen::Quaterniond q(o.quaternion[3], o.quaternion[0], o.quaternion[1], o.quaternion[2]);
   if (!isFinite(o) || std::abs(q.norm() - 1) > kNormTolerance || o.stamp_ns <= 0 ||
       o.stamp_ns > kLatestStamp_ns)
     return std::nullopt;
-  ObserverState state;
+  OdometryState state;
   state.stamp_ns = o.stamp_ns;
   state.T_odom_base =
       Eigen::Translation3d(o.position_m[0], o.position_m[1], o.position_m[2]) * q.normalized();
@@ -39,7 +39,7 @@ std::optional<ObserverState> toState(const VslamObserver& o) {
 
 }  // namespace
 
-std::optional<ObserverState> ObserverInput::read(const std::uint8_t* record, std::size_t size,
+std::optional<OdometryState> ObserverInput::read(const std::uint8_t* record, std::size_t size,
                                                  std::int64_t now_ns) {
   VslamObserver observer;
   switch (vslam_read_observer(record, size, &observer)) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 
 namespace ardrone_vslam {
 
@@ -28,7 +28,7 @@ class ObserverInput {
   static constexpr std::int64_t kForget_ns = 1'000'000'000;
 
   /// @param now_ns  of any clock that never goes back
-  std::optional<ObserverState> read(const std::uint8_t* record, std::size_t size,
+  std::optional<OdometryState> read(const std::uint8_t* record, std::size_t size,
                                     std::int64_t now_ns);
   /// A state of read() that the stages behind it refused.
   void countRefused() { ++counts_.refused; }

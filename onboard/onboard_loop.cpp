@@ -76,7 +76,7 @@ void OnboardLoop::startOver() {
 bool OnboardLoop::waitForInput() {
   const std::int64_t now = now_ns();
   const bool wants_observer =
-      !is_observer_over_ && (observer_source_.isLive() || pipeline_.isWaiting());
+      !is_odometry_over_ && (observer_source_.isLive() || pipeline_.isWaiting());
   const auto entry = [](int fd, bool is_wanted) { return pollfd{is_wanted ? fd : -1, POLLIN, 0}; };
   std::array<pollfd, 3> entries{entry(stop_fd_, true),
                                 entry(observer_source_.descriptor(), wants_observer),
@@ -96,7 +96,7 @@ int OnboardLoop::timeout_ms(std::int64_t now) const {
   if (pipeline_.isWaiting()) {
     // The answer's last moment; a file's end needs no waiting.
     const auto wait_ns = static_cast<std::int64_t>(settings_.odometry_wait_s * 1e9);
-    until_ns = is_observer_over_ ? now : std::min(until_ns, frame_ns_ + wait_ns);
+    until_ns = is_odometry_over_ ? now : std::min(until_ns, frame_ns_ + wait_ns);
   } else if (share_.next_ns() > now) {
     until_ns = std::min(until_ns, share_.next_ns());
   }
@@ -134,12 +134,12 @@ void OnboardLoop::readObserver() {
     const ObserverSource::Read read = observer_source_.read(record, size);
     if (read == ObserverSource::Read::kNone) return;
     if (read == ObserverSource::Read::kEnd) {
-      is_observer_over_ = true;
+      is_odometry_over_ = true;
       pipeline_.endObserver();
       return;
     }
     const auto state = observer_input_.read(record, size, now_ns());
-    if (state && !pipeline_.addObserver(*state)) observer_input_.countRefused();
+    if (state && !pipeline_.addOdometry(*state)) observer_input_.countRefused();
     if (!observer_source_.isLive()) return;  // a file's states only as they are needed
   }
 }
@@ -148,7 +148,7 @@ void OnboardLoop::readObserver() {
 void OnboardLoop::answer() {
   PosePipeline::Answer answer = pipeline_.localise();
   while (answer == PosePipeline::Answer::kNotYet && !observer_source_.isLive() &&
-         !is_observer_over_ && observer_source_.hasMore()) {
+         !is_odometry_over_ && observer_source_.hasMore()) {
     readObserver();
     answer = pipeline_.localise();
   }
@@ -174,7 +174,7 @@ void OnboardLoop::answer() {
 
 void OnboardLoop::giveUp(std::uint32_t state) {
   pipeline_.forgetFrame();
-  ++without_observer_;
+  ++without_odometry_;
   output_.sendState(state, pipeline_.features().stamp_ns, counters());
   said_ns_ = now_ns();
 }
@@ -198,7 +198,7 @@ void OnboardLoop::sayState(std::int64_t now) {
 }
 
 AnswerOutput::Counters OnboardLoop::counters() const {
-  return {frames_.dropped() + stamps_refused_ + without_observer_ + out_of_memory_,
+  return {frames_.dropped() + stamps_refused_ + without_odometry_ + out_of_memory_,
           observer_input_.counts().dropped(),
           static_cast<std::uint32_t>(pipeline_.landmarks().size())};
 }
@@ -211,7 +211,7 @@ void OnboardLoop::printSummary() const {
       "way for newer ones, %u times out of memory; %u records, dropped: %u of a wrong size, %u of "
       "a wrong kind, %u "
       "corrupted, %u old, %u refused; %zu landmarks, %d restarts\n",
-      answered_, without_observer_, stamps_refused_, frames_.dropped(), out_of_memory_,
+      answered_, without_odometry_, stamps_refused_, frames_.dropped(), out_of_memory_,
       records.accepted, records.wrong_size, records.wrong_kind, records.corrupted, records.old,
       records.refused, pipeline_.landmarks().size(), pipeline_.restarts());
   if (answered_ == 0) return;

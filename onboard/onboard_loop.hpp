@@ -31,7 +31,7 @@ class OnboardLoop {
 
   /// UDP; for one that was given as 0.
   int observerPort() const { return portOf(observer_source_.descriptor()); }
-  const LandmarkMap& landmarks() const { return pipeline_.landmarks(); }
+  const std::vector<Landmark>& landmarks() const { return pipeline_.landmarks(); }
   std::uint32_t answered() const { return answered_; }
   /// What was answered, lost and dropped, and what it cost: a line each.
   void printSummary() const;
@@ -59,7 +59,7 @@ class OnboardLoop {
   AnswerOutput output_;
   FrameInput frames_;
   CpuShare share_;
-  bool is_observer_over_ = false;
+  bool is_odometry_over_ = false;
   std::int64_t began_ns_;
   std::int64_t frame_ns_ = 0;  // when the newest image came; 0: none has
   std::int64_t said_ns_ = began_ns_;
@@ -67,7 +67,7 @@ class OnboardLoop {
   std::int64_t all_cost_ns_ = 0;  // processor time of the images answered
   std::int64_t most_cost_ns_ = 0;
   std::uint32_t stamps_refused_ = 0;
-  std::uint32_t without_observer_ = 0;
+  std::uint32_t without_odometry_ = 0;
   std::uint32_t out_of_memory_ = 0;
 };
 

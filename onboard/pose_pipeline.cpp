@@ -17,9 +17,9 @@ PosePipeline::PosePipeline(const TrackerConfig& tracker, const SlamConfig& slam,
       T_base_cam_(T_base_cam),
       image_time_offset_ns_(std::llround(slam.image_time_offset_s * 1e9)),
       tracker_(tracker, camera),
-      adapter_(slam.observer_adapter),
-      buffer_(slam.observer),
-      heights_(slam.height_input, slam.observer.buffer_s) {
+      adapter_(slam.odometry_adapter),
+      buffer_(slam.odometry),
+      heights_(slam.height_input, slam.odometry.buffer_s) {
   slam_.emplace(config_, T_base_cam_);
   slam_->reserveMap();
   features_.reserve(static_cast<std::size_t>(tracker.corners.features_per_frame));
@@ -54,14 +54,14 @@ bool PosePipeline::track(const Frame& frame) {
   return true;
 }
 
-bool PosePipeline::take(ObserverBuffer::Push answer) {
-  bool is_good = answer == ObserverBuffer::Push::kAccepted;
-  for (const ObserverState& state : ready_)
-    is_good = buffer_.push(state) == ObserverBuffer::Push::kAccepted && is_good;
+bool PosePipeline::take(OdometryBuffer::Push answer) {
+  bool is_good = answer == OdometryBuffer::Push::kAccepted;
+  for (const OdometryState& state : ready_)
+    is_good = buffer_.push(state) == OdometryBuffer::Push::kAccepted && is_good;
   return is_good;
 }
 
-bool PosePipeline::addObserver(const ObserverState& message) {
+bool PosePipeline::addOdometry(const OdometryState& message) {
   if (message.stamp_ns <= buffer_.newestStamp_ns() - kRestart_ns) {  // its clock was set
     buffer_.clear();
     heights_.clear();
@@ -70,7 +70,7 @@ bool PosePipeline::addObserver(const ObserverState& message) {
     RangeReading reading;
     reading.stamp_ns = message.stamp_ns;
     reading.range_m = *message.height_m;
-    reading.max_m = kFarthestObserver_m;
+    reading.max_m = kFarthestOdometry_m;
     reading.is_vertical = true;
     heights_.push(reading);
   }
@@ -81,15 +81,15 @@ bool PosePipeline::addObserver(const ObserverState& message) {
 void PosePipeline::endObserver() {
   ready_.clear();
   take(adapter_.flush(ready_));
-  is_observer_over_ = true;
+  is_odometry_over_ = true;
 }
 
 PosePipeline::Answer PosePipeline::localise() {
-  using Lookup = ObserverBuffer::Lookup;
-  ObserverState state;
+  using Lookup = OdometryBuffer::Lookup;
+  OdometryState state;
   const Lookup lookup = buffer_.at(features_.stamp_ns + image_time_offset_ns_, state);
   const bool may_come = lookup == Lookup::kNotYet || lookup == Lookup::kEmpty;
-  if (may_come && !is_observer_over_) return Answer::kNotYet;
+  if (may_come && !is_odometry_over_) return Answer::kNotYet;
   is_waiting_ = false;
   if (lookup != Lookup::kFound) return Answer::kNever;
   state.height_m = heights_.at(state);

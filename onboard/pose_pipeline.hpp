@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ardrone_vslam/height_input.hpp"
-#include "ardrone_vslam/observer_adapter.hpp"
-#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_adapter.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/tracker.hpp"
 #include "frame_source.hpp"
@@ -33,7 +33,7 @@ class PosePipeline {
   void startOver();
 
   /// @return whether it, and those that burst with it, are used
-  bool addObserver(const ObserverState& message);
+  bool addOdometry(const OdometryState& message);
   /// No further state will come.
   void endObserver();
 
@@ -48,27 +48,27 @@ class PosePipeline {
   const CameraModel& cameraModel() const { return tracker_.camera(); }
   const FrameResult& result() const { return *result_; }
   const ImageFeatures& features() const { return features_; }
-  const LandmarkMap& landmarks() const { return slam_->landmarks(); }
+  const std::vector<Landmark>& landmarks() const { return slam_->landmarks(); }
   int restarts() const { return restarts_; }
 
  private:
   void beginAnew();
-  bool take(ObserverBuffer::Push answer);
+  bool take(OdometryBuffer::Push answer);
 
   SlamConfig config_;
   Eigen::Isometry3d T_base_cam_;
   std::int64_t image_time_offset_ns_;
   Tracker tracker_;
   std::optional<Slam> slam_;
-  ObserverAdapter adapter_;
-  ObserverBuffer buffer_;
+  OdometryAdapter adapter_;
+  OdometryBuffer buffer_;
   HeightInput heights_;
-  std::vector<ObserverState> ready_;
+  std::vector<OdometryState> ready_;
   ImageFeatures features_;
   const FrameResult* result_ = nullptr;
   std::int64_t newest_ns_ = 0;  // of the frames
   bool is_waiting_ = false;
-  bool is_observer_over_ = false;
+  bool is_odometry_over_ = false;
   int restarts_ = 0;
 };
 

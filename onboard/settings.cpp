@@ -5,7 +5,7 @@
 #include <set>
 
 #include "../nodes/node_config.hpp"  // the structs alone: no ROS
-#include "ardrone_vslam/late_fusion.hpp"
+#include "ardrone_vslam/delayed_fusion.hpp"
 #include "ardrone_vslam/parameter_values.hpp"
 #include "yaml_sections.hpp"
 
@@ -54,7 +54,7 @@ class SectionReader {
     for (const auto& section : sections_) {
       if (section.first.empty() && section.second.empty()) continue;
       faults_.push_back("unknown section '" + section.first +
-                        "'; known are onboard, tracker, mapper and observer_fusion");
+                        "'; known are onboard, tracker, mapper and odometry_fusion");
     }
   }
 
@@ -112,16 +112,16 @@ Settings loadSettings(const std::string& path, const std::vector<std::string>& o
   Settings s;
   TrackerNodeConfig tracker_node;
   MapperNodeConfig mapper_node;
-  ObserverFusionNodeConfig fusion_node;
-  LateFusionConfig late_fusion;
+  OdometryFusionNodeConfig fusion_node;
+  DelayedFusionConfig delayed_fusion;
   reader.read("onboard", s.onboard);
   reader.read("tracker", s.tracker, tracker_node);
   reader.read("mapper", s.mapper, mapper_node);
-  reader.read("observer_fusion", late_fusion, fusion_node);
+  reader.read("odometry_fusion", delayed_fusion, fusion_node);
   reader.refuseOthers();
   // What needs topics that are not here.
-  if (s.mapper.observer_adapter.mode != ObserverMode::kPose)
-    faults.push_back("mapper/observer_mode must be pose: the controller's records hold no more");
+  if (s.mapper.odometry_adapter.mode != OdometryMode::kPose)
+    faults.push_back("mapper/odometry_mode must be pose: the controller's records hold no more");
   if (s.tracker.use_attitude) faults.push_back("tracker/use_attitude must be false on board");
   if (!faults.empty()) throw ConfigError(faults);
   s.odometry_wait_s = mapper_node.odometry_wait_s;

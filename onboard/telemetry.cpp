@@ -26,12 +26,12 @@ std::uint8_t* putPixel(std::uint8_t* to, float pixel_px) {
 std::uint8_t* putLandmark(std::uint8_t* to, const Landmark& landmark) {
   to = vslam_put(to, landmark.id, 4);
   for (int axis = 0; axis < 3; ++axis) to = putFloat(to, landmark.position_map[axis]);
-  return putFloat(to, landmark.deviation_m);
+  return putFloat(to, landmark.sigma_m);
 }
 
 }  // namespace
 
-std::size_t Telemetry::write(const ImageFeatures& features, const LandmarkMap& map,
+std::size_t Telemetry::write(const ImageFeatures& features, const std::vector<Landmark>& map,
                              std::array<std::uint8_t, kBytes>& datagram) {
   const std::size_t feature_count = std::min(features.size(), kMostFeatures);
   const std::size_t room =
@@ -43,7 +43,7 @@ std::size_t Telemetry::write(const ImageFeatures& features, const LandmarkMap& m
     to = putPixel(to, features.pixel_px[of].y());
     to = vslam_put(to, std::min<std::uint16_t>(features.age_frames[of], 255), 1);
   }
-  const std::vector<Landmark>& landmarks = map.all();
+  const std::vector<Landmark>& landmarks = map;
   std::size_t sent = 0;
   // Those just seen get at most half of the room, so that the round goes on.
   if (seen_cursor_ >= landmarks.size()) seen_cursor_ = 0;

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "ardrone_vslam/features.hpp"
-#include "ardrone_vslam/landmark_map.hpp"
+#include "ardrone_vslam/landmark.hpp"
 
 namespace ardrone_vslam {
 
@@ -22,7 +22,7 @@ class Telemetry {
   static constexpr std::size_t kLandmarkBytes = 20;
 
   /// @return bytes of the datagram
-  std::size_t write(const ImageFeatures& features, const LandmarkMap& map,
+  std::size_t write(const ImageFeatures& features, const std::vector<Landmark>& map,
                     std::array<std::uint8_t, kBytes>& datagram);
 
  private:

@@ -39,11 +39,11 @@ const std::uint8_t* getCount(const std::uint8_t* from, std::size_t& count) {
 const std::uint8_t* getLandmark(const std::uint8_t* from, Landmark& landmark) {
   from = vslam_get_u32(from, &landmark.id);
   for (int axis = 0; axis < 3; ++axis) from = getFloat(from, landmark.position_map[axis]);
-  return getFloat(from, landmark.deviation_m);
+  return getFloat(from, landmark.sigma_m);
 }
 
 bool isFinite(const Landmark& landmark) {
-  return landmark.position_map.allFinite() && std::isfinite(landmark.deviation_m);
+  return landmark.position_map.allFinite() && std::isfinite(landmark.sigma_m);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "ardrone_vslam/landmark_map.hpp"
+#include "ardrone_vslam/landmark.hpp"
 
 namespace ardrone_vslam {
 

@@ -24,7 +24,7 @@ struct Options {
   std::string input;
   std::string out;
   bool force = false;
-  std::string observer_profile;
+  std::string odometry_profile;
   std::string frames;
   bool ping_pong = false;
   std::string images = "raw";
@@ -49,7 +49,7 @@ void addNames(CLI::App& command, Options& o) {
   };
   add("--image-topic", o.write.topics.image, "compressed images go to it + /compressed");
   add("--camera-info-topic", o.write.topics.camera_info, "calibration");
-  add("--odometry-topic", o.write.topics.odometry, "the simulated or recorded observer");
+  add("--odometry-topic", o.write.topics.odometry, "the simulated or recorded odometry");
   add("--truth-topic", o.write.topics.truth, "true poses of the base frame");
   add("--map-frame", o.write.frames.map, "of the truth");
   add("--odom-frame", o.write.frames.odom, "of the odometry");
@@ -60,9 +60,9 @@ void addNames(CLI::App& command, Options& o) {
 void addCommon(CLI::App& command, Options& o) {
   command.add_option("--out", o.out, "the bag to write, FILE.bag")->required();
   command.add_flag("--force", o.force, "overwrite the bag if it is there");
-  command.add_option("--observer-profile", o.observer_profile,
+  command.add_option("--odometry-profile", o.odometry_profile,
                      "how the simulated odometry drifts: truth, wheel, drone, hover, harsh "
-                     "(config/observer_profiles.yaml); default: the recorded observer if there is "
+                     "(config/odometry_profiles.yaml); default: the recorded odometry if there is "
                      "one, else wheel for kitti, drone for the others");
   addSeed(command, "--seed", o.write.seed, "of the odometry's noise");
   command.add_option("--compressed", o.images, "images in the bag")
@@ -95,10 +95,10 @@ bool neverMoves(const Trajectory& truth) {
          });
 }
 
-/// @param advice  what to do when there is neither truth nor observer
+/// @param advice  what to do when there is neither truth nor odometry
 void chooseObserver(const Sequence& sequence, const std::string& advice, Options& o) {
-  std::string name = o.observer_profile;
-  if (name.empty() && sequence.observer().empty() && !sequence.truth().empty()) {
+  std::string name = o.odometry_profile;
+  if (name.empty() && sequence.odometry().empty() && !sequence.truth().empty()) {
     name = defaultProfile(o.input);
   }
   if (!o.pave.at_rest && neverMoves(sequence.truth())) {
@@ -106,10 +106,10 @@ void chooseObserver(const Sequence& sequence, const std::string& advice, Options
               << ": all true poses are at the same place; check poses.txt or poses_tum.txt\n";
   }
   if (!name.empty()) {
-    o.write.observer_profile = profileOfOption(name);
-  } else if (sequence.observer().empty()) {
+    o.write.odometry_profile = profileOfOption(name);
+  } else if (sequence.odometry().empty()) {
     std::cerr << "make_bag: warning: " << sequence.name()
-              << ": has neither true poses nor an observer; the bag gets no odometry" << advice
+              << ": has neither true poses nor odometry; the bag gets no odometry" << advice
               << '\n';
   }
 }
@@ -122,8 +122,8 @@ void checkUsage(const CLI::App& app, const Options& o) {
     throw UsageError("--out " + o.out + ": the name of a bag ends in .bag; give --out " + o.out +
                      ".bag");
   }
-  if (app.got_subcommand("pave") && !o.pave.at_rest && !o.observer_profile.empty()) {
-    throw UsageError(o.input + ": --observer-profile " + o.observer_profile +
+  if (app.got_subcommand("pave") && !o.pave.at_rest && !o.odometry_profile.empty()) {
+    throw UsageError(o.input + ": --odometry-profile " + o.odometry_profile +
                      " needs true poses, and a video stream has none" + kAtRestAdvice +
                      ", else leave the profile out");
   }
@@ -131,7 +131,7 @@ void checkUsage(const CLI::App& app, const Options& o) {
 
 int run(const CLI::App& app, Options& o) {
   checkUsage(app, o);
-  if (!o.observer_profile.empty()) profileOfOption(o.observer_profile);
+  if (!o.odometry_profile.empty()) profileOfOption(o.odometry_profile);
   o.write.image_format = kFormats.at(o.images);
   o.write.compression = kCompressions.at(o.compression);
   const FrameSelection selection =
@@ -151,8 +151,8 @@ int run(const CLI::App& app, Options& o) {
   std::cout << o.out << ": " << report.images << " images, " << report.odometry
             << " odometry messages, " << report.truth << " true poses, "
             << std::filesystem::file_size(o.out) / 1024 << " KiB\n";
-  if (o.write.observer_profile) {
-    std::cout << "observer profile " << o.write.observer_profile->name << ", seed " << o.write.seed
+  if (o.write.odometry_profile) {
+    std::cout << "odometry profile " << o.write.odometry_profile->name << ", seed " << o.write.seed
               << ", scale error " << report.scale_error << '\n';
   }
   if (report.stamp_offset_ns != 0) {

@@ -30,7 +30,7 @@ struct Options {
   WorldOptions world;
   std::string out;
   bool force = false;
-  std::string observer_profile;
+  std::string odometry_profile;
   std::string start;  // "X,Y,YAW" [m, m, rad]; empty: the flight's own
   std::string images = "raw";
   std::string compression = "none";
@@ -57,9 +57,9 @@ void addOptions(CLI::App& app, Options& o) {
                   ->check(CLI::Range(0.001, 1e6));
   o.rate = app.add_option("--rate", o.world.rate_hz, "images a second; default: 30, driver's 20")
                ->check(CLI::Range(0.001, 1e3));
-  app.add_option("--observer-profile", o.observer_profile,
+  app.add_option("--odometry-profile", o.odometry_profile,
                  "how the simulated odometry drifts: truth, wheel, drone, hover, harsh "
-                 "(config/observer_profiles.yaml); default: drone in a bag, no odometry in a "
+                 "(config/odometry_profiles.yaml); default: drone in a bag, no odometry in a "
                  "folder. A,B@S: A, from second S on B; laps_then_hover hovers with `hover` unless "
                  "this says otherwise");
   app.add_option("--range-noise", o.world.range_noise_m,
@@ -105,14 +105,14 @@ void writeWorldBag(WorldSequence& world, const Options& o, ProgressLine& progres
     write.faults = o.driver.faults;
     write.tf_prefix = o.driver.tf_prefix;
     write.camera = o.camera.camera;
-    write.profile = *o.world.observer;
+    write.profile = *o.world.odometry;
     write.progress = [&progress](std::size_t done) { progress.update(done); };
     writeDriverBag(world, write, o.out);
     return;
   }
   BagWriteOptions write;
   setFormat(o, write);
-  write.observer_profile = o.world.observer;
+  write.odometry_profile = o.world.odometry;
   write.seed = o.world.seed;
   write.progress = [&progress](std::size_t done, std::size_t) { progress.update(done); };
   writeBag(world, write, o.out);
@@ -138,10 +138,10 @@ void removeOldFolder(const std::string& path) {
 
 void writeWorldFolder(WorldSequence& world, const Options& o, ProgressLine& progress) {
   TumFolderOptions write;
-  if (o.world.observer) {
-    write.observer_comment = "profile " + o.world.observer->name + ", seed " +
+  if (o.world.odometry) {
+    write.observer_comment = "profile " + o.world.odometry->name + ", seed " +
                              std::to_string(o.world.seed) + ", drawn scale error " +
-                             std::to_string(world.observerNote().scale_error);
+                             std::to_string(world.odometryNote().scale_error);
   }
   write.progress = [&progress](std::size_t done, std::size_t) { progress.update(done); };
   if (o.force) removeOldFolder(o.out);
@@ -159,10 +159,10 @@ void refuseBagOptions(const Options& o) {
 
 /// A drone that hovers has no help from its motion: its odometry drifts as `hover` does.
 void fitToHover(double begin_s, Options& o) {
-  if (o.observer_profile.empty() || o.observer_profile.find(',') != std::string::npos) return;
+  if (o.odometry_profile.empty() || o.odometry_profile.find(',') != std::string::npos) return;
   std::array<char, 40> later{};
   std::snprintf(later.data(), later.size(), ",hover@%g", begin_s);
-  o.observer_profile += later.data();
+  o.odometry_profile += later.data();
 }
 
 int run(Options& o) {
@@ -182,9 +182,9 @@ int run(Options& o) {
   if (!o.force && std::filesystem::exists(o.out)) {
     throw std::runtime_error(o.out + ": is there already; choose another name or give --force");
   }
-  if (bag && o.observer_profile.empty()) o.observer_profile = "drone";
+  if (bag && o.odometry_profile.empty()) o.odometry_profile = "drone";
   if (const auto begin_s = hoverBegin_s(o.world.flight)) fitToHover(*begin_s, o);
-  if (!o.observer_profile.empty()) o.world.observer = profileOfOption(o.observer_profile);
+  if (!o.odometry_profile.empty()) o.world.odometry = profileOfOption(o.odometry_profile);
   if (!o.start.empty()) o.world.start = parseStart("--start", o.start);
   auto world_pointer = asUsage([&o] { return std::make_unique<WorldSequence>(o.world); });
   WorldSequence& world = *world_pointer;
@@ -193,9 +193,9 @@ int run(Options& o) {
     bag ? writeWorldBag(world, o, progress) : writeWorldFolder(world, o, progress);
   }
   std::cout << o.out << ": " << world.size() << " images, world seed " << o.world.world_seed;
-  if (o.world.observer) {
-    std::cout << "; observer profile " << o.world.observer->name << ", seed " << o.world.seed
-              << ", scale error " << world.observerNote().scale_error;
+  if (o.world.odometry) {
+    std::cout << "; odometry profile " << o.world.odometry->name << ", seed " << o.world.seed
+              << ", scale error " << world.odometryNote().scale_error;
   }
   std::cout << '\n';
   return 0;

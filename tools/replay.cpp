@@ -16,7 +16,7 @@
 #include "progress_line.hpp"
 #include "run_all.hpp"
 #include "run_files.hpp"
-#include "run_observers.hpp"
+#include "run_odometry.hpp"
 #include "run_page.hpp"
 #include "run_print.hpp"
 #include "run_verdict.hpp"
@@ -37,7 +37,7 @@ struct Options {
   std::string config;
   std::vector<std::string> overrides;
   std::string estimator;
-  std::string observer_profile;
+  std::string odometry_profile;
   std::uint64_t seed = 0;
   CLI::Option* seed_option = nullptr;
   std::string seeds;
@@ -76,12 +76,12 @@ void addOptions(CLI::App& app, Options& o) {
       ->allow_extra_args(false)
       ->take_all();
   app.add_option("--estimator", o.estimator, "over the configuration")
-      ->check(CLI::IsMember({"thesis", "constraint", "observer"}));
-  app.add_option("--observer-profile", o.observer_profile,
+      ->check(CLI::IsMember({"thesis", "constraint", "odometry"}));
+  app.add_option("--odometry-profile", o.odometry_profile,
                  "corrupt the truth like this (truth, wheel, drone, hover, harsh; A,B@S: A, from "
                  "second S on B); default: the input's own odometry, else wheel for a KITTI "
                  "folder, drone for the others");
-  o.seed_option = addSeed(app, "--seed", o.seed, "of the observer's noise");
+  o.seed_option = addSeed(app, "--seed", o.seed, "of the odometry's noise");
   app.add_option("--seeds", o.seeds, "A:B, runs the seeds A to B and prints median and worst")
       ->excludes(o.seed_option);
   app.add_option("--frames", o.frames, "A:B:STEP, frames A up to but without B");
@@ -139,29 +139,29 @@ std::vector<std::uint64_t> seedsOf(const Options& o) {
   return o.seeds.empty() ? std::vector<std::uint64_t>{o.seed} : parseSeeds(o.seeds);
 }
 
-std::vector<RunObserver> observersOf(const Sequence& sequence, const Options& o) {
+std::vector<RunOdometry> observersOf(const Sequence& sequence, const Options& o) {
   // A bag is what was recorded; image folders have no odometry of their own and get a simulated
   // one.
   const bool is_bag = !std::filesystem::is_directory(o.input);
-  std::vector<RunObserver> observers;
-  if (o.observer_profile.empty() && is_bag && o.ping_pong) {
+  std::vector<RunOdometry> odometries;
+  if (o.odometry_profile.empty() && is_bag && o.ping_pong) {
     throw UsageError(sequence.name() +
                      ": --ping-pong: recorded odometry cannot run backwards; corrupt the truth "
-                     "instead, by --observer-profile (drone, say)");
+                     "instead, by --odometry-profile (drone, say)");
   }
-  if (o.observer_profile.empty() && (is_bag || !sequence.observer().empty())) {
+  if (o.odometry_profile.empty() && (is_bag || !sequence.odometry().empty())) {
     if (!o.seeds.empty() || o.seed_option->count() > 0) {
       throw UsageError(sequence.name() + (o.seeds.empty() ? ": --seed" : ": --seeds") +
-                       " needs --observer-profile: the recorded odometry has no seeds");
+                       " needs --odometry-profile: the recorded odometry has no seeds");
     }
-    observers.push_back(recordedObserver(sequence));
-    return observers;
+    odometries.push_back(recordedOdometry(sequence));
+    return odometries;
   }
   const std::string profile =
-      o.observer_profile.empty() ? defaultProfile(o.input) : o.observer_profile;
+      o.odometry_profile.empty() ? defaultProfile(o.input) : o.odometry_profile;
   for (const std::uint64_t seed : seedsOf(o))
-    observers.push_back(simulatedObserver(sequence, profile, seed));
-  return observers;
+    odometries.push_back(simulatedOdometry(sequence, profile, seed));
+  return odometries;
 }
 
 /// Made before the work, so that a folder that cannot be written does not cost a run.
@@ -195,13 +195,13 @@ PipelineConfig configOf(const Options& given) {
 int run(const Options& o) {
   const PipelineConfig config = configOf(o);
   const bool is_folder = std::filesystem::is_directory(o.input);
-  if (config.mapper.observer_adapter.mode == ObserverMode::kNavdata &&
-      (is_folder || !o.observer_profile.empty())) {
+  if (config.mapper.odometry_adapter.mode == OdometryMode::kNavdata &&
+      (is_folder || !o.odometry_profile.empty())) {
     throw UsageError(o.input +
-                     ": observer_mode navdata needs a bag with the AR.Drone's navdata, and no "
-                     "--observer-profile; set it to pose or twist");
+                     ": odometry_mode navdata needs a bag with the AR.Drone's navdata, and no "
+                     "--odometry-profile; set it to pose or twist");
   }
-  if (!o.observer_profile.empty()) profileOfOption(o.observer_profile);
+  if (!o.odometry_profile.empty()) profileOfOption(o.odometry_profile);
   const std::optional<ComputerSpeed> speed = speedOf(o);
   const FrameSelection selection =
       asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
@@ -218,14 +218,14 @@ int run(const Options& o) {
                              ": holds no ranges, which use_range asks for: record the sensor's "
                              "topic (a folder: range.txt), or set use_range to false");
   }
-  const std::vector<RunObserver> observers = observersOf(*sequence, o);
+  const std::vector<RunOdometry> odometries = observersOf(*sequence, o);
   makeFolder(o.out);
   const std::string evaluate_script = o.report ? findEvaluateScript() : "";
   std::vector<RunResult> results;
   {
     ProgressLine progress("replay", sequence->size());
     results = runAll(
-        *sequence, config, observers, o.threads,
+        *sequence, config, odometries, o.threads,
         [&progress](std::size_t done) { progress.update(done); }, speed);
   }
 
@@ -234,12 +234,12 @@ int run(const Options& o) {
   std::vector<std::string> faults;
   for (std::size_t i = 0; i < results.size(); ++i) {
     bool truth_moved = false;
-    const Trajectory truth = truthFromObserversStart(sequence->truth(), observers[i], truth_moved);
+    const Trajectory truth = truthFromOdometryStart(sequence->truth(), odometries[i], truth_moved);
     const RunEvaluation evaluation = evaluate(results[i], truth);
     const RunVerdict verdict = judgeRun(sequence->name(), results[i], evaluation, truth_moved);
     for (const std::string& text : verdict.warnings) std::cerr << "replay: " << text << '\n';
     faults.insert(faults.end(), verdict.faults.begin(), verdict.faults.end());
-    const RunLabel label{sequence->name(), observers[i].profile, observers[i].seed,
+    const RunLabel label{sequence->name(), odometries[i].profile, odometries[i].seed,
                          nameOf(config.mapper.estimator)};
     summaries.push_back(summaryOf(results[i], evaluation, label));
     const std::string folder = o.seeds.empty() ? o.out : seedFolder(o.out, *label.seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// simulate_landmarks: a known path, landmarks beside it and a drifting observer through the mapper:
+// simulate_landmarks: a known path, landmarks beside it and a drifting odometry through the mapper:
 // what the estimators make of a long way when calibration and mounting are exact.
 
 #include <CLI/CLI.hpp>
@@ -27,7 +27,7 @@ struct Options {
   std::string config;
   std::vector<std::string> overrides;
   std::vector<std::string> estimators{"thesis", "constraint"};
-  std::string observer_profile = "wheel";
+  std::string odometry_profile = "wheel";
   std::string seeds = "1:5";
   std::uint64_t world_seed = 1;
   std::string frames;
@@ -49,11 +49,11 @@ void addOptions(CLI::App& app, Options& o) {
       ->take_all();
   app.add_option("--estimator", o.estimators, "one or more, by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember({"thesis", "constraint", "observer"}))
+      ->check(CLI::IsMember({"thesis", "constraint", "odometry"}))
       ->capture_default_str();
-  app.add_option("--observer-profile", o.observer_profile, "corrupt the path like this")
+  app.add_option("--odometry-profile", o.odometry_profile, "corrupt the path like this")
       ->capture_default_str();
-  app.add_option("--seeds", o.seeds, "A:B, of the observer's noise")->capture_default_str();
+  app.add_option("--seeds", o.seeds, "A:B, of the odometry's noise")->capture_default_str();
   addSeed(app, "--world-seed", o.world_seed, "of the landmarks and of what the camera sees");
   app.add_option("--frames", o.frames, "A:B:STEP, poses A up to but without B");
   app.add_option("--landmarks", o.street.landmarks, "beside the whole path")
@@ -140,12 +140,12 @@ std::string number(const Json& value, int digits) {
   return text;
 }
 
-constexpr const char* kColumns[] = {"observer_ate_rmse_m",      "fused_ate_rmse_m",
+constexpr const char* kColumns[] = {"odometry_ate_rmse_m",      "fused_ate_rmse_m",
                                     "fused_ate_rmse_aligned_m", "ratio",
-                                    "ratio_scale_removed",      "observer_error_last_m",
+                                    "ratio_scale_removed",      "odometry_error_last_m",
                                     "fused_error_last_m",       "nees_mean",
                                     "outside_3_sigma",          "t_rel_percent",
-                                    "observer_t_rel_percent",   "ms_per_frame_median"};
+                                    "odometry_t_rel_percent",   "ms_per_frame_median"};
 
 void printRow(const std::string& name, const Json& row) {
   std::cout << name;
@@ -171,7 +171,7 @@ void print(const Json& all) {
 }
 
 int run(const Options& o) {
-  const ObserverProfile profile = profileOfOption(o.observer_profile);
+  const OdometryProfile profile = profileOfOption(o.odometry_profile);
   std::vector<PipelineConfig> configs;
   for (const std::string& estimator : o.estimators) configs.push_back(configOf(o, estimator));
   const Trajectory path = readPath(o.path);
@@ -187,13 +187,13 @@ int run(const Options& o) {
   all["peers"] = Json::array();
   for (const std::string& peer : o.peers) all["peers"].push_back(peerRow(peer, truth, o.frames));
 
-  std::vector<RunObserver> observers;
+  std::vector<RunOdometry> odometries;
   for (const std::uint64_t seed : parseSeeds(o.seeds))
-    observers.push_back({profile.name, seed, simulateObserver(truth, profile, seed)});
+    odometries.push_back({profile.name, seed, simulateOdometry(truth, profile, seed)});
   BackEnds back_ends(o.threads);
   for (const PipelineConfig& config : configs) {
-    for (const RunObserver& observer : observers)
-      back_ends.add(config.mapper, forwardCamera(), observer);
+    for (const RunOdometry& odometry : odometries)
+      back_ends.add(config.mapper, forwardCamera(), odometry);
   }
   std::filesystem::create_directories(o.out);
   runThrough(o, path, truth, configs.front().tracker.tracks, back_ends);
@@ -202,12 +202,12 @@ int run(const Options& o) {
   auto result = results.begin();
   for (const std::string& estimator : o.estimators) {
     std::vector<Json> summaries;
-    for (const RunObserver& observer : observers) {
+    for (const RunOdometry& odometry : odometries) {
       const RunEvaluation evaluation = evaluate(*result, truth);
       summaries.push_back(
           summaryOf(*result, evaluation,
-                    {"simulated landmarks", observer.profile, observer.seed, estimator}));
-      writeRun(o.out + "/" + estimator + "/seed_" + std::to_string(*observer.seed), *result,
+                    {"simulated landmarks", odometry.profile, odometry.seed, estimator}));
+      writeRun(o.out + "/" + estimator + "/seed_" + std::to_string(*odometry.seed), *result,
                evaluation, summaries.back());
       ++result;
     }
@@ -223,7 +223,7 @@ int run(const Options& o) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Puts landmarks beside a known path, lets a camera see them and an observer drift, and "
+      "Puts landmarks beside a known path, lets a camera see them and odometry drift, and "
       "compares the mapper's estimators with the path.",
       "simulate_landmarks"};
   Options options;

@@ -65,16 +65,16 @@ SlamConfig configOf(Estimator estimator) {
   config.estimator = estimator;
   config.mapper.max_depth_m = 200;
   config.landmark_map.max_landmarks = 10000000;
-  config.constraint_filter.observer.walk_m_per_sqrt_m = 0.005;
-  config.constraint_filter.observer.walk_m_per_sqrt_s = 0.001;
+  config.msckf.odometry.walk_m_per_sqrt_m = 0.005;
+  config.msckf.odometry.walk_m_per_sqrt_s = 0.001;
   return config;
 }
 
-/// The observer's states at the frames: the truth.
-std::vector<ObserverState> truthOf(const Trajectory& path) {
-  std::vector<ObserverState> states;
+/// The odometry's states at the frames: the truth.
+std::vector<OdometryState> truthOf(const Trajectory& path) {
+  std::vector<OdometryState> states;
   for (const StampedPose& pose : path.poses()) {
-    ObserverState state;
+    OdometryState state;
     state.stamp_ns = pose.stamp_ns;
     state.T_odom_base = pose.T_map_base;
     states.push_back(state);
@@ -92,7 +92,7 @@ struct Cost {
   double map_ms = 0;
 };
 
-/// Over the frames that used tracks: between its keyframes the constraint filter does next to
+/// Over the frames that used tracks: between its keyframes the MSCKF does next to
 /// nothing.
 double medianOf(const std::vector<RunFrame>& frames,
                 const std::function<double(const RunFrame&)>& value) {
@@ -129,13 +129,13 @@ class StageCpu {
 };
 
 Cost costOf(const Scene& scene, Estimator estimator) {
-  const std::vector<ObserverState> observer = truthOf(scene.path);
+  const std::vector<OdometryState> odometry = truthOf(scene.path);
   Slam slam(configOf(estimator), forwardCamera());
   RunResult run;
   for (std::size_t i = 0; i < scene.frames.size(); ++i) {
     RunFrame frame;
     StageCpu cpu(frame.times_ms);
-    frame.result = slam.process(scene.frames[i].features, observer[i], cpu.hook());
+    frame.result = slam.process(scene.frames[i].features, odometry[i], cpu.hook());
     run.frames.push_back(std::move(frame));
   }
   const auto ms = [](Stage stage) {
@@ -167,7 +167,7 @@ Cost costOfMap(const Scene& scene, int landmarks) {
     landmark.position_map << random.uniform(-side_m / 2, side_m / 2),
         random.uniform(-side_m / 2, side_m / 2), random.uniform(-1.6, 6);
     landmark.descriptor = descriptors.randomDescriptor();
-    landmark.deviation_m = 0.1;
+    landmark.sigma_m = 0.1;
     landmark.seen_distance_m = random.uniform(8, 40);
     const double heading = random.uniform(0, 2 * M_PI);
     landmark.view_direction_map << std::cos(heading), std::sin(heading), 0;
@@ -212,7 +212,7 @@ int run(const std::string& path) {
   for (const int features : {50, 100, 200, 400, 600, 1000, 1500, 2000}) {
     const Scene scene = streetWith(features);
     write(out, "thesis", costOf(scene, Estimator::kThesis));
-    write(out, "constraint", costOf(scene, Estimator::kConstraint));
+    write(out, "msckf", costOf(scene, Estimator::kMsckf));
     std::cerr << features << " features\n";
   }
   const Scene scene = streetWith(600);

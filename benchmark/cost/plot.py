@@ -26,7 +26,7 @@ def total(row):
 
 def draw(rows, path):
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4))
-    for series, colour in (("thesis", "#1f77b4"), ("constraint", "#d62728")):
+    for series, colour in (("thesis", "#1f77b4"), ("msckf", "#d62728")):
         chosen = [row for row in rows if row["series"] == series]
         left.plot([row["features"] for row in chosen], [total(row) for row in chosen], "o-", color=colour,
                   label=f"estimator: {series}")
@@ -46,11 +46,11 @@ def draw(rows, path):
 
 
 def table(rows):
-    lines = ["| features | landmarks in view | thesis: associate / localise / map [ms] | constraint | tracks used |",
+    lines = ["| features | landmarks in view | thesis: associate / localise / map [ms] | msckf | tracks used |",
              "|---|---|---|---|---|"]
     thesis = [row for row in rows if row["series"] == "thesis"]
-    constraint = [row for row in rows if row["series"] == "constraint"]
-    for a, b in zip(thesis, constraint):
+    constraint = [row for row in rows if row["series"] == "msckf"]
+    for a, b in zip(thesis, msckf):
         cells = [" / ".join(f"{row[f'{stage}_ms']:.2f}" for stage in STAGES) for row in (a, b)]
         lines.append(f"| {a['features']:.0f} | {a['in_view']:.0f}, {b['in_view']:.0f} | {cells[0]} | {cells[1]} | "
                      f"{b['tracks']:.0f} |")
@@ -74,8 +74,8 @@ def main():
 ## What a frame costs the mapper
 
 `mapping_cost`: a simulated street, KITTI's camera, 0.8 px noise, 3 % wrong corners, true odometry; medians over 120 frames, of
-the constraint filter over its keyframes, of the thread's own time, on a machine with a load of {os.getloadavg()[1]:.0f} on {os.cpu_count()} cores. About linear
-in the features, and in the landmarks, all of which are projected; the constraint filter has a constant part besides, the covariance of its
+the MSCKF over its keyframes, of the thread's own time, on a machine with a load of {os.getloadavg()[1]:.0f} on {os.cpu_count()} cores. About linear
+in the features, and in the landmarks, all of which are projected; the MSCKF has a constant part besides, the covariance of its
 window and anchors.
 
 {table(rows)}

@@ -7,8 +7,8 @@
 #include <memory>
 #include <opencv2/calib3d.hpp>
 
-#include "brown_model.hpp"
-#include "lens_table.hpp"
+#include "camera/brown_model.hpp"
+#include "camera/lens_table.hpp"
 
 namespace ardrone_vslam::bench {
 namespace {

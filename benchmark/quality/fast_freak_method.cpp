@@ -3,9 +3,9 @@
 #include <numeric>
 #include <optional>
 
-#include "ardrone_vslam/corner_detector.hpp"
-#include "ardrone_vslam/freak.hpp"
+#include "corners/corner_detector.hpp"
 #include "feature_methods.hpp"
+#include "freak/freak.hpp"
 
 namespace ardrone_vslam::quality {
 namespace {
@@ -45,7 +45,7 @@ class FastFreak : public FeatureMethod {
     keypoints_.clear();
     for (const Corner& corner : corners_) keypoints_.push_back({corner.x_px, corner.y_px});
     std::optional<float> orientation_rad;
-    if (roll_known_) orientation_rad = static_cast<float>(view.turn_rad);
+    if (roll_known_) orientation_rad = static_cast<float>(view.rotation_rad);
     describer_.describe(image, keypoints_, described_, descriptors_, nullptr, orientation_rad);
     return strongest();
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/descriptor_matcher.hpp"
 #include "feature_methods.hpp"
+#include "matching/descriptor_matcher.hpp"
 
 namespace ardrone_vslam::quality {
 

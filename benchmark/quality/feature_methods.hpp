@@ -20,9 +20,10 @@ struct FeatureSet {
 
 /// An image as a method gets it.
 struct View {
-  cv::Mat image;        ///< 8-bit grey
-  cv::Mat mask;         ///< features lie where it is not 0; empty: everywhere
-  double turn_rad = 0;  ///< by how much the scene is turned clockwise; for methods that are told
+  cv::Mat image;  ///< 8-bit grey
+  cv::Mat mask;   ///< features lie where it is not 0; empty: everywhere
+  double rotation_rad =
+      0;  ///< by how much the scene is turned clockwise; for methods that are told
 };
 
 /// A detector with its descriptor.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "ardrone_vslam/corner_detector.hpp"
+#include "corners/corner_detector.hpp"
 #include "feature_methods.hpp"
 #include "frames.hpp"
 #include "picture_changes.hpp"

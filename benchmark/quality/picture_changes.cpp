@@ -38,7 +38,7 @@ ChangedPicture turned(const cv::Mat& picture, double angle_deg) {
   const cv::Matx23d M(H(0, 0), H(0, 1), H(0, 2), H(1, 0), H(1, 1), H(1, 2));
   ChangedPicture result;
   result.H_changed_picture = H;
-  result.view.turn_rad = angle_rad;
+  result.view.rotation_rad = angle_rad;
   cv::warpAffine(picture, result.view.image, M, canvas, cv::INTER_CUBIC, cv::BORDER_REFLECT_101);
   cv::warpAffine(insideMask(picture.size()), result.view.mask, M, canvas, cv::INTER_NEAREST);
   return result;

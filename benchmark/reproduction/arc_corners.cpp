@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "kernels/fast_circle.hpp"
+#include "kernels/fast/fast_circle.hpp"
 
 namespace ardrone_vslam::reproduction {
 namespace {

@@ -4,8 +4,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "arc_corners.hpp"
-#include "ardrone_vslam/corner_detector.hpp"
-#include "kernels/fast_kernels.hpp"
+#include "corners/corner_detector.hpp"
+#include "kernels/fast/fast_kernels.hpp"
 #include "measurements.hpp"
 #include "pictures.hpp"
 #include "timed.hpp"

@@ -2,8 +2,8 @@
 #include <memory>
 #include <opencv2/features2d.hpp>
 
-#include "ardrone_vslam/corner_detector.hpp"
-#include "ardrone_vslam/freak.hpp"
+#include "corners/corner_detector.hpp"
+#include "freak/freak.hpp"
 #include "measurements.hpp"
 #include "pictures.hpp"
 #include "timed.hpp"

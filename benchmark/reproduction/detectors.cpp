@@ -4,7 +4,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/video/tracking.hpp>
 
-#include "ardrone_vslam/corner_detector.hpp"
+#include "corners/corner_detector.hpp"
 #include "measurements.hpp"
 #include "picture_changes.hpp"
 #include "pictures.hpp"

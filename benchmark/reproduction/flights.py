@@ -16,7 +16,7 @@ import thesis
 from section import Section, digits
 
 FEW_FEATURES = 50  # of an image: as few matches as in the thesis
-FIXED_THRESHOLDS = ("mapper/threshold_deviations=0",)
+FIXED_THRESHOLDS = ("mapper/threshold_sigmas=0",)
 
 
 def rows_of(*folders, names=None):
@@ -73,8 +73,8 @@ def errors_against_matches(tools, runs):
 def kitti(tools):
     sequence, what, options = street(tools)
     section = Section("Chapter 7.1, figures 7.3 to 7.7: KITTI")
-    runs = {name: tools.replay(f"street_{name}", sequence, "--observer-profile", "truth", "--estimator", name, *options) for name in ("thesis", "constraint")}
-    few = tools.replay("street_few", sequence, "--observer-profile", "truth", "--estimator", "thesis", *options, settings=(
+    runs = {name: tools.replay(f"street_{name}", sequence, "--odometry-profile", "truth", "--estimator", name, *options) for name in ("thesis", "msckf")}
+    few = tools.replay("street_few", sequence, "--odometry-profile", "truth", "--estimator", "thesis", *options, settings=(
         "mapper/min_landmarks=1", f"tracker/features_per_frame={FEW_FEATURES}"))
     fixes, matches = column(tools, runs["thesis"], "camera_error_m"), column(tools, runs["thesis"], "landmark_matches")
     few_fixes, few_matches = column(tools, few, "camera_error_m"), column(tools, few, "landmark_matches")
@@ -114,13 +114,13 @@ def _drifting(tools, section, sequence, options):
     """An observer that drifts, which the thesis had not: as wheels do in the street, as a drone's in the corridor."""
     profile = "wheel" if tools.kitti else "drone"
     seeds = (1,) if tools.quick else (1, 2, 3)
-    folders = {name: [tools.replay(f"street_drift_{name}_{seed}", sequence, "--observer-profile", profile, "--seed", str(seed), "--estimator", name, *options) for seed in seeds]
-               for name in ("thesis", "constraint")}
+    folders = {name: [tools.replay(f"street_drift_{name}_{seed}", sequence, "--odometry-profile", profile, "--seed", str(seed), "--estimator", name, *options) for seed in seeds]
+               for name in ("thesis", "msckf")}
 
     def rmse(folder, key):
         return tools.read(folder).summary[key]
 
-    observer = [rmse(folder, "observer_ate_rmse_m") for folder in folders["thesis"]]
+    observer = [rmse(folder, "odometry_ate_rmse_m") for folder in folders["thesis"]]
     rows = [["observer", digits(np.median(observer)), "-"]]
     for name, runs in folders.items():
         errors = [rmse(folder, "fused_ate_rmse_m") for folder in runs]
@@ -143,7 +143,7 @@ def _whole_path(tools, section):
         return
     config = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "config", "kitti.yaml")
     part = ["--frames", "0:600"] if tools.quick else []
-    folder = tools.simulate_landmarks("path", path, "--config", config, "--observer-profile", "truth", "--seeds", "1:1", "--estimator", "thesis", *part,
+    folder = tools.simulate_landmarks("path", path, "--config", config, "--odometry-profile", "truth", "--seeds", "1:1", "--estimator", "thesis", *part,
                                       settings=("mapper/min_landmarks=1", f"tracker/features_per_frame={FEW_FEATURES}"))
     run = os.path.join(folder, "thesis", "seed_1")
     errors = column(tools, run, "camera_error_m")
@@ -166,8 +166,8 @@ def ardrone_2d(tools):
     laps = 2 if tools.quick else 3
     world = tools.make_world("laps_3hz", "laps", "--rate", "3", "--seconds", f"{laps * lap_s:g}", "--seed", "1")
     settings = ("mapper/planar=true", "mapper/min_landmarks=3")
-    run = tools.replay("planar", world, "--observer-profile", "truth", "--estimator", "thesis", settings=settings)
-    spatial = column(tools, tools.replay("spatial", world, "--observer-profile", "truth", "--estimator", "thesis", settings=settings[1:]), "camera_error_m")
+    run = tools.replay("planar", world, "--odometry-profile", "truth", "--estimator", "thesis", settings=settings)
+    spatial = column(tools, tools.replay("spatial", world, "--odometry-profile", "truth", "--estimator", "thesis", settings=settings[1:]), "camera_error_m")
     matches, errors = column(tools, run, "landmark_matches"), column(tools, run, "camera_error_m")
     parts = [part.mean() for part in np.array_split(matches, laps)]
     section.text(f"{len(matches)} rendered images in {laps} laps, `planar`, the observer is the truth (the thesis's was the ceiling camera), at least three landmarks for a fix. The "
@@ -193,12 +193,12 @@ def hover(tools):
     section = Section("Figure 1.2b: drift while hovering")
     world = tools.make_world("hover", "hover", "--seconds", f"{thesis.HOVER_S:g}", "--rate", "20")
     seeds = 3 if tools.quick else 20
-    folders = {name: [tools.replay(f"hover_{name}_{seed}", world, "--observer-profile", "hover", "--seed", str(seed), "--estimator", name) for seed in range(1, seeds + 1)]
-               for name in ("thesis", "constraint")}
+    folders = {name: [tools.replay(f"hover_{name}_{seed}", world, "--odometry-profile", "hover", "--seed", str(seed), "--estimator", name) for seed in range(1, seeds + 1)]
+               for name in ("thesis", "msckf")}
     figure, (axes,) = panels(1, 3.8)
     final = {}
-    lines = [("observer alone", folders["constraint"], "observer_error_m", "#d62728"), ("`thesis`", folders["thesis"], "fused_error_m", "#ff7f0e"),
-             ("`constraint`", folders["constraint"], "fused_error_m", "#1f77b4")]
+    lines = [("observer alone", folders["msckf"], "odometry_error_m", "#d62728"), ("`thesis`", folders["thesis"], "fused_error_m", "#ff7f0e"),
+             ("`msckf`", folders["msckf"], "fused_error_m", "#1f77b4")]
     for label, runs, name, colour in lines:
         errors = np.array([tools.read(folder).frames[name] for folder in runs])
         seconds = np.arange(errors.shape[1]) / 20
@@ -214,9 +214,9 @@ def hover(tools):
     section.table(["off after 15 s [m]", "median", "worst"], [[label, digits(np.median(errors)), digits(errors.max())] for label, errors in final.items()] +
                   [["thesis, one flight without vision", str(thesis.HOVER_DRIFT_M), "-"]])
     section.text(f"A rendered flight that holds its place as well as a drone does, {seeds} seeds of the profile `hover` (velocity bias of 0.13 m/s per axis), whose drift is that of "
-                 "the thesis's flight in size. `constraint` is held by what the image shows ([how](data_path.md#the-constraint-filter)), in a scene that is taken to be 10 m away (`rest_depth_m`).")
+                 "the thesis's flight in size. `msckf` is held by what the image shows ([how](data_path.md#the-constraint-filter)), in a scene that is taken to be 10 m away (`rest_depth_m`).")
     section.claim("drift of the observer after 15 s, median [m]", float(np.median(final["observer alone"])), 1, 4)
-    section.claim("`constraint` over the observer, medians", float(np.median(final["`constraint`"]) / np.median(final["observer alone"])), high=0.15)
+    section.claim("`msckf` over the observer, medians", float(np.median(final["`msckf`"]) / np.median(final["observer alone"])), high=0.15)
     section.claim("`thesis` over the observer, medians", float(np.median(final["`thesis`"]) / np.median(final["observer alone"])), high=0.7)
     plt.close("all")
     return section
@@ -225,7 +225,7 @@ def hover(tools):
 def thresholds(tools):
     sequence, what, options = street(tools)
     section = Section("Is the mismatch filter too aggressive?")
-    common = ["--observer-profile", "truth", "--estimator", "thesis", *options]
+    common = ["--odometry-profile", "truth", "--estimator", "thesis", *options]
     few = f"tracker/features_per_frame={FEW_FEATURES}"
     sweeps = {"mismatch threshold [px]": [], "least number of landmarks": []}
     for threshold in (8, 64) if tools.quick else (1, 2, 4, 8, 16, 32, 64):
@@ -257,7 +257,7 @@ def thresholds(tools):
         section.table([name, *map(str, x)], [["mean error [m]", *(digits(error.mean()) for error in errors)], ["largest error [m]", *(digits(error.max()) for error in errors)],
                                              ["matches an image", *(digits(count, 2) for count in matches)], ["images with a fix", *(str(len(error)) for error in errors)]])
     profile = "wheel" if tools.kitti else "drone"
-    drifting = [tools.read(tools.replay(f"threshold_{profile}_{threshold}", sequence, "--observer-profile", profile, "--seed", "1", "--estimator", "thesis", *options, settings=(
+    drifting = [tools.read(tools.replay(f"threshold_{profile}_{threshold}", sequence, "--odometry-profile", profile, "--seed", "1", "--estimator", "thesis", *options, settings=(
         few, "mapper/min_landmarks=1", *FIXED_THRESHOLDS, f"mapper/landmark_threshold_px={threshold}", f"mapper/epipolar_threshold_px={threshold}"))).summary["ratio_scale_removed"]
         for threshold in values["mismatch threshold [px]"]]
     section.text(f"With the truth as the observer a narrow threshold cannot be wrong, as the prediction is not. So the same with one that drifts (`{profile}`, seed 1), fused over observer, drawn scale error removed:")

@@ -53,7 +53,7 @@ def mean_deviation(tools):
                                ("error_reduced_m", "(C.2)", "#9467bd"),
                                ("error_mended_m", "(6.5) with W = (sum w)^2", "#2ca02c"), ("error_exact_m", "sqrt(N) / sum(1 / sigma), this package", "#1f77b4")):
         axes.plot(counts, [point[key] for point in points], "o-", markersize=4, label=label, color=colour)
-    axes.plot(counts, [point["deviation_m"] for point in points], "--", color=TRUTH, label="the true deviation itself")
+    axes.plot(counts, [point["sigma_m"] for point in points], "--", color=TRUTH, label="the true deviation itself")
     axes.set_yscale("log")
     axes.set_xlabel("landmarks")
     axes.set_ylabel("error of the deviation [m]")
@@ -83,8 +83,8 @@ def mean_deviation(tools):
     return section
 
 
-def landmark_deviation(tools):
-    measured = tools.measure("landmark_deviation")
+def landmark_sigma(tools):
+    measured = tools.measure("landmark_sigma")
     section = Section("Appendix D: where a landmark's error lies")
     angles = measured["angles"]
     clouds, axes = panels(len(angles), 2.9, columns=4)
@@ -92,7 +92,7 @@ def landmark_deviation(tools):
         points = np.array(angle["cloud"])
         one.plot(points[:, 0], points[:, 1], ".", color="#333333", markersize=2, rasterized=True)
         turn = np.linspace(0, 2 * np.pi, 90)
-        x, y, z = angle["deviation_m"]
+        x, y, z = angle["sigma_m"]
         for radius, colour, label in ((3 * np.sqrt((x * x + y * y + z * z) / 3), "#888888", "mean of x, y, z"), (3 * np.sqrt((x * x + z * z) / 2), "#d62728", "mean of x, z"),
                                       (3 * angle["formula_m"], "#2ca02c", "(D.1)")):
             one.plot(radius * np.cos(turn), radius * np.sin(turn), color=colour, label=label)
@@ -112,16 +112,16 @@ def landmark_deviation(tools):
     axes[0].set_ylabel("z / y [1/1000]")
     section.picture("landmark_images", images, "The same on the image plane of the present position (figure D.3)")
     section.table(["theta, parallax [deg]", "distance [m]", "deviation x, y, z [m]", "across the ray [m]", "along it [m]", "(D.1) [m]", "(D.1) over the sine of the parallax"],
-                  [[f"{angle['theta_deg']:g}, {angle['parallax_deg']:g}", digits(angle["depth_m"]), ", ".join(digits(value, 2) for value in angle["deviation_m"]),
+                  [[f"{angle['theta_deg']:g}, {angle['parallax_deg']:g}", digits(angle["depth_m"]), ", ".join(digits(value, 2) for value in angle["sigma_m"]),
                     digits(angle["across_m"], 2), digits(angle["along_m"], 2), digits(angle["formula_m"], 2), digits(angle["formula_along_m"], 2)] for angle in angles])
     section.text(f"{measured['runs']} drawings of table D.1 each; the thesis prints neither its four angles nor numbers. Its shapes are found again: a ball at 45 degrees, an "
                  "ellipsoid along y that grows as theta shrinks, and a round cloud on the image plane for the smaller angles. (D.1) tells the error across the ray; at 45 degrees it is a little above both "
                  "projections that the text says it lies between, at the others between them. Of the depth it says nothing: at 2 degrees of parallax the landmark is off along the ray by some thirty times what it says. The package keeps "
-                 "the depth's deviation beside it, (D.1) over the sine of the parallax (`depthDeviation_m`): the last column.")
+                 "the depth's deviation beside it, (D.1) over the sine of the parallax (`depthSigma_m`): the last column.")
     least = angles[-1]
     section.claim("error along the ray over (D.1) at 2 degrees of parallax", least["along_m"] / least["formula_m"], 25, 40)
     section.claim("the same over this package's deviation of the depth", least["along_m"] / least["formula_along_m"], 0.9, 1.3)
     section.claim("error across the ray over (D.1), largest of the angles", max(angle["across_m"] / angle["formula_m"] for angle in angles), 0.8, 1.05)
-    section.claim("deviation z over x at 45 degrees (a ball)", angles[0]["deviation_m"][2] / angles[0]["deviation_m"][0], 0.9, 1.1)
+    section.claim("deviation z over x at 45 degrees (a ball)", angles[0]["sigma_m"][2] / angles[0]["sigma_m"][0], 0.9, 1.1)
     plt.close("all")
     return section

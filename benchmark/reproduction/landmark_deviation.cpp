@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "ardrone_vslam/triangulation.hpp"
+#include "map/triangulation.hpp"
 #include "measurements.hpp"
 #include "random_source.hpp"
 
@@ -62,17 +62,17 @@ nlohmann::json atAngle(double theta_deg, int runs) {
   }
   const Eigen::Vector3d deviation = (squares / found).cwiseSqrt();
   const Eigen::Vector2d deviation_image = (squares_image / found).cwiseSqrt();
-  const double formula_m = measurementDeviation_m(kPosition_m, truth.depth_m, kAngle_rad);
+  const double formula_m = measurementSigma_m(kPosition_m, truth.depth_m, kAngle_rad);
   return {{"theta_deg", theta_deg},
           {"parallax_deg", 2 * theta_deg},
           {"depth_m", truth.depth_m},
           {"without_point", runs - found},
-          {"deviation_m", {deviation.x(), deviation.y(), deviation.z()}},
+          {"sigma_m", {deviation.x(), deviation.y(), deviation.z()}},
           {"across_m", std::sqrt(squares_across / found)},
           {"along_m", std::sqrt(squares_along / found)},
           {"image", {deviation_image.x(), deviation_image.y()}},
           {"formula_m", formula_m},
-          {"formula_along_m", depthDeviation_m(formula_m, truth.parallax_rad)},
+          {"formula_along_m", depthSigma_m(formula_m, truth.parallax_rad)},
           {"cloud", cloud}};
 }
 

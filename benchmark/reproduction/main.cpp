@@ -25,7 +25,7 @@ const std::map<std::string, nlohmann::json (*)(bool quick)>& sections() {
       {"quality", measureQuality},
       {"lens", measureLens},
       {"mean_deviation", measureMeanDeviation},
-      {"landmark_deviation", measureLandmarkDeviation},
+      {"landmark_sigma", measureLandmarkDeviation},
   };
   return all;
 }

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <vector>
 
-#include "ardrone_vslam/thesis_filter.hpp"
 #include "measurements.hpp"
 #include "random_source.hpp"
+#include "thesis/thesis_filter.hpp"
 
 namespace ardrone_vslam::reproduction {
 namespace {
@@ -54,9 +54,9 @@ double packageDeviation(const std::vector<double>& sigmas) {
   config.min_landmarks = 1;
   config.fix_deviation_floor_m = 0;
   config.fix_angle_floor_deg = 0;
-  std::vector<Sighting> sightings;
-  for (const double sigma : sigmas) sightings.push_back({{5, 0, 0}, {1, 0, 0}, sigma, 0});
-  const auto fix = ThesisFilter(config).locate(sightings, Eigen::Vector3d::Zero(), 0);
+  std::vector<Observation> observations;
+  for (const double sigma : sigmas) observations.push_back({{5, 0, 0}, {1, 0, 0}, sigma, 0});
+  const auto fix = ThesisFilter(config).locate(observations, Eigen::Vector3d::Zero(), 0);
   return std::sqrt(fix->covariance(1, 1));
 }
 
@@ -84,22 +84,22 @@ Fix fixOfWrongObserver(MeanKind mean, int runs) {
   config.min_landmarks = 1;
   config.fix_deviation_floor_m = 0;
   config.fix_angle_floor_deg = 0;
-  config.outlier_deviations = 0;
+  config.outlier_sigmas = 0;
   const ThesisFilter filter(config);
   Fix fix;
   for (int run = 0; run < runs; ++run) {
     RandomSource random(static_cast<std::uint64_t>(run));
-    std::vector<Sighting> sightings;
+    std::vector<Observation> observations;
     for (int i = 0; i < 50; ++i) {
       const double y = std::tan(random.uniform(-40, 40) * M_PI / 180);
       const double z = std::tan(random.uniform(-26, 26) * M_PI / 180);
-      Sighting s;
+      Observation s;
       s.direction_map = Eigen::Vector3d(1, y, z).normalized();
       s.landmark_map = random.uniform(2, 10) * s.direction_map + 0.02 * random.normal3();
-      s.landmark_deviation_m = 0.02;
-      sightings.push_back(s);
+      s.landmark_sigma_m = 0.02;
+      observations.push_back(s);
     }
-    const auto found = filter.locate(sightings, {0.5, 0, 0}, 1.0 / 570);
+    const auto found = filter.locate(observations, {0.5, 0, 0}, 1.0 / 570);
     fix.error_m += std::abs(found->position_map.x()) / runs;
     fix.claimed_m += std::sqrt(found->covariance(0, 0)) / runs;
   }
@@ -126,7 +126,7 @@ nlohmann::json measureMeanDeviation(bool quick) {
       exact += std::abs(packageDeviation(sigmas) - true_deviation) / inputs;
     }
     json["against_landmarks"].push_back({{"landmarks", count},
-                                         {"deviation_m", truth},
+                                         {"sigma_m", truth},
                                          {"error_printed_m", printed},
                                          {"error_mended_m", mended},
                                          {"error_reduced_m", reduced},

@@ -85,13 +85,13 @@ std::vector<cv::Mat> smallVideo(std::size_t frames, std::string& what) {
   return video;
 }
 
-cv::Mat withNoise(const cv::Mat& image, double deviation_grey, std::uint64_t seed) {
+cv::Mat withNoise(const cv::Mat& image, double sigma_grey, std::uint64_t seed) {
   RandomSource random(seed);
   cv::Mat noisy(image.size(), CV_8UC1);
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x)
-      noisy.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(
-          image.at<std::uint8_t>(y, x) + deviation_grey * random.normal());
+      noisy.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(image.at<std::uint8_t>(y, x) +
+                                                                     sigma_grey * random.normal());
   return noisy;
 }
 

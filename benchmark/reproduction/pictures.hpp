@@ -38,6 +38,6 @@ inline ImageView viewOf(const cv::Mat& image) {
 }
 
 /// White Gaussian noise, seeded.
-cv::Mat withNoise(const cv::Mat& image, double deviation_grey, std::uint64_t seed);
+cv::Mat withNoise(const cv::Mat& image, double sigma_grey, std::uint64_t seed);
 
 }  // namespace ardrone_vslam::reproduction

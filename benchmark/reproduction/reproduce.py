@@ -18,7 +18,7 @@ from tools import Tools
 # In the order of the page.
 SECTIONS = {"detectors": front_end.detectors, "repeatability": front_end.repeatability, "corner_speed": front_end.corner_speed, "sampling": front_end.sampling,
             "descriptors": description.descriptors, "quality": description.quality, "matches": description.matches, "lens": geometry.lens,
-            "mean_deviation": geometry.mean_deviation, "landmark_deviation": geometry.landmark_deviation, "hover": flights.hover, "kitti": flights.kitti,
+            "mean_deviation": geometry.mean_deviation, "landmark_sigma": geometry.landmark_sigma, "hover": flights.hover, "kitti": flights.kitti,
             "ardrone_2d": flights.ardrone_2d, "thresholds": flights.thresholds}
 
 HEAD = """# The thesis, repeated

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
 
-#include "ardrone_vslam/corner_detector.hpp"
+#include "corners/corner_detector.hpp"
 #include "measurements.hpp"
 #include "pictures.hpp"
 #include "timed.hpp"

@@ -10,7 +10,7 @@ from ardrone_vslam_evaluation.run_folder import read_run
 
 # The thesis's localisation alone: the corrections of the package's own that docs/data_path.md names are off.
 AS_PRINTED = ("mapper/common_drift=false", "mapper/min_landmarks=1", "mapper/fix_deviation_floor_m=0", "mapper/fix_angle_floor_deg=0",
-              "mapper/gate_deviations=1000000")
+              "mapper/gate_sigmas=1000000")
 
 
 class Tools:
@@ -37,7 +37,7 @@ class Tools:
     def make_world(self, name, flight, *options):
         """A rendered flight, made once. @return its folder"""
         folder = os.path.join(self.out, "worlds", name)
-        self._run(os.path.join(self.programs, "make_world"), flight, "--observer-profile", "truth", "--force", "--out", folder, *options)
+        self._run(os.path.join(self.programs, "make_world"), flight, "--odometry-profile", "truth", "--force", "--out", folder, *options)
         return folder
 
     def replay(self, name, sequence, *options, settings=()):

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
-#include <deque>
-#include <optional>
+#include <memory>
 #include <vector>
 
-#include "ardrone_vslam/drone_filter.hpp"
-#include "ardrone_vslam/floor_watch.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/odometry_config.hpp"
 #include "ardrone_vslam/odometry_faults.hpp"
 
 namespace ardrone_vslam {
+
+/// What the drone measures at one time.
+struct DroneMeasurement {
+  Eigen::Matrix3d R_odom_base = Eigen::Matrix3d::Identity();  ///< as reported
+  Eigen::Vector2d flow_base_m_s = Eigen::Vector2d::Zero();    ///< forward, left
+  Eigen::Vector3d force_base_m_s2 = Eigen::Vector3d::Zero();  ///< specific force
+  double height_m = 0;  ///< above what is below; at most 0: not measured
+};
 
 /// One packet of the drone, with the stamp of its reception.
 struct NavdataReading {
@@ -43,45 +51,24 @@ class DroneObserver {
 
   /// @throws ConfigError listing every parameter out of its range
   explicit DroneObserver(const DroneFilterConfig& config);
+  ~DroneObserver();
 
   /// @param ready  gets the states that are ready, stamps ascending; none, one or more
   /// @return why this packet is not used; else kAccepted
-  ObserverBuffer::Push push(const NavdataReading& packet, std::vector<ObserverState>& ready);
+  OdometryBuffer::Push push(const NavdataReading& packet, std::vector<OdometryState>& ready);
   /// The same for a reading of the IMU.
-  ObserverBuffer::Push push(const DroneImu& imu, std::vector<ObserverState>& ready);
+  OdometryBuffer::Push push(const DroneImu& imu, std::vector<OdometryState>& ready);
   /// Only needed where packets are missing.
-  ObserverBuffer::Push push(const DroneCommandReading& command);
+  OdometryBuffer::Push push(const DroneCommandReading& command);
   /// What waits, when nothing further will come.
-  void flush(std::vector<ObserverState>& ready);
+  void flush(std::vector<OdometryState>& ready);
 
   /// What was wrong with the packets so far, by cause.
-  const OdometryFaultCounts& faults() const { return faults_; }
+  const OdometryFaultCounts& faults() const;
 
  private:
-  void count(OdometryFault fault) { ++faults_[static_cast<std::size_t>(fault)]; }
-  void beginAnew();
-  void release(std::vector<ObserverState>& ready);
-  void releaseFirst(std::vector<ObserverState>& ready);
-  void takeImu(std::vector<NavdataReading>& packets, std::vector<Eigen::Vector3d>& turn_rates);
-  ObserverState advance(NavdataReading packet);
-  void keepYaw(NavdataReading& packet, double dt_s);
-  void fly(const NavdataReading& packet, double dt_s);
-  void bridge(const NavdataReading& packet, double flown_s);
-  void useHeight(const NavdataReading& packet, double dt_s);
-
-  DroneFilterConfig config_;
-  DroneFilter filter_;
-  FloorWatch floor_;
-  std::deque<NavdataReading> packets_;  // that wait; stamps do not go back
-  std::deque<DroneImu> imu_;
-  std::deque<DroneCommandReading> commands_;  // of late; stamps do not go back
-  std::int64_t newest_imu_ns_ = 0;            // 0: none
-  std::int64_t newest_packet_ns_ = 0;         // likewise
-  std::int64_t last_group_ns_ = 0;            // stamp of the packets released last; 0: none
-  std::optional<NavdataReading> last_;        // as it was used
-  std::int64_t first_ns_ = 0;
-  double yaw_offset_rad_ = 0;  // of odom from the reported yaw
-  OdometryFaultCounts faults_{};
+  class State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace ardrone_vslam

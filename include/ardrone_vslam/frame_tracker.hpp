@@ -5,29 +5,9 @@
 #include <memory>
 
 #include "ardrone_vslam/features.hpp"
-#include "ardrone_vslam/parameters.hpp"
+#include "ardrone_vslam/tracker_config.hpp"
 
 namespace ardrone_vslam {
-
-/// How far a track may go between two images, and how alike its descriptors must be.
-struct FrameTrackerConfig {
-  double search_radius_px = 80.0;
-  int max_hamming_bits = 100;
-  double ratio = 0.85;
-};
-
-template <class Visitor>
-void visitParameters(FrameTrackerConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"track_search_radius_px", "px", 1.0, 4096.0,
-                      "how far a feature may move between two frames"},
-        c.search_radius_px);
-  visit(ParameterInfo{"track_max_hamming_bits", "bits", 0, 512,
-                      "largest descriptor distance within a track"},
-        c.max_hamming_bits);
-  visit(ParameterInfo{"track_ratio", "-", 0.0, 1.0,
-                      "best distance must be below ratio times the second best; 1 is off"},
-        c.ratio);
-}
 
 /// Gives features of the present frame the track ids of the frame before (thesis 4.1.4).
 class FrameTracker {

@@ -5,44 +5,10 @@
 #include <deque>
 #include <optional>
 
-#include "ardrone_vslam/observer_buffer.hpp"
-#include "ardrone_vslam/parameters.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/odometry_config.hpp"
 
 namespace ardrone_vslam {
-
-/// Where heights above the floor come from.
-struct HeightInputConfig {
-  bool use_range = false;
-  bool use_navdata_height = false;
-  double range_max_gap_s = 0.1;
-  double range_max_tilt_deg = 20;
-  double known_height_m = 0;
-};
-
-template <class Visitor>
-void visitParameters(HeightInputConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"use_range", "switch", 0, 0,
-                      "constraint filter: a range sensor that looks down (the topic `range`) tells "
-                      "the height above the floor, and so the scale when it changes"},
-        c.use_range);
-  visit(
-      ParameterInfo{"use_navdata_height", "switch", 0, 0,
-                    "constraint filter: the height above the floor in the AR.Drone's navdata (the "
-                    "topic `altitude`) takes the range's place"},
-      c.use_navdata_height);
-  visit(ParameterInfo{"range_max_gap_s", "s", 0.001, 10,
-                      "ranges and navdata heights are interpolated at the image's stamp across no "
-                      "longer a hole; at "
-                      "their end the nearest one counts for as long"},
-        c.range_max_gap_s);
-  visit(ParameterInfo{"range_max_tilt_deg", "deg", 0, 80,
-                      "ranges are not used while base is tilted by more"},
-        c.range_max_tilt_deg);
-  visit(ParameterInfo{"known_height_m", "m", 0, 1000,
-                      "constraint filter: constant height of base above a level floor (a robot on "
-                      "wheels); holds z, tells nothing of the scale; 0: not used"},
-        c.known_height_m);
-}
 
 /// Whether heights come from readings.
 inline bool usesReadings(const HeightInputConfig& config) {
@@ -75,9 +41,9 @@ class HeightInput {
   /// Appends a reading; one that is refused changes nothing. Of vertical ones with equal stamps (a
   /// burst) the last counts.
   Push push(const RangeReading& reading);
-  /// @param observer  its stamp is the image's, its attitude turns the range into a height
+  /// @param odometry  its stamp is the image's, its attitude turns the range into a height
   /// @return nothing without a range near the stamp, or while base is tilted too much
-  std::optional<double> at(const ObserverState& observer);
+  std::optional<double> at(const OdometryState& odometry);
 
   /// Forgets all readings: time began again.
   void clear() { readings_.clear(); }

@@ -19,7 +19,7 @@ enum class OdometryFault {
   kBurst,         ///< several messages with one stamp
   kHole,          ///< nothing for so long that the twist no longer tells the way
   kNoTwist,       ///< metres on end that the poses moved with a twist of zeros
-  kTableStep,     ///< observer_mode twist, navdata: another floor below, told from climbing
+  kTableStep,     ///< odometry_mode twist, navdata: another floor below, told from climbing
 };
 template <>
 struct EnumNames<OdometryFault> {
@@ -45,9 +45,9 @@ const char* explain(OdometryFault fault);
 /// Tells heights in whole metres (a driver that divides integers) from a height that is constant.
 class WholeMetresWatch {
  public:
-  /// One height, in order. @param vertical_way_m  since the one before, by the twist
+  /// One height, in order. @param climb_m  since the one before, by the twist
   /// @return whether it is a step of whole metres after others
-  bool see(double height_m, double vertical_way_m);
+  bool see(double height_m, double climb_m);
   /// Whether all heights of late were whole metres although the twist climbs.
   bool isWhole() const { return is_whole_; }
 

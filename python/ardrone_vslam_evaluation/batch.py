@@ -43,7 +43,7 @@ def parser_of(source):
     parser.add_argument("--kitti", metavar="DIR", help="also KITTI's sequences in it")
     for name, what in (("sequences", "names"), ("profiles", "names"), ("estimators", " or ".join(batch_jobs.ESTIMATORS))):
         parser.add_argument(f"--{name}", type=names, metavar="'A B'", help=f"only these ({what})")
-    parser.add_argument("--seeds", type=seeds, default=batch_jobs.SEEDS, metavar="A:B", help="of the observer's noise; default %(default)s")
+    parser.add_argument("--seeds", type=seeds, default=batch_jobs.SEEDS, metavar="A:B", help="of the odometry's noise; default %(default)s")
     parser.add_argument("--sweep", action="append", metavar="NAME=V1,V2", help="instead: runs with this parameter at these values, and at what it is "
                         "else, into WORK/sweep.md and sweep.png; may be repeated, one at a time is varied")
     parser.add_argument("--tuning", action="store_true", help="instead: all parameters of docs/tuning_sweep.json; with --update into docs/tuning.md")

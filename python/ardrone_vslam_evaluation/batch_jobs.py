@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from .faults import InputFault, reason
 
-ESTIMATORS = ("constraint", "thesis")
+ESTIMATORS = ("msckf", "thesis")
 SEEDS = "1:3"
 RATE_HZ = "20"  # of the AR.Drone's driver
 

@@ -9,13 +9,13 @@ from .run_folder import read_summary
 from .table import Column, shown
 
 COLUMNS = (Column("fused RMSE [m], median", "fused_rmse_m", 3), Column("worst", "fused_rmse_worst_m", 3),
-           Column("observer RMSE [m]", "observer_rmse_m", 3), Column("fused / observer", "ratio", 3),
+           Column("odometry RMSE [m]", "odometry_rmse_m", 3), Column("fused / odometry", "ratio", 3),
            Column("the same, scale removed", "ratio_scale_removed", 3), Column("worst", "ratio_scale_removed_worst", 3),
            Column("NEES / 3", "nees", 2),
            Column("outside 3 sigma [%]", "outside_3_sigma", 1, 100), Column("t_rel [%]", "t_rel_percent", 3))
 # Row's key -> (summary.json's, what of the seeds).
 OF_SUMMARY = {"fused_rmse_m": ("fused_ate_rmse_m", np.median), "fused_rmse_worst_m": ("fused_ate_rmse_m", np.max),
-              "observer_rmse_m": ("observer_ate_rmse_m", np.median), "ratio": ("ratio", np.median),
+              "odometry_rmse_m": ("odometry_ate_rmse_m", np.median), "ratio": ("ratio", np.median),
               "ratio_scale_removed": ("ratio_scale_removed", np.median),
               "ratio_scale_removed_worst": ("ratio_scale_removed", np.max), "nees": ("nees_mean", np.median),
               "outside_3_sigma": ("outside_3_sigma", np.median), "t_rel_percent": ("t_rel_percent", np.median)}

@@ -33,8 +33,8 @@ def parser_of(version):
     parser.add_argument("folder", nargs="*", help="a run's folder; several are shown side by side")
     parser.add_argument("--truth", metavar="FILE", help="true trajectory")
     parser.add_argument("--estimate", metavar="FILE", nargs="+", action="extend", help="trajectories to compare with it")
-    parser.add_argument("--observer", metavar="FILE", help="what the estimates were made from: tells whether they do no harm")
-    parser.add_argument("--observer-scale-error", type=float, metavar="X", help="drawn for a simulated observer; 0.01 is 1 %%")
+    parser.add_argument("--odometry", metavar="FILE", help="what the estimates were made from: tells whether they do no harm")
+    parser.add_argument("--odometry-scale-error", type=float, metavar="X", help="drawn for a simulated odometry; 0.01 is 1 %%")
     parser.add_argument("--name", nargs="+", action="extend", help="of the estimates or runs, in their order; default: their paths")
     parser.add_argument("--align", choices=ALIGNMENTS, help="before positions are compared; default: se3 for files, none for folders")
     parser.add_argument("--times", metavar="FILE", help="stamps of KITTI files; default: times.txt beside the truth")
@@ -42,7 +42,7 @@ def parser_of(version):
                         help="between the stamps of estimate and truth [s]; default 0.02")
     parser.add_argument("--interpolate", action="store_true",
                         help="the truth between its two neighbours, both within --max-difference, instead of the nearest")
-    for name in ("truth", "estimate", "observer"):
+    for name in ("truth", "estimate", "odometry"):
         parser.add_argument(f"--{name}-topic", metavar="TOPIC", help=f"of the {name}'s bag; default: the only one with poses, or the usual")
     parser.add_argument("--json", metavar="FILE", help="all numbers")
     parser.add_argument("--html", metavar="FILE", help="the report: one page with its plots in it")
@@ -53,12 +53,12 @@ def parser_of(version):
 
 
 def check(parser, arguments):
-    if arguments.folder and (arguments.truth or arguments.estimate or arguments.observer):
-        parser.error("folders hold truth and observer themselves: give either folders, or --truth and --estimate")
+    if arguments.folder and (arguments.truth or arguments.estimate or arguments.odometry):
+        parser.error("folders hold truth and odometry themselves: give either folders, or --truth and --estimate")
     if not arguments.folder and not (arguments.truth and arguments.estimate):
         parser.error("what shall be evaluated? Give --truth FILE --estimate FILE, or a folder that replay wrote")
-    if arguments.observer_scale_error is not None and not arguments.observer:
-        parser.error("--observer-scale-error needs --observer FILE")
+    if arguments.odometry_scale_error is not None and not arguments.odometry:
+        parser.error("--odometry-scale-error needs --odometry FILE")
     if len(arguments.folder) == 1 and not arguments.table:
         arguments.html = arguments.html or os.path.join(arguments.folder[0], "report.html")
         arguments.json = arguments.json or os.path.join(arguments.folder[0], "evaluation.json")

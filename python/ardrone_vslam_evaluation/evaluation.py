@@ -22,10 +22,10 @@ class Settings:
 
 @dataclass
 class Row:
-    """What belongs to one estimate, or to the observer that it began with."""
+    """What belongs to one estimate, or to the odometry that it began with."""
 
     name: str
-    kind: str  # "estimate" or "observer"
+    kind: str  # "estimate" or "odometry"
     truth: Optional[Trajectory]
     trajectory: Trajectory
     run: Optional[RunFolder] = None
@@ -132,10 +132,10 @@ def evaluate_row(row, settings):
         row.numbers["cost"] = _cost(row.run)
 
 
-def compare_with_observer(row, observer, scale_error):
-    """No harm: errors without alignment over the observer's, as they are and with the observer's scale error taken from both."""
+def compare_with_odometry(row, odometry, scale_error):
+    """No harm: errors without alignment over the odometry's, as they are and with the odometry's scale error taken from both."""
     row.numbers["ratio"] = row.numbers["ratio_scale_removed"] = None
-    if row.pairs is None or observer is None or observer.pairs is None:
+    if row.pairs is None or odometry is None or odometry.pairs is None:
         return
 
     def rmse(one, error):
@@ -144,7 +144,7 @@ def compare_with_observer(row, observer, scale_error):
             truth_m = metrics.with_scale_error(truth_m, error)
         return metrics.summary_of_errors(np.linalg.norm(one.pairs.estimate.positions_m - truth_m, axis=1))["rmse_m"]
 
-    if rmse(observer, 0) > 0:
-        row.numbers["ratio"] = rmse(row, 0) / rmse(observer, 0)
-    if scale_error is not None and rmse(observer, scale_error) > 0:
-        row.numbers["ratio_scale_removed"] = rmse(row, scale_error) / rmse(observer, scale_error)
+    if rmse(odometry, 0) > 0:
+        row.numbers["ratio"] = rmse(row, 0) / rmse(odometry, 0)
+    if scale_error is not None and rmse(odometry, scale_error) > 0:
+        row.numbers["ratio_scale_removed"] = rmse(row, scale_error) / rmse(odometry, scale_error)

@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from .evaluation import Row, compare_with_observer, evaluate_row
+from .evaluation import Row, compare_with_odometry, evaluate_row
 from .faults import InputFault
 from .read_bag import ESTIMATE_TOPICS, TRUTH_TOPICS, read_bag
 from .read_text import is_kitti, read_kitti, read_tum
@@ -62,19 +62,19 @@ def rows_of_files(arguments, settings):
                      "error over 1 s")
     check_names(arguments.name, arguments.estimate, "estimates")
     names = arguments.name or [os.path.splitext(name)[0] for name in short_names(arguments.estimate)]
-    sources = [("observer", "observer", arguments.observer)] if arguments.observer else []
+    sources = [("odometry", "odometry", arguments.odometry)] if arguments.odometry else []
     sources += [(name, "estimate", path) for name, path in zip(names, arguments.estimate)]
     rows = []
     for name, kind, path in sources:
-        option = "--observer-topic" if kind == "observer" else "--estimate-topic"
-        topic = arguments.observer_topic if kind == "observer" else arguments.estimate_topic
+        option = "--odometry-topic" if kind == "odometry" else "--estimate-topic"
+        topic = arguments.observer_topic if kind == "odometry" else arguments.estimate_topic
         trajectory = read_trajectory(path, times, topic, ESTIMATE_TOPICS if kind == "estimate" else (), option)
         check_kinds(trajectory, truth, times)
         rows.append(Row(name, kind, truth, trajectory))
         evaluate_row(rows[-1], settings)
-    observer = rows[0] if arguments.observer else None
-    for row in rows[1 if observer else 0:]:
-        compare_with_observer(row, observer, arguments.observer_scale_error)
+    odometry = rows[0] if arguments.odometry else None
+    for row in rows[1 if odometry else 0:]:
+        compare_with_odometry(row, odometry, arguments.odometry_scale_error)
     return rows, notes
 
 
@@ -94,11 +94,11 @@ def _same(one, other):
 
 
 def _observer_row(run, rows, name, settings):
-    """Of several runs with the same observer there is one row."""
+    """Of several runs with the same odometry there is one row."""
     for row in rows:
-        if row.kind == "observer" and _same(row.trajectory, run.observer) and (run.truth is None or _same(row.truth, run.truth)):
+        if row.kind == "odometry" and _same(row.trajectory, run.odometry) and (run.truth is None or _same(row.truth, run.truth)):
             return row
-    row = Row(name, "observer", run.truth, run.observer, run)
+    row = Row(name, "odometry", run.truth, run.odometry, run)
     evaluate_row(row, settings)
     rows.append(row)
     return row
@@ -113,35 +113,35 @@ def rows_of_folders(arguments, settings):
     if not arguments.name:
         estimators = [run.summary.get("estimator") for run in runs]
         names = [f"{name} ({estimator})" if estimator and estimator not in name else name for name, estimator in zip(names, estimators)]
-    observers, estimates, notes = [], [], []
+    odometries, estimates, notes = [], [], []
     for name, run in zip(names, runs):
         row = Row(name, "estimate", run.truth, run.fused, run)
         evaluate_row(row, settings)
         estimates.append(row)
-        if run.observer is None:
-            notes.append(f"{name}: no observer.tum, so no comparison with the observer")
+        if run.odometry is None:
+            notes.append(f"{name}: no odometry.tum, so no comparison with the odometry")
             continue
-        observer = _observer_row(run, observers, f"observer of {name}", settings)
+        odometry = _observer_row(run, odometries, f"odometry of {name}", settings)
         is_truth = run.summary.get("profile") == "truth"  # nothing to compare with, as in replay
-        compare_with_observer(row, None if is_truth else observer, run.summary.get("observer_scale_error"))
+        compare_with_odometry(row, None if is_truth else odometry, run.summary.get("odometry_scale_error"))
         for key in ("sequence", "profile", "seed", "estimator"):
             row.numbers[key] = run.summary.get(key)
-    if len(observers) == 1:
-        observers[0].name = observers[0].numbers["name"] = "observer"
-    notes_of_observers(observers)
-    return in_groups(observers, estimates), notes
+    if len(odometries) == 1:
+        odometries[0].name = odometries[0].numbers["name"] = "odometry"
+    notes_of_observers(odometries)
+    return in_groups(odometries, estimates), notes
 
 
-def notes_of_observers(observers):
+def notes_of_observers(odometries):
     """What lacks is told once, of the run itself."""
-    for observer in observers:
-        observer.notes.clear()
+    for odometry in odometries:
+        odometry.notes.clear()
 
 
-def in_groups(observers, estimates):
-    """Each observer followed by its estimates."""
+def in_groups(odometries, estimates):
+    """Each odometry followed by its estimates."""
     rows = []
-    for observer in observers:
-        rows.append(observer)
-        rows += [row for row in estimates if _same(row.run.observer, observer.trajectory) and row not in rows]
+    for odometry in odometries:
+        rows.append(odometry)
+        rows += [row for row in estimates if _same(row.run.odometry, odometry.trajectory) and row not in rows]
     return rows + [row for row in estimates if row not in rows]

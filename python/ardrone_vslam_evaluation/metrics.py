@@ -42,11 +42,11 @@ def kitti_errors(estimate, truth):
     """t_rel and r_rel over sub-paths of 100, 200 .. 800 m that start at every 10th pose; None below 100 m of way.
 
     A sub-path ends at the first pose that is further than its length, and is divided by its nominal length."""
-    way_m = truth.way_m()
+    displacement_m = truth.displacement_m()
     starts = np.arange(0, len(truth), KITTI_START_STEP)
     by_length, translations, rotations = [], [], []
     for length_m in KITTI_LENGTHS_M:
-        ends = np.searchsorted(way_m, way_m[starts] + length_m, side="right")
+        ends = np.searchsorted(displacement_m, displacement_m[starts] + length_m, side="right")
         is_whole = ends < len(truth)
         if not is_whole.any():
             continue
@@ -88,9 +88,9 @@ def relative_pose_errors_over_time(estimate, truth, seconds=1.0):
 
 
 def relative_pose_errors_over_way(estimate, truth, metres=1.0):
-    return relative_pose_errors(estimate, truth, truth.way_m(), metres)
+    return relative_pose_errors(estimate, truth, truth.displacement_m(), metres)
 
 
 def with_scale_error(positions_m, scale_error):
-    """Truth as an observer with this scale error alone reports it: positions about the first one times (1 + error)."""
+    """Truth as odometry with this scale error alone reports it: positions about the first one times (1 + error)."""
     return positions_m[0] + (1 + scale_error) * (positions_m - positions_m[0])

@@ -61,12 +61,12 @@ def draw_maps(rows):
     figure, axes = panels(len(runs), 4.6 if len(runs) > 1 else 6.5, title=title)
     for one, row in zip(axes, runs):
         marks = row.run.landmarks
-        deviation = marks.get("deviation_m", np.zeros(len(marks["x_m"])))
+        deviation = marks.get("sigma_m", np.zeros(len(marks["x_m"])))
         order = np.argsort(-deviation)  # the surest on top
         shown = one.scatter(marks["x_m"][order], marks["y_m"][order], c=deviation[order], s=3, linewidths=0, cmap="viridis_r",
                             vmin=0, vmax=max(np.percentile(deviation, 95), 1e-6), rasterized=True)
         figure.colorbar(shown, ax=one, label="landmark deviation [m]", shrink=0.8)
-        paths = [(row.run.truth, TRUTH, "--", "truth"), (row.run.observer, "#d62728", "-", "observer"),
+        paths = [(row.run.truth, TRUTH, "--", "truth"), (row.run.odometry, "#d62728", "-", "odometry"),
                  (row.run.fused, "#1f77b4", "-", "fused")]
         drawn = [path for path in paths if path[0] is not None]
         for path, colour, style, label in drawn:

@@ -37,13 +37,13 @@ def draw_error_against_rate(rows):
     if not has_several_rates(rows):
         raise LeftOut("all runs use as many images a second")
     figure, (axes,) = panels(1, 4.2)
-    colours = {"observer": OBSERVERS[0], **dict(zip((name for name in known if name != "observer"), ESTIMATES))}
+    colours = {"odometry": OBSERVERS[0], **dict(zip((name for name in known if name != "odometry"), ESTIMATES))}
     for name, by_rate in known.items():
         rates = sorted(by_rate)
         colour = colours.get(name, TRUTH)
         for rate_hz in rates:
             axes.plot([rate_hz] * len(by_rate[rate_hz]), by_rate[rate_hz], ".", color=colour, alpha=0.5)
-        axes.plot(rates, [np.median(by_rate[rate_hz]) for rate_hz in rates], "--" if name == "observer" else "o-", markersize=4, color=colour,
+        axes.plot(rates, [np.median(by_rate[rate_hz]) for rate_hz in rates], "--" if name == "odometry" else "o-", markersize=4, color=colour,
                   label=name)
     axes.axvline(THESIS_HZ, color=TRUTH, linewidth=1, linestyle=":", label="the thesis's expectation on the drone")
     axes.set_xscale("log")

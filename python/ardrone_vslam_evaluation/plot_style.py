@@ -27,16 +27,16 @@ class LeftOut(Exception):
 
 def family_of(row):
     """What many runs have in common."""
-    return row.kind if row.kind == "observer" else row.numbers.get("estimator") or row.kind
+    return row.kind if row.kind == "odometry" else row.numbers.get("estimator") or row.kind
 
 
 def looks(rows):
     """{row's name: colour and label}, the same in all plots. Too many rows for the colours: one for each family."""
     kinds = [row.kind for row in rows]
-    is_crowded = kinds.count("estimate") > len(ESTIMATES) or kinds.count("observer") > len(OBSERVERS)
+    is_crowded = kinds.count("estimate") > len(ESTIMATES) or kinds.count("odometry") > len(OBSERVERS)
     keys = [family_of(row) if is_crowded else row.name for row in rows]
     colours, result = {}, {}
-    free = {"observer": list(OBSERVERS), "estimate": list(ESTIMATES)}
+    free = {"odometry": list(OBSERVERS), "estimate": list(ESTIMATES)}
     for key, row in zip(keys, rows):
         is_first = key not in colours
         if is_first:

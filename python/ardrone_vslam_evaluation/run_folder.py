@@ -20,7 +20,7 @@ class RunFolder:
 
     folder: str
     fused: Trajectory
-    observer: Trajectory
+    odometry: Trajectory
     truth: Trajectory
     frames: dict  # column of frames.csv -> array; empty cells are NaN
     landmarks: dict  # the same of landmarks.csv
@@ -114,6 +114,6 @@ def read_run(folder):
         path = os.path.join(folder, name)
         return reader(path) if os.path.exists(path) else otherwise
 
-    return RunFolder(folder, read_tum(os.path.join(folder, "fused.tum")), read("observer.tum", read_tum, None),
+    return RunFolder(folder, read_tum(os.path.join(folder, "fused.tum")), read("odometry.tum", read_tum, None),
                      read("truth.tum", read_tum, None), read("frames.csv", read_frames, {}),
                      read("landmarks.csv", read_columns, {}), read("summary.json", read_summary, {}))

@@ -136,7 +136,7 @@ def case_of(name, entry, data, seeds, config_folder, names):
     options = (*entry.get("replay", ()), *(("--config", config) if config else ()))
     flight, bag = tuple(entry.get("make_world", ())), entry.get("bag", False)
     sequence = Sequence(names.setdefault((flight, bag, folder, options), name), (entry["profile"],), flight, folder, options, bag)
-    job = Job(sequence, entry["profile"], entry.get("estimator", "constraint"), seeds, tuple(entry.get("set", ())))
+    job = Job(sequence, entry["profile"], entry.get("estimator", "msckf"), seeds, tuple(entry.get("set", ())))
     return Case(name, job, entry["what"], config, entry.get("measure", "ratio_scale_removed"))
 
 

@@ -28,7 +28,7 @@ def percent(share):
 
 
 def full_table(groups, results):
-    text = head(["parameter", "on", "value", "fused / observer, median", "least", "most", "times the default's", "outside 3 sigma [%]"], 5)
+    text = head(["parameter", "on", "value", "fused / odometry, median", "least", "most", "times the default's", "outside 3 sigma [%]"], 5)
     for panel in (panel for group in groups for panel in group.panels):
         for case, point in ((case, point) for case, points in panel.lines for point in points):
             measured = results.get((case, point))
@@ -116,7 +116,7 @@ def cases_table(groups, results, limits):
     for case, point in sorted(results, key=lambda key: len(key[0].job.settings)):
         if point.is_base:
             bases.setdefault(case.name, results[case, point])
-    text = head(["on", "what it is", "odometry", "fused / observer", "images outside 3 sigma [%]", "a clear change is beyond"], 3)
+    text = head(["on", "what it is", "odometry", "fused / odometry", "images outside 3 sigma [%]", "a clear change is beyond"], 3)
     for case in {case.name: case for case in reversed(cases)}.values():
         if case.name in bases:
             text += row([f"`{case.name}`", case.what, case.job.profile, f"{bases[case.name].ratio():.2f}", percent(bases[case.name].outside),

@@ -20,7 +20,7 @@ RELATIVE = (Column("t_rel [%]", "t_rel_percent", 3), Column("r_rel [deg/m]", "r_
             Column("RPE 1 m [m]", "rpe_1m.translation_rmse_m", 3), Column("RPE 1 m [deg]", "rpe_1m.rotation_rmse_deg", 3))
 CONSISTENCY = (Column("NEES mean (3)", "nees.mean", 2), Column("inside 3 sigma [%]", "nees.inside_3_sigma", 2, 100, min),
                Column("inside 95 % bounds [%]", "nees.inside_95", 1, 100, min), Column("NIS mean (1)", "nis.mean", 2),
-               Column("/ observer", "ratio", 3), Column("/ observer, scale removed", "ratio_scale_removed", 3))
+               Column("/ odometry", "ratio", 3), Column("/ odometry, scale removed", "ratio_scale_removed", 3))
 COST = (Column("ms median", "cost.ms_per_frame.median", 2), Column("ms 95 %", "cost.ms_per_frame.p95", 2),
         Column("ms max", "cost.ms_per_frame.max", 2), Column("memory [MB]", "cost.peak_rss_mb"),
         Column("features", "cost.features_median", worst=min), Column("landmark matches", "cost.landmark_matches_median", worst=min),
@@ -78,7 +78,7 @@ def tables(rows, align):
     aligned = {"none": "no alignment", "se3": "SE(3) alignment", "sim3": "Sim(3) alignment"}[align]
     result = []
     for title, columns in ((f"Position error, {aligned}", error_columns(align)),
-                           ("Consistency, and no harm to the observer", CONSISTENCY), ("Cost, medians of the frames", COST)):
+                           ("Consistency, and no harm to the odometry", CONSISTENCY), ("Cost, medians of the frames", COST)):
         known = [column for column in columns if any(look_up(row.numbers, column.key) is not None for row in rows)]
         lines = [[row.name] + [shown(look_up(row.numbers, column.key), column) for column in known]
                  for row in rows if any(look_up(row.numbers, column.key) is not None for column in known)]

@@ -24,7 +24,7 @@ class Trajectory:
     def __len__(self):
         return len(self.stamps_ns)
 
-    def way_m(self):
+    def displacement_m(self):
         """Way from the first pose to each."""
         steps = np.linalg.norm(np.diff(self.positions_m, axis=0), axis=1)
         return np.concatenate([[0.0], np.cumsum(steps)])

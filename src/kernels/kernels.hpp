@@ -2,13 +2,13 @@
 #pragma once
 
 #include "ardrone_vslam/instruction_set.hpp"
-#include "kernels/fast_kernels.hpp"
-#include "kernels/freak_kernels.hpp"
-#include "kernels/hamming_distances.hpp"
-#include "kernels/hamming_kernels.hpp"
-#include "kernels/hamming_window.hpp"
-#include "kernels/product_kernels.hpp"
-#include "kernels/project_kernels.hpp"
+#include "kernels/fast/fast_kernels.hpp"
+#include "kernels/freak/freak_kernels.hpp"
+#include "kernels/hamming/hamming_distances.hpp"
+#include "kernels/hamming/hamming_kernels.hpp"
+#include "kernels/hamming/hamming_window.hpp"
+#include "kernels/product/product_kernels.hpp"
+#include "kernels/project/project_kernels.hpp"
 
 namespace ardrone_vslam::kernels {
 

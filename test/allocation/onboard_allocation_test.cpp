@@ -40,7 +40,7 @@ TEST(OnboardAllocation, NoneForRecordsGoodAndBad) {
   ObserverInput input;
   EXPECT_EQ(during([&] {
               for (std::uint32_t i = 1; i <= 100; ++i) {
-                Record record = recordOf(observerAt(i, i));
+                Record record = recordOf(odometryAt(i, i));
                 ASSERT_TRUE(input.read(record.data(), record.size(), i));
                 record[20] ^= 1;
                 ASSERT_FALSE(input.read(record.data(), record.size(), i));

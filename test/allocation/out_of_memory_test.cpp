@@ -20,12 +20,12 @@ class OutOfMemory : public FlightFixture {
     constexpr int kStep_px = 6;
     const TestImage wall = generatedImage(160 + kStep_px * kAlong, 120);
     std::string frames;
-    std::string observer;
+    std::string odometry;
     for (int i = -1; i <= kAlong; ++i) {
-      VslamObserver state = observerAt(stampOf(i), static_cast<std::uint32_t>(i + 10));
+      VslamObserver state = odometryAt(stampOf(i), static_cast<std::uint32_t>(i + 10));
       state.position_m[1] = -0.1 * i;
       const Record record = recordOf(state);
-      observer.append(record.begin(), record.end());
+      odometry.append(record.begin(), record.end());
       if (i < 0 || i == kAlong) continue;
       TestImage image(160, 120);
       for (int y = 0; y < 120; ++y)
@@ -33,8 +33,8 @@ class OutOfMemory : public FlightFixture {
       frames += pgm(stampOf(i), image);
     }
     writeFile(file("frames"), frames);
-    writeFile(file("observer"), observer);
-    settings_.onboard.observer = file("observer");
+    writeFile(file("odometry"), odometry);
+    settings_.onboard.odometry = file("odometry");
     settings_.tracker.corners.features_per_frame = 30;
     settings_.mapper.landmark_map.max_landmarks = 1000;
   }

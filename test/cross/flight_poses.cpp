@@ -76,9 +76,9 @@ class Flight {
 
   /// @return the stamp of the next image, negative at the end; the odometry before it goes into
   /// the buffer
-  std::int64_t next(ObserverBuffer& buffer) {
+  std::int64_t next(OdometryBuffer& buffer) {
     char kind[16];
-    ObserverState state;
+    OdometryState state;
     while (std::fscanf(file_.get(), "%15s %" SCNd64, kind, &state.stamp_ns) == 2) {
       if (std::strcmp(kind, "image") == 0) {
         if (std::fgetc(file_.get()) != '\n' ||
@@ -130,10 +130,10 @@ void run(int argc, char** argv) {
   Tracker tracker(tracker_config, flight.camera());
   Slam slam(slam_config, T_base_cam);
   ImageFeatures features;
-  ObserverBuffer buffer(slam_config.observer);
-  ObserverState state;
+  OdometryBuffer buffer(slam_config.observer);
+  OdometryState state;
   for (std::int64_t stamp_ns; (stamp_ns = flight.next(buffer)) >= 0;) {
-    if (buffer.at(stamp_ns, state) != ObserverBuffer::Lookup::kFound) continue;
+    if (buffer.at(stamp_ns, state) != OdometryBuffer::Lookup::kFound) continue;
     tracker.process(flight.image(), stamp_ns, features, hook);
     const FrameResult& result = slam.process(features, state, hook);
     const Eigen::Vector3d p = result.T_map_base.translation();

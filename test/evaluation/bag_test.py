@@ -76,8 +76,8 @@ class BagTest(unittest.TestCase):
         row = self.numbers("--truth", bag, "--estimate", bag)
         self.assertIn("/vslam/pose", row["file"])
         self.assertIn("/odometry", self.numbers("--truth", bag, "--estimate", bag, "--estimate-topic", "/odometry")["file"])
-        row = self.numbers("--truth", bag, "--estimate", bag, "--observer", bag, "--observer-topic", "/odometry")
-        self.assertIsNone(row["ratio"])  # the observer has no error
+        row = self.numbers("--truth", bag, "--estimate", bag, "--odometry", bag, "--odometry-topic", "/odometry")
+        self.assertIsNone(row["ratio"])  # the odometry has no error
 
     def test_topics_are_asked_for_by_name(self):
         bag = self.bag("two.bag", {"/a": Odometry, "/b": PoseStamped})

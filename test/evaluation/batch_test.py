@@ -20,7 +20,7 @@ TINY = [{"name": "tiny", "make_world": ["laps", "--rate", "20", "--seconds", "1.
 
 
 def row(sequence="laps", **numbers):
-    return {"sequence": sequence, "profile": "drone", "estimator": "constraint", "seeds": "1:3", "frames": 600, "fused_rmse_m": 0.2,
+    return {"sequence": sequence, "profile": "drone", "estimator": "msckf", "seeds": "1:3", "frames": 600, "fused_rmse_m": 0.2,
             "ratio": 0.3, "ratio_scale_removed": 0.25, **numbers}
 
 
@@ -52,7 +52,7 @@ class JobsTest(WithFolder):
     def test_are_sequences_times_profiles_times_estimators(self):
         sequences = [batch_jobs.Sequence("a", ("drone", "hover"), flight=("laps",)), batch_jobs.Sequence("b", ("wheel",), folder="/b")]
         names = [job.name() for job in batch_jobs.jobs_of(sequences)]
-        self.assertEqual(names, ["a drone constraint", "a drone thesis", "a hover constraint", "a hover thesis", "b wheel constraint",
+        self.assertEqual(names, ["a drone msckf", "a drone thesis", "a hover msckf", "a hover thesis", "b wheel msckf",
                                  "b wheel thesis"])
         jobs = batch_jobs.jobs_of(sequences, "2:4", ["a"], ["hover"], ["thesis"])
         self.assertEqual([(job.name(), job.seeds) for job in jobs], [("a hover thesis", "2:4")])
@@ -60,7 +60,7 @@ class JobsTest(WithFolder):
     def test_what_is_not_there_is_named(self):
         sequences = [batch_jobs.Sequence("a", ("drone",), flight=("laps",))]
         for arguments, part in (((["x"], None, None), "--sequences: there is no x; here are a"), ((None, ["x"], None), "here are drone"),
-                                ((None, None, ["x"]), "here are constraint, thesis")):
+                                ((None, None, ["x"]), "here are msckf, thesis")):
             with self.assertRaisesRegex(InputFault, part):
                 batch_jobs.jobs_of(sequences, "1:3", *arguments)
         with self.assertRaisesRegex(InputFault, "two sequences of that name"):
@@ -130,14 +130,14 @@ class BaselineTest(WithFolder):
         self.assertEqual(compare([row()], [row()]), ([], [], 1))
         self.assertEqual(compare([row(fused_rmse_m=0.224)], [row()]), ([], [], 1), "10 % and 5 mm are allowed")
         worse, better, _ = compare([row(fused_rmse_m=0.226, ratio=0.2)], [row()])
-        self.assertEqual(worse, ["laps drone constraint: fused RMSE [m] 0.200 -> 0.226"])
-        self.assertEqual(better, ["laps drone constraint: fused / observer 0.300 -> 0.200"])
+        self.assertEqual(worse, ["laps drone msckf: fused RMSE [m] 0.200 -> 0.226"])
+        self.assertEqual(better, ["laps drone msckf: fused / odometry 0.300 -> 0.200"])
         self.assertEqual(len(compare([row(ratio=0.36)], [row()], margin=0.2)[0]), 0)
         self.assertEqual(len(compare([row(ratio=0.38)], [row()], margin=0.2)[0]), 1)
 
     def test_lost_frames_and_numbers_are_worse(self):
-        self.assertEqual(compare([row(frames=599)], [row()])[0], ["laps drone constraint: frames 600 -> 599"])
-        self.assertEqual(compare([row(ratio=None)], [row()])[0], ["laps drone constraint: fused / observer 0.300 -> none"])
+        self.assertEqual(compare([row(frames=599)], [row()])[0], ["laps drone msckf: frames 600 -> 599"])
+        self.assertEqual(compare([row(ratio=None)], [row()])[0], ["laps drone msckf: fused / odometry 0.300 -> none"])
         self.assertEqual(compare([row(ratio=0.5)], [row(ratio=None)])[0], [])
 
     def test_rows_of_other_seeds_or_sequences_are_not_compared(self):
@@ -191,7 +191,7 @@ class WholeTest(WithFolder):
         code, out, fault = self.evaluate_all("--baseline", self.write("better.json", baseline.as_json([better])))
         self.assertEqual(code, 1)
         self.assertIn("1 of 4 rows; 3 numbers worse", out)
-        self.assertIn("worse: tiny drone constraint: fused / observer 0.000 -> 0.", fault)
+        self.assertIn("worse: tiny drone msckf: fused / odometry 0.000 -> 0.", fault)
 
     def test_a_run_that_fails_is_named_and_the_others_are_in_the_table(self):
         os.makedirs(self.path("programs"))
@@ -202,7 +202,7 @@ class WholeTest(WithFolder):
         self.assertEqual(code, 1)
         self.assertIn("evaluate_all: tiny drone thesis: failed, see", fault)
         self.assertEqual(self.read("work/runs/tiny/drone/thesis.log"), "broken\n")
-        self.assertIn("| tiny | 30 | drone | constraint |", out)
+        self.assertIn("| tiny | 30 | drone | msckf |", out)
         self.assertNotIn("| thesis |", out)
 
     def test_wrong_usage_is_told_before_any_work(self):

@@ -61,11 +61,11 @@ class CommandTest(unittest.TestCase):
 
     def test_observer_gives_the_ratios(self):
         truth = straight(100, 201)
-        observer = dataclasses.replace(truth, positions_m=1.02 * truth.positions_m)
+        odometry = dataclasses.replace(truth, positions_m=1.02 * truth.positions_m)
         fused = dataclasses.replace(truth, positions_m=1.01 * truth.positions_m)
-        files = [write_tum(self.path(name), path) for name, path in (("truth", truth), ("fused", fused), ("odom", observer))]
-        rows, _ = self.numbers("--truth", files[0], "--estimate", files[1], "--observer", files[2], "--observer-scale-error", 0.015)
-        self.assertEqual([row["kind"] for row in rows], ["observer", "estimate"])
+        files = [write_tum(self.path(name), path) for name, path in (("truth", truth), ("fused", fused), ("odom", odometry))]
+        rows, _ = self.numbers("--truth", files[0], "--estimate", files[1], "--odometry", files[2], "--odometry-scale-error", 0.015)
+        self.assertEqual([row["kind"] for row in rows], ["odometry", "estimate"])
         self.assertAlmostEqual(rows[1]["ratio"], 0.5, places=6)
         self.assertAlmostEqual(rows[1]["ratio_scale_removed"], 1.0, places=5)
 
@@ -129,7 +129,7 @@ class CommandTest(unittest.TestCase):
                                 (("--truth", good, "--estimate", good, "--align", "scale"), "invalid choice"),
                                 (("--truth", good, "--estimate", good, "--max-difference", "-1"), "must be above 0"),
                                 (("--truth", good, "--estimate", good, "--name", "a", "b"), "2 names for 1"),
-                                (("--truth", good, "--estimate", good, "--observer-scale-error", "0.1"), "--observer")):
+                                (("--truth", good, "--estimate", good, "--odometry-scale-error", "0.1"), "--odometry")):
             self.refused(*arguments, parts=[part])
 
 

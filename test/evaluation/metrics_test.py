@@ -72,9 +72,9 @@ class MetricsTest(unittest.TestCase):
 
     def test_removing_the_scale_error_leaves_nothing_of_it(self):
         truth = winding(100).positions_m
-        observer = metrics.with_scale_error(truth, 0.02)
-        np.testing.assert_array_equal(observer[0], truth[0])
-        np.testing.assert_allclose(np.linalg.norm(observer[50] - truth[50]), 0.02 * np.linalg.norm(truth[50] - truth[0]))
+        odometry = metrics.with_scale_error(truth, 0.02)
+        np.testing.assert_array_equal(odometry[0], truth[0])
+        np.testing.assert_allclose(np.linalg.norm(odometry[50] - truth[50]), 0.02 * np.linalg.norm(truth[50] - truth[0]))
 
 
 if __name__ == "__main__":

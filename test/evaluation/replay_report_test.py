@@ -22,7 +22,7 @@ class ReplayReportTest(unittest.TestCase):
         cls.temporary.cleanup()
 
     def replay(self, out, *options, **environment):
-        done = subprocess.run([REPLAY, self.folder, "--observer-profile", "drone", "--out", out, *options], capture_output=True, text=True,
+        done = subprocess.run([REPLAY, self.folder, "--odometry-profile", "drone", "--out", out, *options], capture_output=True, text=True,
                               check=False, env={**os.environ, **environment})
         return done.returncode, done.stdout, done.stderr
 
@@ -42,7 +42,7 @@ class ReplayReportTest(unittest.TestCase):
         out = os.path.join(self.temporary.name, "seeds")
         code, told, fault = self.replay(out, "--seeds", "1:2", "--report")
         self.assertEqual(code, 0, fault)
-        self.assertIn("median of 2: constraint", told)
+        self.assertIn("median of 2: msckf", told)
         self.assertTrue(os.path.exists(f"{out}/report.html"))
 
     def test_without_matplotlib_the_run_is_kept_and_the_cause_told(self):

@@ -17,8 +17,8 @@ SAME = {"ate.none.rmse_m": "fused_ate_rmse_m", "ate.none.mean_m": "fused_error_m
         "ratio_scale_removed": "ratio_scale_removed", "t_rel_percent": "t_rel_percent", "nees.mean": "nees_mean",
         "cost.ms_per_frame.median": "ms_per_frame_median", "cost.ms_per_frame.p95": "ms_per_frame_p95",
         "cost.landmark_matches_median": "landmark_matches_median", "cost.landmarks": "landmarks"}
-SAME_OF_OBSERVER = {"ate.none.rmse_m": "observer_ate_rmse_m", "ate.none.last_m": "observer_error_last_m",
-                    "t_rel_percent": "observer_t_rel_percent"}
+SAME_OF_OBSERVER = {"ate.none.rmse_m": "odometry_ate_rmse_m", "ate.none.last_m": "odometry_error_last_m",
+                    "t_rel_percent": "odometry_t_rel_percent"}
 
 
 def look_up(numbers, path):
@@ -33,7 +33,7 @@ class RunFolderTest(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.runs = os.path.join(cls.temporary.name, "runs")
         truth = write_tum(os.path.join(cls.temporary.name, "truth.tum"), there_and_back(440))
-        subprocess.run([PROGRAM, truth, "--out", cls.runs, "--seeds", "1:2", "--landmarks", "1500", "--estimator", "thesis,constraint"],
+        subprocess.run([PROGRAM, truth, "--out", cls.runs, "--seeds", "1:2", "--landmarks", "1500", "--estimator", "thesis,msckf"],
                        check=True, capture_output=True)
 
     @classmethod
@@ -61,11 +61,11 @@ class RunFolderTest(unittest.TestCase):
         return folder
 
     def test_numbers_are_those_of_the_summary(self):
-        for run in ("thesis/seed_1", "constraint/seed_2"):
+        for run in ("thesis/seed_1", "msckf/seed_2"):
             with open(f"{self.runs}/{run}/summary.json") as file:
                 summary = json.load(file)
-            observer, estimate = self.numbers(f"{self.runs}/{run}")[0]["trajectories"]
-            for numbers, same in ((estimate, SAME), (observer, SAME_OF_OBSERVER)):
+            odometry, estimate = self.numbers(f"{self.runs}/{run}")[0]["trajectories"]
+            for numbers, same in ((estimate, SAME), (odometry, SAME_OF_OBSERVER)):
                 for key, name in same.items():
                     self.assertIsNotNone(summary[name], name)
                     self.assertAlmostEqual(look_up(numbers, key), summary[name], delta=1e-6 * max(1, abs(summary[name])), msg=f"{run} {name}")
@@ -79,24 +79,24 @@ class RunFolderTest(unittest.TestCase):
     def test_seeds_and_estimators_stand_side_by_side(self):
         numbers, table = self.numbers(self.runs)
         self.assertEqual([row["name"] for row in numbers["trajectories"]],
-                         ["observer of constraint/seed_1", "constraint/seed_1", "thesis/seed_1",
-                          "observer of constraint/seed_2", "constraint/seed_2", "thesis/seed_2"])
-        for line in ("median of 2: constraint", "worst of 2: thesis"):
+                         ["odometry of msckf/seed_1", "msckf/seed_1", "thesis/seed_1",
+                          "odometry of msckf/seed_2", "msckf/seed_2", "thesis/seed_2"])
+        for line in ("median of 2: msckf", "worst of 2: thesis"):
             self.assertIn(line, table)
 
     def test_what_lacks_is_left_out_and_told(self):
-        numbers, page = self.page(self.copied("fused.tum", "observer.tum", "frames.csv", "landmarks.csv"))
+        numbers, page = self.page(self.copied("fused.tum", "odometry.tum", "frames.csv", "landmarks.csv"))
         self.assertIn("no truth, so no errors", numbers["notes"][0])
         self.assertIn("Left out: there is no truth.", page)
         self.assertIsNone(numbers["trajectories"][1]["ratio"])
         numbers, page = self.page(self.copied("fused.tum", "truth.tum"))
-        self.assertIn("no observer.tum", numbers["notes"][0])
+        self.assertIn("no odometry.tum", numbers["notes"][0])
         for reason in ("no run has landmarks", "frames.csv lacks landmark_candidates", "no covariance", "lacks fix_nis", "lacks stage times"):
             self.assertIn(reason, page)
         self.assertGreater(numbers["trajectories"][0]["ate"]["none"]["rmse_m"], 0)
 
     def test_the_truth_as_observer_has_no_ratio(self):
-        folder = self.copied("fused.tum", "observer.tum", "truth.tum")
+        folder = self.copied("fused.tum", "odometry.tum", "truth.tum")
         with open(f"{folder}/summary.json", "w") as file:
             json.dump({"profile": "truth"}, file)
         self.assertIsNone(self.numbers(folder)[0]["trajectories"][1]["ratio"])

@@ -31,7 +31,7 @@ def parameters():
 
 
 def case(name="room", **changes):
-    return sweep.Case(name, Job(SEQUENCE, "drone", "constraint", "1:2", changes.pop("settings", ())), **changes)
+    return sweep.Case(name, Job(SEQUENCE, "drone", "msckf", "1:2", changes.pop("settings", ())), **changes)
 
 
 class ParametersTest(unittest.TestCase):
@@ -69,7 +69,7 @@ class PanelTest(unittest.TestCase):
 
     def test_the_estimator_is_no_setting(self):
         panel = sweep.panel_of("estimator", ["thesis"], [case()], self.known)
-        self.assertEqual([(p.job.estimator, p.job.settings) for p in panel.lines[0][1]], [("constraint", ()), ("thesis", ())])
+        self.assertEqual([(p.job.estimator, p.job.settings) for p in panel.lines[0][1]], [("msckf", ()), ("thesis", ())])
 
     def test_jobs_that_panels_share_run_once(self):
         group = sweep.group_of_options(["threshold=20,50", "oriented=false"], [case().job], self.known)
@@ -109,14 +109,14 @@ class ResultsTest(unittest.TestCase):
         self.assertTrue(by_value["threshold", "20"].is_overconfident())
         threshold, oriented = self.group.panels
         limits = sweep_page.scatter(results)
-        self.assertEqual(limits, {"room drone constraint": 1.1}, "too few to tell")
-        self.assertEqual(sweep_page.effects(threshold, results, limits), [(1.5, "20", "room drone constraint")])
-        self.assertEqual(sweep_page.overconfident(threshold, results), "20 (room drone constraint)")
+        self.assertEqual(limits, {"room drone msckf": 1.1}, "too few to tell")
+        self.assertEqual(sweep_page.effects(threshold, results, limits), [(1.5, "20", "room drone msckf")])
+        self.assertEqual(sweep_page.overconfident(threshold, results), "20 (room drone msckf)")
         self.assertTrue(sweep_page.changes_nothing(oriented, results))
         table = sweep_page.table_of_group(self.group, results, limits)
-        self.assertIn("| `threshold` | 35 | 20, 50 | - | 1.50: 20 (room drone constraint) | 20 (room drone constraint) |", table)
+        self.assertIn("| `threshold` | 35 | 20, 50 | - | 1.50: 20 (room drone msckf) | 20 (room drone msckf) |", table)
         self.assertNotIn("oriented", table)
-        self.assertIn("| `threshold` | room drone constraint | 50 | - |", sweep_page.full_table([self.group], results))
+        self.assertIn("| `threshold` | room drone msckf | 50 | - |", sweep_page.full_table([self.group], results))
 
     def test_scatter_is_that_of_most_runs(self):
         many = {(case(), sweep.Point(str(i), case().job, False)): sweep.Measured((1,), (1.02 ** (-1) ** i,), 0) for i in range(60)}
@@ -126,18 +126,18 @@ class ResultsTest(unittest.TestCase):
 
     def test_clear_effects_are_beyond_the_scatter_and_no_seed_contradicts(self):
         results = self.measured({(): [0.1, 0.4], ("threshold=20",): [0.2, 0.5], ("threshold=50",): [0.09, 0.2], ("oriented=false",): [0.101, 0.4]})
-        limits = {"room drone constraint": 1.3}
+        limits = {"room drone msckf": 1.3}
         threshold, oriented = self.group.panels
         clear = [(round(change, 3), value) for change, value, _ in sweep_page.effects(threshold, results, limits)]
         self.assertEqual(clear, [(1.625, "20"), (0.7, "50")])
         self.assertAlmostEqual(sweep_page.strength(threshold, results, limits), 1.625)
         self.assertEqual(sweep_page.strength(oriented, results, limits), 1)
-        self.assertIn("| `threshold` | 35 | 20, 50 | 0.70: 50 (room drone constraint) | 1.62: 20 (room drone constraint) | - |",
+        self.assertIn("| `threshold` | 35 | 20, 50 | 0.70: 50 (room drone msckf) | 1.62: 20 (room drone msckf) | - |",
                       sweep_page.table_of_group(self.group, results, limits))
-        self.assertEqual(sweep_page.effects(threshold, results, {"room drone constraint": 1.7}), [])
+        self.assertEqual(sweep_page.effects(threshold, results, {"room drone msckf": 1.7}), [])
         contradicting = self.measured({(): [0.1, 0.4], ("threshold=20",): [0.3, 0.3]})
-        self.assertEqual(sweep_page.effects(threshold, contradicting, {"room drone constraint": 1.3}), [])
-        self.assertEqual(len(sweep_page.effects(threshold, contradicting, {"room drone constraint": 1.4})), 1)
+        self.assertEqual(sweep_page.effects(threshold, contradicting, {"room drone msckf": 1.3}), [])
+        self.assertEqual(len(sweep_page.effects(threshold, contradicting, {"room drone msckf": 1.4})), 1)
 
     def test_only_the_measured_part_of_the_page_changes(self):
         page = f"before\n{sweep_page.BEGIN}\nold\n{sweep_page.END}\nafter\n"
@@ -196,10 +196,10 @@ class WholeTest(unittest.TestCase):
             selection = f"{folder}/selection.json"
             with open(selection, "w") as file:
                 json.dump([{"name": "tiny", "make_world": ["laps", "--rate", "10", "--seconds", "2"], "profiles": ["drone"]}], file)
-            sweep_of_two = ("--selection", selection, "--estimators", "constraint", "--sweep", "features_per_frame=100", "--sweep", "oriented=false")
+            sweep_of_two = ("--selection", selection, "--estimators", "msckf", "--sweep", "features_per_frame=100", "--sweep", "oriented=false")
             code, out, fault = self.evaluate_all(folder, *sweep_of_two)
             self.assertEqual(code, 0, fault)
-            self.assertIn("| `features_per_frame` | tiny drone constraint | 1000 (base) | 0.", out)
+            self.assertIn("| `features_per_frame` | tiny drone msckf | 1000 (base) | 0.", out)
             self.assertEqual(out.count("\n| `"), 4)
             first = [self.bytes_of(f"{folder}/{name}") for name in ("sweep.md", "sweep.png")]
             self.assertEqual(sorted(os.listdir(f"{folder}/runs/tiny/drone/constraint,oriented=false")), ["key", "summary.json"])

@@ -3,6 +3,7 @@
 
 #include "support/freak_reference.hpp"
 #include "support/generated_image.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/hamming_distances.hpp"
+#include "kernels/hamming/hamming_distances.hpp"
 
 namespace ardrone_vslam::test {
 

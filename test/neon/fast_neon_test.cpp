@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "kernels/fast_kernels.hpp"
+#include "kernels/fast/fast_kernels.hpp"
 #include "support/grey_images.hpp"
 
 namespace ardrone_vslam::test {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/freak_kernels.hpp"
+#include "kernels/freak/freak_kernels.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

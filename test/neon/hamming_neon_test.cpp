@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/hamming_kernels.hpp"
+#include "kernels/hamming/hamming_kernels.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/hamming_window.hpp"
+#include "kernels/hamming/hamming_window.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

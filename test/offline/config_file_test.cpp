@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "ardrone_vslam/late_fusion.hpp"
+#include "ardrone_vslam/delayed_fusion.hpp"
 #include "parameter_table.hpp"
 #include "support/sequence_folders.hpp"
 
@@ -61,7 +61,7 @@ TEST_F(ConfigFile, OverridesStandAboveTheFile) {
   EXPECT_EQ(load(text, {"max_depth_m=60", "max_depth_m=80"}).mapper.mapper.max_depth_m, 80);
   EXPECT_EQ(load(text, {"features_per_frame=99"}).tracker.corners.features_per_frame, 99)
       << "a tracker's parameter is known without its section";
-  EXPECT_EQ(loadConfig("", {"estimator=observer"}).mapper.estimator, Estimator::kObserver);
+  EXPECT_EQ(loadConfig("", {"estimator=odometry"}).mapper.estimator, Estimator::kOdometry);
 }
 
 TEST_F(ConfigFile, EveryFaultIsListedAtOnce) {
@@ -122,13 +122,13 @@ TEST_F(ConfigFile, KeysOfTheNodeletsArePassedOver) {
   EXPECT_EQ(faultsOf("tracker:\n  odom_frame: x\n").size(), 1U) << "in their own section only";
 }
 
-TEST_F(ConfigFile, TheSectionOfObserverFusionIsCheckedThoughNotUsed) {
+TEST_F(ConfigFile, TheSectionOfOdometryFusionIsCheckedThoughNotUsed) {
   EXPECT_NO_THROW(
-      load("observer_fusion:\n  map_frame: world\n  observer_buffer_s: 3\n  scale_deviation: 0\n"));
-  const auto faults = faultsOf("observer_fusion:\n  observer_bufer_s: 3\n  scale_deviation: 2\n");
+      load("odometry_fusion:\n  map_frame: world\n  odometry_buffer_s: 3\n  scale_sigma: 0\n"));
+  const auto faults = faultsOf("odometry_fusion:\n  observer_bufer_s: 3\n  scale_sigma: 2\n");
   ASSERT_EQ(faults.size(), 2U) << ::testing::PrintToString(faults);
-  EXPECT_TRUE(contains(faults[0], "did you mean observer_fusion/observer_buffer_s"));
-  EXPECT_TRUE(contains(faults[1], "scale_deviation is 2 but must be between"));
+  EXPECT_TRUE(contains(faults[0], "did you mean odometry_fusion/odometry_buffer_s"));
+  EXPECT_TRUE(contains(faults[1], "scale_sigma is 2 but must be between"));
 }
 
 TEST_F(ConfigFile, RectifiedIsReadAsTheNodeletsReadIt) {
@@ -174,8 +174,8 @@ TEST(ParameterTable, NamesEveryParameterWithItsDefault) {
   };
   visitParameters(config.tracker, expectRow);
   visitParameters(config.mapper, expectRow);
-  LateFusionConfig late_fusion;
-  visitParameters(late_fusion, expectRow);
+  DelayedFusionConfig delayed_fusion;
+  visitParameters(delayed_fusion, expectRow);
   EXPECT_TRUE(contains(table, "| `mean` | printed | choice | printed, exact | "));
   EXPECT_TRUE(contains(table, "| `planar` | false | switch | true, false | "));
   EXPECT_TRUE(contains(table, "| `max_landmarks` | 200000 | landmarks | 10 to 10000000 | "));

@@ -11,14 +11,15 @@ namespace {
 
 constexpr double kDeg = M_PI / 180;
 
-std::vector<ObserverState> odometry() {
-  std::vector<ObserverState> states;
+std::vector<OdometryState> odometry() {
+  std::vector<OdometryState> states;
   for (int i = 0; i < 1240; ++i) states.push_back(test::doctorState(0.01 * (i - 20)));
   return states;
 }
 
-MountingEstimate estimate(const std::vector<ImageFeatures>& images,
-                          const std::vector<ObserverState>& states, const Eigen::Matrix3d& R_told) {
+ExtrinsicsEstimate estimate(const std::vector<ImageFeatures>& images,
+                            const std::vector<OdometryState>& states,
+                            const Eigen::Matrix3d& R_told) {
   const std::vector<ImagePair> pairs = movingPairs(images);
   return estimateMounting(pairs, {states, forwardCamera().translation()}, R_told);
 }
@@ -29,8 +30,8 @@ double angleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 
 TEST(DoctorMounting, AgreesWithARightTf) {
   const Eigen::Matrix3d R = forwardCamera().linear();
-  const MountingEstimate found = estimate(test::doctorViews(forwardCamera()), odometry(), R);
-  EXPECT_EQ(found.state, MountingState::kFound);
+  const ExtrinsicsEstimate found = estimate(test::doctorViews(forwardCamera()), odometry(), R);
+  EXPECT_EQ(found.state, ExtrinsicsState::kFound);
   EXPECT_LT(found.off_rad, 1 * kDeg);
   EXPECT_LT(std::abs(found.offset_s), 0.005);
 }
@@ -42,8 +43,8 @@ TEST(DoctorMounting, FindsACameraTurnedByQuartersAboutAnyAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double angle : {90 * kDeg, 180 * kDeg, -90 * kDeg}) {
       const Eigen::Matrix3d R_told = R * rotationOf(angle * Eigen::Vector3d::Unit(axis));
-      const MountingEstimate found = estimate(images, states, R_told);
-      EXPECT_EQ(found.state, MountingState::kFound);
+      const ExtrinsicsEstimate found = estimate(images, states, R_told);
+      EXPECT_EQ(found.state, ExtrinsicsState::kFound);
       EXPECT_LT(angleBetween(found.R_base_cam, R), 1 * kDeg);
       EXPECT_NEAR(found.off_rad, std::abs(angle), 1 * kDeg);
     }
@@ -53,7 +54,7 @@ TEST(DoctorMounting, FindsACameraTurnedByQuartersAboutAnyAxis) {
 TEST(DoctorMounting, FindsASmallTurn) {
   const Eigen::Matrix3d R = forwardCamera().linear();
   const Eigen::Matrix3d R_told = R * rotationOf({10 * kDeg, -5 * kDeg, 3 * kDeg});
-  const MountingEstimate found = estimate(test::doctorViews(forwardCamera()), odometry(), R_told);
+  const ExtrinsicsEstimate found = estimate(test::doctorViews(forwardCamera()), odometry(), R_told);
   EXPECT_LT(angleBetween(found.R_base_cam, R), 1 * kDeg);
 }
 
@@ -61,9 +62,9 @@ TEST(DoctorMounting, FindsLateImagesEvenOfATurnedCamera) {
   const Eigen::Matrix3d R = forwardCamera().linear();
   const Eigen::Matrix3d R_told = R * rotationOf({0, 0, M_PI});
   for (const double late_s : {-0.06, 0.04, 0.15}) {
-    const MountingEstimate found =
+    const ExtrinsicsEstimate found =
         estimate(test::doctorViews(forwardCamera(), late_s), odometry(), R_told);
-    EXPECT_EQ(found.state, MountingState::kFound);
+    EXPECT_EQ(found.state, ExtrinsicsState::kFound);
     EXPECT_NEAR(found.offset_s, -late_s, 0.01);
     EXPECT_LT(angleBetween(found.R_base_cam, R), 1 * kDeg);
   }
@@ -73,15 +74,15 @@ TEST(DoctorMounting, SaysWhatItCannotTell) {
   const Eigen::Matrix3d R = forwardCamera().linear();
   // Two seconds are too few pairs of images.
   EXPECT_EQ(estimate(test::doctorViews(forwardCamera(), 0, 2), odometry(), R).state,
-            MountingState::kTooLittleMotion);
+            ExtrinsicsState::kTooLittleMotion);
   // Odometry that stands still explains nothing.
-  std::vector<ObserverState> still = odometry();
-  for (ObserverState& state : still) state.T_odom_base.setIdentity();
-  EXPECT_NE(estimate(test::doctorViews(forwardCamera()), still, R).state, MountingState::kFound);
+  std::vector<OdometryState> still = odometry();
+  for (OdometryState& state : still) state.T_odom_base.setIdentity();
+  EXPECT_NE(estimate(test::doctorViews(forwardCamera()), still, R).state, ExtrinsicsState::kFound);
   // Straight ahead without a turn: the image may be turned about the optical axis.
-  std::vector<ObserverState> straight;
+  std::vector<OdometryState> straight;
   for (int i = 0; i < 1200; ++i) {
-    ObserverState state;
+    OdometryState state;
     state.stamp_ns = test::doctorStamp_ns(0.01 * i);
     state.T_odom_base.translation().x() = 0.01 * i;
     straight.push_back(state);
@@ -102,7 +103,7 @@ TEST(DoctorMounting, SaysWhatItCannotTell) {
     }
     images.push_back(features);
   }
-  EXPECT_EQ(estimate(images, straight, R).state, MountingState::kAmbiguous);
+  EXPECT_EQ(estimate(images, straight, R).state, ExtrinsicsState::kAmbiguous);
 }
 
 TEST(DoctorMounting, PrintsTheCorrectedTransform) {
@@ -141,8 +142,8 @@ TEST(DoctorMotion, NoticesOdometryThatStandsStillWhileTheImagesMove) {
   Tracks tracks;
   tracks.cameras.push_back({"cam", test::doctorCamera(), test::doctorViews(forwardCamera())});
   EXPECT_EQ(checkMoves(good, tracks, odometry()).verdict, Verdict::kOk);
-  std::vector<ObserverState> still = odometry();
-  for (ObserverState& state : still) state.T_odom_base.setIdentity();
+  std::vector<OdometryState> still = odometry();
+  for (OdometryState& state : still) state.T_odom_base.setIdentity();
   EXPECT_EQ(checkMoves(good, tracks, still).verdict, Verdict::kFault);
   EXPECT_EQ(checkMoves(good, {}, still).verdict, Verdict::kWarning);
   EXPECT_EQ(checkMoves(good, tracks, {}).verdict, Verdict::kNotChecked);

@@ -31,7 +31,7 @@ DoctorRecording navdataRecording() {
   recording.navdata_topic = "/ardrone/navdata";
   recording.imu_topic = "/ardrone/imu";
   for (int i = 0; i < 1200; ++i) {
-    const ObserverState state = test::doctorState(0.01 * i);
+    const OdometryState state = test::doctorState(0.01 * i);
     NavdataReading packet;
     packet.stamp_ns = state.stamp_ns;
     packet.measured.R_odom_base = state.T_odom_base.linear();
@@ -87,22 +87,22 @@ TEST(DoctorNavdata, WithoutFaultsHasNone) {
 
 TEST(DoctorNavdata, StandsInForOdometry) {
   const DoctorRecording recording = navdataRecording();
-  EXPECT_TRUE(isNavdataTheObserver(recording));
+  EXPECT_TRUE(isNavdataTheOdometry(recording));
   const Finding topics = checkTopics(recording);
   EXPECT_EQ(topics.verdict, Verdict::kWarning);
-  EXPECT_NE(topics.remedy.find("--set mapper/observer_mode=navdata"), std::string::npos);
+  EXPECT_NE(topics.remedy.find("--set mapper/odometry_mode=navdata"), std::string::npos);
   const DoctorReport report = examine(recording, {});
   EXPECT_TRUE(report.canWork()) << textOf(report);
   ASSERT_FALSE(report.parameters.empty());
   EXPECT_EQ(report.parameters.front().value, "navdata");
   EXPECT_EQ(report.replay,
             "rosrun ardrone_vslam replay good.bag --out good_run --config $(rospack find "
-            "ardrone_vslam)/config/ardrone.yaml --set mapper/observer_mode=navdata");
+            "ardrone_vslam)/config/ardrone.yaml --set mapper/odometry_mode=navdata");
   // It comes from the circle's side to the other one.
   const auto states = observeNavdata(recording).states;
   ASSERT_GT(states.size(), 1100U);
   double farthest_m = 0;
-  for (const ObserverState& state : states)
+  for (const OdometryState& state : states)
     farthest_m = std::max(farthest_m, state.T_odom_base.translation().head<2>().norm());
   EXPECT_NEAR(farthest_m, 4, 1);
 }

@@ -53,7 +53,7 @@ TEST(DoctorOdometry, SoundOdometryHasNoFault) {
 }
 
 TEST(DoctorOdometry, WithoutMotionNothingIsOk) {
-  const auto still = changed([](std::size_t, ObserverState& state) {
+  const auto still = changed([](std::size_t, OdometryState& state) {
     state.T_odom_base.setIdentity();
     state.twist_base.setZero();
   });
@@ -68,7 +68,7 @@ TEST(DoctorOdometry, WithoutMotionNothingIsOk) {
 TEST(DoctorOdometry, FindsTheMirroredYaw) {
   // y of a path that is integrated with -yaw, from the first pose on.
   Eigen::Vector3d position = goodRecording().odometry[0].state->T_odom_base.translation();
-  const auto mirrored = changed([&position](std::size_t i, ObserverState& state) {
+  const auto mirrored = changed([&position](std::size_t i, OdometryState& state) {
     const Eigen::Matrix3d R = state.T_odom_base.linear();
     const double yaw = std::atan2(R(1, 0), R(0, 0));
     if (i > 0) {
@@ -80,11 +80,11 @@ TEST(DoctorOdometry, FindsTheMirroredYaw) {
   Parameters parameters;
   checkOdometryYaw(mirrored, parameters);
   ASSERT_EQ(parameters.size(), 1U);
-  EXPECT_EQ(parameters[0].key + " " + parameters[0].value, "observer_mode twist");
+  EXPECT_EQ(parameters[0].key + " " + parameters[0].value, "odometry_mode twist");
 }
 
 TEST(DoctorOdometry, FindsATwistInOdomsAxes) {
-  const auto unturned = changed([](std::size_t, ObserverState& state) {
+  const auto unturned = changed([](std::size_t, OdometryState& state) {
     state.twist_base.head<3>() = state.T_odom_base.linear() * state.twist_base.head<3>();
   });
   Parameters parameters;
@@ -93,15 +93,15 @@ TEST(DoctorOdometry, FindsATwistInOdomsAxes) {
   EXPECT_NE(finding.text.find("axes of odom"), std::string::npos);
   // Which a configuration made for the driver's faults must not change.
   ASSERT_EQ(parameters.size(), 1U);
-  EXPECT_EQ(parameters[0].key + " " + parameters[0].value, "observer_mode pose");
+  EXPECT_EQ(parameters[0].key + " " + parameters[0].value, "odometry_mode pose");
 }
 
 TEST(DoctorOdometry, FindsJumps) {
-  const auto far = changed([](std::size_t i, ObserverState& state) {
+  const auto far = changed([](std::size_t i, OdometryState& state) {
     if (i > 600) state.T_odom_base.translation().x() += 1e9;
   });
   EXPECT_EQ(found(allOf(far)), Names{"odometry_jumps"});
-  const auto near = changed([](std::size_t i, ObserverState& state) {
+  const auto near = changed([](std::size_t i, OdometryState& state) {
     if (i > 600) state.T_odom_base.translation().x() += 3;
   });
   EXPECT_EQ(found(allOf(near)), Names{"odometry_jumps"});
@@ -109,17 +109,17 @@ TEST(DoctorOdometry, FindsJumps) {
 
 TEST(DoctorOdometry, FindsMillimetres) {
   const auto millimetres =
-      changed([](std::size_t, ObserverState& state) { state.T_odom_base.translation() *= 1000; });
+      changed([](std::size_t, OdometryState& state) { state.T_odom_base.translation() *= 1000; });
   EXPECT_EQ(verdictOf(checkOdometryValues(millimetres), "odometry_unit"), Verdict::kFault);
 }
 
 TEST(DoctorOdometry, FindsWhatIsNotFilled) {
-  const auto empty = changed([](std::size_t, ObserverState& state) {
+  const auto empty = changed([](std::size_t, OdometryState& state) {
     state.covariance.setZero();
     state.twist_base.tail<3>().setZero();
   });
   EXPECT_EQ(found(allOf(empty)), (Names{"odometry_covariance", "odometry_turn_rate"}));
-  const auto unknown = changed([](std::size_t, ObserverState& state) { state.covariance *= 1e9; });
+  const auto unknown = changed([](std::size_t, OdometryState& state) { state.covariance *= 1e9; });
   EXPECT_EQ(found(allOf(unknown)), Names{"odometry_covariance"});
 }
 
@@ -133,7 +133,7 @@ TEST(DoctorOdometry, CountsWhatIsNotFinite) {
 }
 
 TEST(DoctorHeight, FindsWholeMetres) {
-  const auto whole = changed([](std::size_t, ObserverState& state) {
+  const auto whole = changed([](std::size_t, OdometryState& state) {
     double& z_m = state.T_odom_base.translation().z();
     z_m = std::trunc(z_m);
   });
@@ -143,7 +143,7 @@ TEST(DoctorHeight, FindsWholeMetres) {
 }
 
 TEST(DoctorHeight, FindsTheStepOverATable) {
-  const auto table = changed([](std::size_t i, ObserverState& state) {
+  const auto table = changed([](std::size_t i, OdometryState& state) {
     if (i > 400 && i < 700) state.T_odom_base.translation().z() -= 0.75;
   });
   const Findings findings = allOf(table);
@@ -167,7 +167,7 @@ TEST(DoctorHeight, FindsTheStepBehindWholeMetresByTheDronesOwnAltitude) {
 }
 
 TEST(DoctorHeight, KnowsTheDronesAltitudeByItsMillimetres) {
-  const auto millimetres = changed([](std::size_t, ObserverState& state) {
+  const auto millimetres = changed([](std::size_t, OdometryState& state) {
     double& z_m = state.T_odom_base.translation().z();
     z_m = std::trunc(z_m * 1000) / 1000;
   });

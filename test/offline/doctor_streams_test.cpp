@@ -136,7 +136,7 @@ TEST(DoctorTopics, TellReplayWhatWasChosenAmongSeveral) {
   names.odometry = "wheels";
   chooseTopics(names, several);
   EXPECT_EQ(several.replay_options.back(), "--odometry-topic /wheels");
-  // Without odometry navdata is the observer, and its IMU the one beside it.
+  // Without odometry navdata is the odometry, and its IMU the one beside it.
   several.topics.erase("/odom");
   several.topics.erase("/wheels");
   several.topics["/joy"] = {"geometry_msgs/Twist", 500};
@@ -180,18 +180,18 @@ TEST(DoctorReport, TellsVerdictRemedyAndParameters) {
   report.name = "a.bag";
   report.findings = {{"lens", Verdict::kWarning, "folds", "calibrate"},
                      {"clock", Verdict::kNotChecked, "because", {}}};
-  report.parameters = {{"mapper", "observer_mode", "twist", "mirrored"}};
+  report.parameters = {{"mapper", "odometry_mode", "twist", "mirrored"}};
   EXPECT_TRUE(report.canWork());
   const std::string text = textOf(report);
   for (const std::string part :
        {"warning      lens", "-> calibrate", "not checked  clock",
-        "mapper:\n  observer_mode: twist  # mirrored", "a.bag: usable (0 faults, 1 warnings"}) {
+        "mapper:\n  odometry_mode: twist  # mirrored", "a.bag: usable (0 faults, 1 warnings"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in " << text;
   }
   const auto json = jsonOf(report);
   EXPECT_TRUE(json["usable"].get<bool>());
   EXPECT_EQ(json["checks"][0]["verdict"], "warning");
-  EXPECT_EQ(json["parameters"]["mapper/observer_mode"]["value"], "twist");
+  EXPECT_EQ(json["parameters"]["mapper/odometry_mode"]["value"], "twist");
   report.findings.push_back({"camera_tf", Verdict::kFault, "none", {}});
   EXPECT_FALSE(report.canWork());
 }

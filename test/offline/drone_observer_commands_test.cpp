@@ -22,10 +22,10 @@ double errorBeyondHole_m(int hole_at, bool is_told) {
   drone.advance(6, {});
   const Eigen::Vector3d begin_m = drone.state().T_world_body.translation();
   DroneObserver observer{DroneFilterConfig{}};
-  std::vector<ObserverState> states;
+  std::vector<OdometryState> states;
   NavdataReading reading;
   reading.stamp_ns = kBegin_ns;
-  Eigen::Vector3d way_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d displacement_m = Eigen::Vector3d::Zero();
   for (int i = 0; i < hole_at + 180; ++i, reading.stamp_ns += 5'000'000) {
     DroneCommand command;
     command.forward = (i / 100) % 2 == 0 ? 0.8 : -0.8;
@@ -39,11 +39,12 @@ double errorBeyondHole_m(int hole_at, bool is_told) {
     reading.measured.force_base_m_s2 = state.specificForce_body_m_s2();
     reading.measured.height_m = state.T_world_body.translation().z();
     if (i < hole_at || i >= hole_at + 160) observer.push(reading, states);
-    way_m = state.T_world_body.translation() - begin_m;
+    displacement_m = state.T_world_body.translation() - begin_m;
     drone.advance(1 / kPacketRate_hz, command);
   }
   observer.flush(states);
-  const Eigen::Vector2d error_m = (states.back().T_odom_base.translation() - way_m).head<2>();
+  const Eigen::Vector2d error_m =
+      (states.back().T_odom_base.translation() - displacement_m).head<2>();
   const Eigen::Matrix2d P = states.back().covariance.topLeftCorner<2, 2>();
   EXPECT_LT(error_m.dot(P.ldlt().solve(error_m)), 16) << hole_at << ' ' << is_told;
   return error_m.norm();

@@ -33,7 +33,7 @@ DroneFlight fly(const std::string& name, const std::string& profile, std::uint64
   const FlightInfo& info = flightInfo(name);
   return flyDrone(*makeFlight(name, std::nullopt), makeWorld(info.world, info.light, 1),
                   seconds > 0 ? seconds : info.duration_s, kBegin_ns,
-                  loadObserverProfile(profile, findConfigFile("observer_profiles.yaml")), seed);
+                  loadOdometryProfile(profile, findConfigFile("odometry_profiles.yaml")), seed);
 }
 
 std::vector<NavdataReading> readingsOf(const DroneFlight& flight) {
@@ -50,14 +50,14 @@ class DroneObserverFlight : public ::testing::Test {
     states_.clear();
     refused_ = 0;
     for (const NavdataReading& reading : readings) {
-      if (observer_.push(reading, states_) != ObserverBuffer::Push::kAccepted) ++refused_;
+      if (observer_.push(reading, states_) != OdometryBuffer::Push::kAccepted) ++refused_;
     }
     observer_.flush(states_);
     for (std::size_t i = 1; i < states_.size(); ++i)
       ASSERT_GT(states_[i].stamp_ns, states_[i - 1].stamp_ns) << i;
   }
   /// Of a state's position, from the truth's first.
-  static Eigen::Vector3d errorOf_m(const ObserverState& state, const DroneFlight& flight) {
+  static Eigen::Vector3d errorOf_m(const OdometryState& state, const DroneFlight& flight) {
     const Eigen::Vector3d begin_m = flight.truth.poses().front().T_map_base.translation();
     Eigen::Vector3d truth_m = flight.truth.at(state.stamp_ns).translation();
     truth_m.head<2>() -= begin_m.head<2>();
@@ -65,7 +65,7 @@ class DroneObserverFlight : public ::testing::Test {
   }
   double worst_m(const DroneFlight& flight, int first, int count) const {
     double worst = 0;
-    for (const ObserverState& state : states_)
+    for (const OdometryState& state : states_)
       worst = std::max(worst, errorOf_m(state, flight).segment(first, count).norm());
     return worst;
   }
@@ -85,7 +85,7 @@ class DroneObserverFlight : public ::testing::Test {
   }
 
   DroneObserver observer_{DroneFilterConfig{}};
-  std::vector<ObserverState> states_;
+  std::vector<OdometryState> states_;
   int refused_ = 0;
 };
 
@@ -139,7 +139,7 @@ TEST_F(DroneObserverFlight, PacketsThatCameTogetherAreSpread) {
   const DroneFlight flight = fly("laps", "drone", 1, 20);
   auto readings = readingsOf(flight);
   observe(readings);
-  const std::vector<ObserverState> sound = states_;
+  const std::vector<OdometryState> sound = states_;
   for (std::size_t i = 3; i + 6 < readings.size(); i += 12)
     for (std::size_t k = i; k < i + 5; ++k) readings[k].stamp_ns = readings[i + 5].stamp_ns;
   observe(readings);
@@ -157,10 +157,10 @@ TEST_F(DroneObserverFlight, TheOrderOfNavdataAndImuDoesNotMatter) {
   auto readings = readingsOf(flight);
   for (std::size_t i = 3; i + 6 < readings.size(); i += 12)
     for (std::size_t k = i; k < i + 5; ++k) readings[k].stamp_ns = readings[i + 5].stamp_ns;
-  std::vector<std::vector<ObserverState>> runs;
+  std::vector<std::vector<OdometryState>> runs;
   for (const std::size_t late : {0, 1, 7}) {
     DroneObserver observer{DroneFilterConfig{}};
-    std::vector<ObserverState> states;
+    std::vector<OdometryState> states;
     for (std::size_t i = 0; i < readings.size() + late; ++i) {
       if (i < readings.size()) observer.push(readings[i], states);
       if (i < late) continue;
@@ -188,7 +188,7 @@ TEST_F(DroneObserverFlight, ATurnedWorldGivesATurnedFlight) {
   const DroneFlight flight = fly("laps", "drone", 2, 20);
   auto readings = readingsOf(flight);
   observe(readings);
-  const std::vector<ObserverState> before = states_;
+  const std::vector<OdometryState> before = states_;
   const Eigen::Isometry3d turn(Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitZ()));
   for (auto& reading : readings)
     reading.measured.R_odom_base = turn.linear() * reading.measured.R_odom_base;
@@ -206,7 +206,7 @@ TEST_F(DroneObserverFlight, BadInputIsRefusedAndDoesNoHarm) {
   const DroneFlight flight = fly("laps", "drone", 1, 20);
   const auto readings = readingsOf(flight);
   observe(readings);
-  const std::vector<ObserverState> sound = states_;
+  const std::vector<OdometryState> sound = states_;
   auto bad = readings;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   bad.insert(bad.begin() + 1000, 6, readings[999]);
@@ -237,11 +237,11 @@ TEST_F(DroneObserverFlight, AHoleIsCountedAndWidensTheCovariance) {
 TEST_F(DroneObserverFlight, StampsThatBeginAnewBeginANewFlight) {
   const auto readings = readingsOf(fly("laps", "drone", 1, 10));
   observe(readings);
-  const std::vector<ObserverState> once = states_;
+  const std::vector<OdometryState> once = states_;
   auto twice = readings;
   twice.insert(twice.end(), readings.begin(), readings.end());
   DroneObserver observer{DroneFilterConfig{}};
-  std::vector<ObserverState> states;
+  std::vector<OdometryState> states;
   for (const auto& reading : twice) observer.push(reading, states);
   observer.flush(states);
   EXPECT_EQ(observer.faults()[static_cast<std::size_t>(OdometryFault::kRestart)], 1U);

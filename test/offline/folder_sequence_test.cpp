@@ -27,7 +27,7 @@ TEST(KittiFolder, ImagesStampsAndCalibration) {
   EXPECT_EQ(sequence->camera().cx_px, 16);
   EXPECT_EQ(sequence->camera().cy_px, 12);
   EXPECT_EQ(sequence->camera().k1, 0);
-  EXPECT_TRUE(sequence->observer().empty());
+  EXPECT_TRUE(sequence->odometry().empty());
   expectSamePose(sequence->T_base_cam(), forwardCamera());
 }
 
@@ -133,11 +133,11 @@ TEST(TumFolder, ImagesCalibrationAndTruthOfOtherStamps) {
 TEST(TumFolder, RecordedObserverKeepsItsStamps) {
   TemporaryFolder folder;
   makeTumFolder(folder, 3);
-  folder.write("observer_tum.txt", "0 1 2 3 0 0 0 1\n0.1 2 2 3 0 0 0 1\n0.1 3 2 3 0 0 0 1\n");
+  folder.write("odometry_tum.txt", "0 1 2 3 0 0 0 1\n0.1 2 2 3 0 0 0 1\n0.1 3 2 3 0 0 0 1\n");
   const auto sequence = openFolder(folder.path());
-  ASSERT_EQ(sequence->observer().size(), 3u);
-  EXPECT_EQ(sequence->observer()[2].stamp_ns, 100'000'000);
-  EXPECT_EQ(sequence->observer()[2].T_odom_base.translation(), Eigen::Vector3d(3, 2, 3));
+  ASSERT_EQ(sequence->odometry().size(), 3u);
+  EXPECT_EQ(sequence->odometry()[2].stamp_ns, 100'000'000);
+  EXPECT_EQ(sequence->odometry()[2].T_odom_base.translation(), Eigen::Vector3d(3, 2, 3));
 }
 
 TEST(TumFolder, FaultsAreNamedWithFileAndRemedy) {

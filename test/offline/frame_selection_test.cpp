@@ -74,7 +74,7 @@ TEST(FrameSelection, TakesFramesWithTheirStamps) {
 TEST(FrameSelection, CutsTruthAndObserverToTheFrames) {
   TemporaryFolder folder;
   makeTumFolder(folder, 5);  // poses at 0, 0.2, 0.4 s
-  folder.write("observer_tum.txt",
+  folder.write("odometry_tum.txt",
                "-1.2 0 0 0 0 0 0 1\n-0.5 1 0 0 0 0 0 1\n0.3 2 0 0 0 0 0 1\n2 3 0 0 0 0 0 1\n");
   const auto sequence = openSelected(folder, "1:4", false);  // 0.1 to 0.3 s
   const auto& poses = sequence->truth().poses();
@@ -83,8 +83,8 @@ TEST(FrameSelection, CutsTruthAndObserverToTheFrames) {
     EXPECT_EQ(poses[i].stamp_ns, sequence->stamp_ns(i));
     EXPECT_NEAR(poses[i].T_map_base.translation().x(), 0.1 + 0.1 * static_cast<double>(i), 1e-9);
   }
-  ASSERT_EQ(sequence->observer().size(), 2u);
-  EXPECT_EQ(sequence->observer()[0].T_odom_base.translation().x(), 1);
+  ASSERT_EQ(sequence->odometry().size(), 2u);
+  EXPECT_EQ(sequence->odometry()[0].T_odom_base.translation().x(), 1);
 }
 
 TEST(FrameSelection, PingPongGoesThereOnEvenAndBackOnOddFrames) {
@@ -115,9 +115,9 @@ TEST(FrameSelection, PingPongStampsAscendAndTruthFollowsTheImages) {
 TEST(FrameSelection, PingPongDropsTheRecordedObserver) {
   TemporaryFolder folder;
   makeTumFolder(folder, 4);
-  folder.write("observer_tum.txt", "0 0 0 0 0 0 0 1\n0.3 1 0 0 0 0 0 1\n");
-  EXPECT_EQ(openSelected(folder, "", false)->observer().size(), 2u);
-  EXPECT_TRUE(openSelected(folder, "", true)->observer().empty());
+  folder.write("odometry_tum.txt", "0 0 0 0 0 0 0 1\n0.3 1 0 0 0 0 0 1\n");
+  EXPECT_EQ(openSelected(folder, "", false)->odometry().size(), 2u);
+  EXPECT_TRUE(openSelected(folder, "", true)->odometry().empty());
 }
 
 }  // namespace

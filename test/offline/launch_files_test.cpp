@@ -10,6 +10,7 @@
 
 #include "camera_yaml.hpp"
 #include "fake_driver_config.hpp"
+#include "test_paths.hpp"
 #include "world_camera.hpp"
 
 namespace ardrone_vslam {

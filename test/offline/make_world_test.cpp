@@ -11,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "test_paths.hpp"
 #include "tum_folder_writer.hpp"
 #include "world_sequence.hpp"
 
@@ -51,8 +52,8 @@ WorldOptions fewImages() {
   WorldOptions options;
   options.duration_s = 2;
   options.rate_hz = 2;
-  options.observer =
-      loadObserverProfile("wheel", ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");
+  options.odometry =
+      loadOdometryProfile("wheel", ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
   return options;
 }
 
@@ -67,7 +68,7 @@ TEST_F(MakeWorld, FolderHoldsWhatTheSequenceGives) {
   EXPECT_FALSE(fs::exists(path("flight.part")));
   EXPECT_EQ(text("flight/times.txt"), "1.000000000\n1.500000000\n2.000000000\n2.500000000\n");
   EXPECT_NE(text("flight/camera.yaml").find("data: [-0.525, 0.274, 0, 0, 0]"), std::string::npos);
-  EXPECT_NE(text("flight/observer_tum.txt").find("# profile wheel, seed 0"), std::string::npos);
+  EXPECT_NE(text("flight/odometry_tum.txt").find("# profile wheel, seed 0"), std::string::npos);
   const cv::Mat image = cv::imread(path("flight/image/000003.png"), cv::IMREAD_UNCHANGED);
   ASSERT_EQ(image.type(), CV_8UC1);
   EXPECT_EQ(cv::norm(image, world.image(3), cv::NORM_INF), 0);
@@ -76,11 +77,11 @@ TEST_F(MakeWorld, FolderHoldsWhatTheSequenceGives) {
   ASSERT_EQ(T_world_cam.size(), 4U);
   EXPECT_TRUE(T_world_cam.poses()[3].T_map_base.isApprox(
       world.truth().poses()[3].T_map_base * world.T_base_cam(), 1e-7));
-  const auto observer = readTumPoses(path("flight/observer_tum.txt"));
-  ASSERT_EQ(observer.size(), world.observer().size());
+  const auto odometry = readTumPoses(path("flight/odometry_tum.txt"));
+  ASSERT_EQ(odometry.size(), world.odometry().size());
   // The folder's base is the camera: 0.21 m before the drone's, with the same axes.
-  EXPECT_TRUE(observer[40].T_map_base.isApprox(
-      world.observer()[40].T_odom_base * Eigen::Translation3d(0.21, 0, 0), 1e-7));
+  EXPECT_TRUE(odometry[40].T_map_base.isApprox(
+      world.odometry()[40].T_odom_base * Eigen::Translation3d(0.21, 0, 0), 1e-7));
 }
 
 TEST_F(MakeWorld, RangesAreTheHeightAlongTheBeamAndAreReadAgain) {
@@ -110,8 +111,8 @@ TEST_F(MakeWorld, RangesAreTheHeightAlongTheBeamAndAreReadAgain) {
 TEST_F(MakeWorld, FolderIsReadAgainAsItWas) {
   WorldOptions options = fewImages();
   options.T_base_cam = forwardCamera();
-  options.observer = loadObserverProfile(
-      "harsh", ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");  // repeated stamps
+  options.odometry = loadOdometryProfile(
+      "harsh", ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");  // repeated stamps
   WorldSequence world(options);
   writeTumFolder(world, path("flight"));
   const auto read = openFolder(path("flight"));
@@ -124,10 +125,10 @@ TEST_F(MakeWorld, FolderIsReadAgainAsItWas) {
     EXPECT_TRUE(
         read->truth().poses()[i].T_map_base.isApprox(world.truth().poses()[i].T_map_base, 1e-8));
   }
-  ASSERT_EQ(read->observer().size(), world.observer().size());
-  for (std::size_t i = 0; i < world.observer().size(); ++i) {
-    EXPECT_EQ(read->observer()[i].stamp_ns, world.observer()[i].stamp_ns);
-    EXPECT_TRUE(read->observer()[i].T_odom_base.isApprox(world.observer()[i].T_odom_base, 1e-7));
+  ASSERT_EQ(read->odometry().size(), world.odometry().size());
+  for (std::size_t i = 0; i < world.odometry().size(); ++i) {
+    EXPECT_EQ(read->odometry()[i].stamp_ns, world.odometry()[i].stamp_ns);
+    EXPECT_TRUE(read->odometry()[i].T_odom_base.isApprox(world.odometry()[i].T_odom_base, 1e-7));
   }
 }
 
@@ -148,17 +149,17 @@ TEST_F(MakeWorld, AFailingImageLeavesNothingBehind) {
 
 TEST_F(MakeWorld, TheSameArgumentsGiveTheSameBytes) {
   const std::string arguments =
-      "laps --seconds 1 --rate 2 --observer-profile harsh --seed 5 --world-seed 6 --start "
+      "laps --seconds 1 --rate 2 --odometry-profile harsh --seed 5 --world-seed 6 --start "
       "-0.5,1,0.5 "
       "--out ";
   ASSERT_EQ(run(arguments + path("a")), 0) << text("output");
   ASSERT_EQ(run(arguments + path("b/")), 0) << text("output");
   for (const char* name : {"image/000000.png", "image/000001.png", "times.txt", "camera.yaml",
-                           "poses_tum.txt", "observer_tum.txt"}) {
+                           "poses_tum.txt", "odometry_tum.txt"}) {
     EXPECT_FALSE(text(std::string("a/") + name).empty()) << name;
     EXPECT_EQ(text(std::string("a/") + name), text(std::string("b/") + name)) << name;
   }
-  EXPECT_NE(text("a/observer_tum.txt").find("profile harsh, seed 5, drawn scale error"),
+  EXPECT_NE(text("a/odometry_tum.txt").find("profile harsh, seed 5, drawn scale error"),
             std::string::npos);
 }
 
@@ -180,12 +181,12 @@ TEST_F(MakeWorld, WritesBagsWhereRosIs) {
 TEST_F(MakeWorld, ExitCodesTellUsageFromFaults) {
   const std::string brief = "laps --seconds 0.1 --rate 10 --out ";
   EXPECT_EQ(run("--help"), 0);
-  EXPECT_NE(text("output").find("--observer-profile"), std::string::npos);
+  EXPECT_NE(text("output").find("--odometry-profile"), std::string::npos);
   EXPECT_EQ(run("--version"), 0);
   EXPECT_NE(text("output").find("make_world (ardrone_vslam) "), std::string::npos);
   EXPECT_EQ(run("laps"), 2);
   EXPECT_EQ(run("loops --out " + path("x")), 2);
-  EXPECT_EQ(run(brief + path("x") + " --observer-profile mars"), 2);
+  EXPECT_EQ(run(brief + path("x") + " --odometry-profile mars"), 2);
   EXPECT_NE(text("output").find("known are truth, wheel, drone, hover, harsh"), std::string::npos);
   EXPECT_EQ(run(brief + path("x") + " --start 9,0,0"), 2);
   EXPECT_NE(text("output").find("0.5 m from the walls"), std::string::npos);

@@ -8,11 +8,12 @@
 
 #include "config_file.hpp"
 #include "metrics.hpp"
-#include "observer_model.hpp"
+#include "odometry_model.hpp"
 #include "offline_run.hpp"
 #include "pave_sequence.hpp"
 #include "run_report.hpp"
 #include "sequence.hpp"
+#include "test_paths.hpp"
 #include "world_sequence.hpp"
 
 namespace ardrone_vslam {
@@ -28,15 +29,15 @@ Outcome runOn(Sequence& sequence, const std::string& profile_name, std::uint64_t
               int threads = 1, const std::vector<std::string>& overrides = {},
               const std::string& config_file = "") {
   const PipelineConfig config = loadConfig(config_file, overrides);
-  const ObserverProfile profile =
-      loadObserverProfile(profile_name, ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");
-  const ObserverRun observer = simulateObserver(sequence.truth(), profile, seed);
-  BackEnd back_end(config.mapper, sequence.T_base_cam(), observer.states);
+  const OdometryProfile profile =
+      loadOdometryProfile(profile_name, ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
+  const OdometryRun odometry = simulateOdometry(sequence.truth(), profile, seed);
+  BackEnd back_end(config.mapper, sequence.T_base_cam(), odometry.states);
   runFrontEnd(sequence, config.tracker, {}, threads,
               [&](const TrackedFrame& frame) { back_end.process(frame); });
   Outcome outcome;
   outcome.run = back_end.finish();
-  outcome.run.scale_error = observer.scale_error;
+  outcome.run.scale_error = odometry.scale_error;
   outcome.evaluation = evaluate(outcome.run, sequence.truth());
   outcome.summary =
       summaryOf(outcome.run, outcome.evaluation, {sequence.name(), profile_name, seed, "thesis"});
@@ -60,7 +61,7 @@ TEST(Pipeline, LapsInARoomDriftLessThanTheirObserver) {
   const Outcome drifting = runOn(*sequence, "drone", 1);
   EXPECT_LT(drifting.summary["ratio_scale_removed"].get<double>(), 0.9);
   EXPECT_GE(drifting.summary["landmark_matches_median"].get<double>(), 30);
-  EXPECT_EQ(drifting.run.frames_without_observer, 0);
+  EXPECT_EQ(drifting.run.frames_without_odometry, 0);
 }
 
 TEST(Pipeline, ThreadsDoNotMatter) {
@@ -86,13 +87,13 @@ std::vector<ImageFeatures> featuresOf(Sequence& sequence, const FrontEndAttitude
 
 TEST(Pipeline, TheAttitudeIsThatOfTheExposure) {
   const auto sequence = laps(2, 10);
-  const ObserverRun observer = simulateObserver(
+  const OdometryRun odometry = simulateOdometry(
       sequence->truth(),
-      loadObserverProfile("drone", ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml"), 1);
+      loadOdometryProfile("drone", ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml"), 1);
   // Images are stamped 100 ms late on the odometry's clock.
-  std::vector<ObserverState> earlier = observer.states;
-  for (ObserverState& state : earlier) state.stamp_ns -= 100'000'000;
-  const auto in_time = featuresOf(*sequence, {&observer.states, 0});
+  std::vector<OdometryState> earlier = odometry.states;
+  for (OdometryState& state : earlier) state.stamp_ns -= 100'000'000;
+  const auto in_time = featuresOf(*sequence, {&odometry.states, 0});
   const auto late = featuresOf(*sequence, {&earlier, -0.1});
   const auto not_known = featuresOf(*sequence, {&earlier, 0});
   ASSERT_GT(in_time.size(), 15U);
@@ -106,11 +107,11 @@ TEST(Pipeline, TheAttitudeIsThatOfTheExposure) {
 
 TEST(Pipeline, ImagesThatTravelAreToldFromAnObserverThatStandsStill) {
   const auto sequence = laps(10, 10);
-  std::vector<ObserverState> rest(2);
+  std::vector<OdometryState> rest(2);
   rest[0].stamp_ns = sequence->stamp_ns(0);
   rest[1].stamp_ns = sequence->stamp_ns(sequence->size() - 1);
   PipelineConfig patient = loadConfig("", {});
-  patient.mapper.observer.max_gap_s = 10;
+  patient.mapper.odometry.max_gap_s = 10;
   BackEnd back_end(patient.mapper, sequence->T_base_cam(), rest);
   runFrontEnd(*sequence, patient.tracker, {}, 1,
               [&](const TrackedFrame& frame) { back_end.process(frame); });
@@ -145,11 +146,11 @@ TEST(RealPipeline, NothingIsMappedWhileTheDroneStandsStill) {
   if (folder.empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
   const auto sequence = openFolder(folder);
   const PipelineConfig config = loadConfig("", {});
-  std::vector<ObserverState> rest(2);
+  std::vector<OdometryState> rest(2);
   rest[0].stamp_ns = sequence->stamp_ns(0);
   rest[1].stamp_ns = sequence->stamp_ns(sequence->size() - 1);
   PipelineConfig patient = config;
-  patient.mapper.observer.max_gap_s = 10;
+  patient.mapper.odometry.max_gap_s = 10;
   BackEnd back_end(patient.mapper, sequence->T_base_cam(), rest);
   runFrontEnd(*sequence, config.tracker, {}, 1,
               [&](const TrackedFrame& frame) { back_end.process(frame); });
@@ -168,7 +169,7 @@ TEST(RealPipeline, AStillImageHoldsThePosition) {
   const Outcome outcome = runOn(*sequence, "hover", 3, 1, {"mapper/estimator=constraint"});
   constexpr std::size_t kFrame = 450;  // 15 s
   ASSERT_GT(outcome.run.frames.size(), kFrame);
-  EXPECT_GT(outcome.evaluation.observer_error_m[kFrame], 1.5);
+  EXPECT_GT(outcome.evaluation.odometry_error_m[kFrame], 1.5);
   EXPECT_LT(outcome.evaluation.fused_error_m[kFrame], 0.05);  // measured: 0.007
   EXPECT_TRUE(outcome.run.landmarks.empty());
   EXPECT_EQ(outcome.run.frames[kFrame].result.state, SlamState::kResting);

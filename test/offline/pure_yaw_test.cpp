@@ -9,8 +9,9 @@
 #include <set>
 #include <vector>
 
-#include "observer_model.hpp"
+#include "odometry_model.hpp"
 #include "offline_run.hpp"
+#include "test_paths.hpp"
 #include "world_sequence.hpp"
 
 namespace ardrone_vslam {
@@ -33,26 +34,26 @@ class TurningDrone {
   }
 
   Judged fly(const std::string& profile, std::uint64_t seed) const {
-    ObserverBufferConfig buffer_config;
+    OdometryBufferConfig buffer_config;
     buffer_config.buffer_s = 100;
-    ObserverBuffer buffer(buffer_config);
-    const ObserverProfile drift =
-        loadObserverProfile(profile, ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");
-    for (const ObserverState& state : simulateObserver(world_.truth(), drift, seed).states)
+    OdometryBuffer buffer(buffer_config);
+    const OdometryProfile drift =
+        loadOdometryProfile(profile, ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
+    for (const OdometryState& state : simulateOdometry(world_.truth(), drift, seed).states)
       buffer.push(state);
     Slam slam(SlamConfig{}, world_.T_base_cam());
     Judged judged;
     std::set<std::uint32_t> known;
     Eigen::Vector3d error_m = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < frames_.size(); ++i) {
-      ObserverState observer;
-      EXPECT_EQ(buffer.at(frames_[i].stamp_ns, observer), ObserverBuffer::Lookup::kFound);
-      const Eigen::Isometry3d T_map_base = slam.process(frames_[i], observer).T_map_base;
+      OdometryState odometry;
+      EXPECT_EQ(buffer.at(frames_[i].stamp_ns, odometry), OdometryBuffer::Lookup::kFound);
+      const Eigen::Isometry3d T_map_base = slam.process(frames_[i], odometry).T_map_base;
       const Eigen::Isometry3d& truth = world_.truth().poses()[i].T_map_base;
       const Eigen::Vector3d now_m = T_map_base.translation() - truth.translation();
       judged.largest_jump_m = std::max(judged.largest_jump_m, (now_m - error_m).norm());
       error_m = now_m;
-      for (const Landmark& landmark : slam.landmarks().all()) {
+      for (const Landmark& landmark : slam.landmarks()) {
         if (!known.insert(landmark.id).second) continue;
         ++judged.landmarks;
         if (depthError(landmark, T_map_base, truth, i) > 3) ++judged.at_wrong_depth;

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Four frames a second apart along x; the observer drifts sideways by 0.2 m a frame, the fused
+/// Four frames a second apart along x; the odometry drifts sideways by 0.2 m a frame, the fused
 /// pose by 0.1 m.
 RunResult someRun() {
   RunResult run;
@@ -35,7 +35,7 @@ RunResult someRun() {
     if (i == 3) {
       frame.result.state = SlamState::kLocalised;
       frame.result.camera_position_map = Eigen::Vector3d(3, 0.4, 0);
-      frame.result.camera_deviation_m = 0.07;
+      frame.result.camera_sigma_m = 0.07;
     }
     frame.times_ms = {1, 2, 3, 0, 0, static_cast<double>(i)};
     run.frames.push_back(frame);
@@ -89,9 +89,9 @@ TEST(RunReport, PosesAreOfTheImagesExposures) {
 TEST(RunReport, SummaryHasAllThatIsAskedFor) {
   const Json summary = summaryFor("drone", straightTruth());
   for (const char* key :
-       {"frames", "profile", "seed", "estimator", "observer_ate_rmse_m", "fused_ate_rmse_m",
+       {"frames", "profile", "seed", "estimator", "odometry_ate_rmse_m", "fused_ate_rmse_m",
         "fused_error_mean_m", "fused_error_max_m", "ratio", "ratio_scale_removed", "t_rel_percent",
-        "observer_t_rel_percent", "nees_mean", "landmark_matches_median", "landmarks",
+        "odometry_t_rel_percent", "nees_mean", "landmark_matches_median", "landmarks",
         "ms_per_frame_median", "ms_per_frame_p95", "peak_rss_mb"}) {
     EXPECT_TRUE(summary.contains(key)) << key;
   }
@@ -101,7 +101,7 @@ TEST(RunReport, SummaryHasAllThatIsAskedFor) {
   EXPECT_EQ(summary["estimator"], "thesis");
   const double mean_square = (0.01 + 0.04 + 0.09) / 4;
   EXPECT_NEAR(summary["fused_ate_rmse_m"], std::sqrt(mean_square), 1e-12);
-  EXPECT_NEAR(summary["observer_ate_rmse_m"], 2 * std::sqrt(mean_square), 1e-12);
+  EXPECT_NEAR(summary["odometry_ate_rmse_m"], 2 * std::sqrt(mean_square), 1e-12);
   EXPECT_NEAR(summary["ratio"], 0.5, 1e-12);
   EXPECT_NEAR(summary["ratio_scale_removed"], 0.5, 1e-12);
   EXPECT_NEAR(summary["fused_error_mean_m"], 0.15, 1e-12);
@@ -125,7 +125,7 @@ TEST(RunReport, RatioIsNullWhereTheObserverIsTheTruth) {
 
 TEST(RunReport, WithoutTruthNoErrorIsClaimed) {
   const Json summary = summaryFor("recorded", {});
-  for (const char* key : {"observer_ate_rmse_m", "fused_ate_rmse_m", "ratio", "nees_mean",
+  for (const char* key : {"odometry_ate_rmse_m", "fused_ate_rmse_m", "ratio", "nees_mean",
                           "camera_error_mean_m", "t_rel_percent"}) {
     EXPECT_TRUE(summary[key].is_null()) << key;
   }
@@ -143,7 +143,7 @@ TEST(RunReport, ScaleErrorThatWasDrawnIsRemoved) {
   const Json summary = summaryOf(run, evaluate(run, straightTruth()), {"s", "wheel", 1, "thesis"});
   EXPECT_GT(summary["fused_ate_rmse_m"], 0.1);
   EXPECT_NEAR(summary["fused_ate_rmse_scale_removed_m"], 0, 1e-12);
-  EXPECT_NEAR(summary["observer_ate_rmse_scale_removed_m"], 0.2, 1e-12);
+  EXPECT_NEAR(summary["odometry_ate_rmse_scale_removed_m"], 0.2, 1e-12);
   EXPECT_NEAR(summary["ratio_scale_removed"], 0, 1e-12);
 }
 
@@ -180,7 +180,7 @@ TEST(RunReport, FilesOfARun) {
   const RunEvaluation evaluation = evaluate(run, straightTruth());
   writeRun(out, run, evaluation, summaryOf(run, evaluation, {"s", "drone", 1, "thesis"}));
   EXPECT_EQ(readTum(out + "/fused.tum").size(), 4U);
-  EXPECT_EQ(readTum(out + "/observer.tum").size(), 4U);
+  EXPECT_EQ(readTum(out + "/odometry.tum").size(), 4U);
   EXPECT_EQ(readTum(out + "/truth.tum").size(), 4U);
   std::ifstream json(out + "/summary.json");
   EXPECT_EQ(Json::parse(json)["frames"], 4);
@@ -210,11 +210,11 @@ TEST(RunReport, FilesOfARun) {
   EXPECT_EQ(rows[3][column("camera_y_m")], "0.4");
   EXPECT_EQ(rows[3][column("camera_error_m")], "0.4");
   EXPECT_EQ(rows[2][column("fused_error_m")], "0.2");
-  EXPECT_EQ(rows[2][column("observer_error_m")], "0.4");
+  EXPECT_EQ(rows[2][column("odometry_error_m")], "0.4");
   EXPECT_EQ(rows[2][column("ms_map")], "2");
   EXPECT_EQ(rows[2][column("ms_total")], "8");
   for (const char* name : kStageNames) column(std::string("ms_") + name);
-  column("deviation_m");
+  column("sigma_m");
   EXPECT_EQ(rows[2][column("fix_nis")], "1.5");
   EXPECT_EQ(rows[0][column("fix_nis")], "") << "not known";
 
@@ -266,9 +266,9 @@ TEST(RunReport, PosesThatNeverMoveAreAFaultWhenTheImagesTravel) {
   ASSERT_EQ(truth.faults.size(), 1U);
   EXPECT_NE(truth.faults[0].find("flight: the truth never moves"), std::string::npos);
   for (RunFrame& frame : run.frames) frame.result.T_odom_base.setIdentity();
-  const RunVerdict observer = judgeRun("flight", run, evaluate(run, {}), false);
-  ASSERT_EQ(observer.faults.size(), 1U);
-  EXPECT_NE(observer.faults[0].find("flight: the odometry never moves"), std::string::npos);
+  const RunVerdict odometry = judgeRun("flight", run, evaluate(run, {}), false);
+  ASSERT_EQ(odometry.faults.size(), 1U);
+  EXPECT_NE(odometry.faults[0].find("flight: the odometry never moves"), std::string::npos);
 }
 
 TEST(RunReport, OdometryThatIsTooFastForMetresIsAWarning) {
@@ -335,11 +335,11 @@ TEST(RunReport, ARunWithoutLandmarksSaysWhyThatMayBe) {
 
 TEST(RunReport, ARunWithoutObserverForMostImagesIsAFault) {
   RunResult run = someRun();
-  run.frames_without_observer = 4;
+  run.frames_without_odometry = 4;
   const RunEvaluation evaluation = evaluate(run, straightTruth());
   EXPECT_TRUE(judgeRun("flight", run, evaluation, false).faults.empty());
   EXPECT_EQ(judgeRun("flight", run, evaluation, false).warnings.size(), 1U);
-  run.frames_without_observer = 5;
+  run.frames_without_odometry = 5;
   const RunVerdict verdict = judgeRun("flight", run, evaluation, false);
   ASSERT_EQ(verdict.faults.size(), 1U);
   EXPECT_NE(verdict.faults[0].find("5 of 9 images have no usable odometry"), std::string::npos);

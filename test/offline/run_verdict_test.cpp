@@ -46,7 +46,7 @@ TEST(RunVerdict, TracksThatMoveOtherwiseSendToDoctor) {
   EXPECT_FALSE(sendsToDoctor(run, "/tmp/folder"));  // doctor reads bags
   RunResult seen = run;
   for (RunFrame& frame : seen.frames) frame.result.landmark_matches = 14;
-  EXPECT_FALSE(sendsToDoctor(seen));  // a harsh observer whose drift the map puts right
+  EXPECT_FALSE(sendsToDoctor(seen));  // a harsh odometry whose drift the map puts right
   RunResult few = run;
   few.frames.resize(20);
   EXPECT_FALSE(sendsToDoctor(few));

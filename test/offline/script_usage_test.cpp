@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "support/sequence_folders.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {

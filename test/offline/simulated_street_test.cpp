@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Landmarks beside a path, and the constraint filter between them.
+// Landmarks beside a path, and the MSCKF between them.
 #include "simulated_street.hpp"
 
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 #include "run_all.hpp"
 #include "run_report.hpp"
 #include "support/sequence_folders.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -72,25 +73,24 @@ TEST(SimulatedStreet, SaysWhatIsWrongWithAPath) {
 }
 
 /// The first frames of KITTI 00 with wheel odometry: a first pass.
-TEST(SimulatedStreet, ConstraintFilterOnKitti00IsBetterThanItsOdometryAndKnowsIt) {
+TEST(SimulatedStreet, MsckfOnKitti00IsBetterThanItsOdometryAndKnowsIt) {
   if (realData().empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
   const Trajectory path = readPath(realData() + "/kitti_00_poses/poses.txt");
   constexpr std::size_t kFrames = 300;
   const Trajectory truth(
       std::vector<StampedPose>(path.poses().begin(), path.poses().begin() + kFrames));
-  const PipelineConfig config =
-      loadConfig(std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/kitti.yaml",
-                 {"mapper/estimator=constraint", "mapper/mounting_deviation_deg=0",
-                  "mapper/track_deviation_px=1.5",
-                  "mapper/track_common_px=0"});  // exact mounting, independent noise
-  const ObserverProfile wheel = loadObserverProfile(
-      "wheel", std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/observer_profiles.yaml");
-  std::vector<RunObserver> observers;
+  const PipelineConfig config = loadConfig(
+      std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/kitti.yaml",
+      {"mapper/estimator=constraint", "mapper/extrinsics_sigma_deg=0", "mapper/track_sigma_px=1.5",
+       "mapper/track_common_px=0"});  // exact mounting, independent noise
+  const OdometryProfile wheel = loadOdometryProfile(
+      "wheel", std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/odometry_profiles.yaml");
+  std::vector<RunOdometry> odometries;
   for (std::uint64_t seed = 1; seed <= 6; ++seed)
-    observers.push_back({wheel.name, seed, simulateObserver(truth, wheel, seed)});
+    odometries.push_back({wheel.name, seed, simulateOdometry(truth, wheel, seed)});
   BackEnds back_ends(2);
-  for (const RunObserver& observer : observers)
-    back_ends.add(config.mapper, forwardCamera(), observer);
+  for (const RunOdometry& odometry : odometries)
+    back_ends.add(config.mapper, forwardCamera(), odometry);
   ViewFaults faults;
   faults.pixel_noise_px = 0.8;
   faults.wrong_share = 0.03;
@@ -111,7 +111,7 @@ TEST(SimulatedStreet, ConstraintFilterOnKitti00IsBetterThanItsOdometryAndKnowsIt
   }
   EXPECT_LT(quantile(ratios, 0.5), 0.6);  // measured: 0.32
   EXPECT_LT(quantile(ratios, 1), 1.3);    // measured: 1.16
-  const double nees_mean = nees_sum / static_cast<double>(observers.size());
+  const double nees_mean = nees_sum / static_cast<double>(odometries.size());
   EXPECT_GT(nees_mean, 1);
   EXPECT_LT(nees_mean, 6);  // 3 is honest; measured: 2.8
 }

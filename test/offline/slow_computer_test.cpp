@@ -25,13 +25,13 @@ class Stamps : public Sequence {
   const CameraIntrinsics& camera() const override { return camera_; }
   Eigen::Isometry3d T_base_cam() const override { return Eigen::Isometry3d::Identity(); }
   const Trajectory& truth() const override { return truth_; }
-  const std::vector<ObserverState>& observer() const override { return observer_; }
+  const std::vector<OdometryState>& odometry() const override { return odometry_; }
 
  private:
   std::vector<int> stamps_ms_;
   CameraIntrinsics camera_;
   Trajectory truth_;
-  std::vector<ObserverState> observer_;
+  std::vector<OdometryState> odometry_;
 };
 
 /// Stamps of the images that it takes.
@@ -90,9 +90,9 @@ class SlowRun : public testing::Test {
     options.duration_s = 3;
     options.rate_hz = 20;
     WorldSequence world(options);
-    const RunObserver observer = simulatedObserver(world, "drone", 1);
+    const RunOdometry odometry = simulatedOdometry(world, "drone", 1);
     return runAll(
-               world, PipelineConfig{}, {observer}, threads,
+               world, PipelineConfig{}, {odometry}, threads,
                [this](std::size_t done) { done_ = done; }, speed)
         .front();
   }

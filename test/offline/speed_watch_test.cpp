@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int64_t kStart_ns = 1'000'000'000'000;
 
-ObserverState stateAt(double stamp_s, const Eigen::Vector3d& position_m) {
-  ObserverState state;
+OdometryState stateAt(double stamp_s, const Eigen::Vector3d& position_m) {
+  OdometryState state;
   state.stamp_ns = kStart_ns + static_cast<std::int64_t>(stamp_s * 1e9);
   state.T_odom_base.translation() = position_m;
   return state;
@@ -58,7 +58,7 @@ TEST(SpeedWatch, JumpsNoiseAndStampsThatGoBackAreNoSpeed) {
 }
 
 TEST(SpeedWatch, ReplayWatchesItsObserver) {
-  std::vector<ObserverState> states;
+  std::vector<OdometryState> states;
   for (int i = 0; i < 30; ++i) states.push_back(stateAt(0.1 * i, {30.0 * i, 0, 0}));
   BackEnd back_end(SlamConfig{}, Eigen::Isometry3d::Identity(), states);
   TrackedFrame frame;

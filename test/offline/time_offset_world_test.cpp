@@ -5,14 +5,15 @@
 #include <cmath>
 
 #include "ardrone_vslam/time_offset.hpp"
-#include "observer_model.hpp"
+#include "odometry_model.hpp"
 #include "offline_run.hpp"
+#include "test_paths.hpp"
 #include "world_sequence.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-const std::string kProfiles = ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml";
+const std::string kProfiles = ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml";
 
 std::vector<ImageFeatures> featuresOf(WorldSequence& sequence) {
   std::vector<ImageFeatures> features;
@@ -24,12 +25,12 @@ std::vector<ImageFeatures> featuresOf(WorldSequence& sequence) {
 /// Once each image is stamped `offset_s` early.
 TimeOffset find(const WorldSequence& sequence, std::vector<ImageFeatures> images,
                 const std::string& profile, std::uint64_t seed, double offset_s) {
-  const ObserverRun run =
-      simulateObserver(sequence.truth(), loadObserverProfile(profile, kProfiles), seed);
-  ObserverBufferConfig config;
+  const OdometryRun run =
+      simulateOdometry(sequence.truth(), loadOdometryProfile(profile, kProfiles), seed);
+  OdometryBufferConfig config;
   config.buffer_s = 60;
-  ObserverBuffer odometry(config);
-  for (const ObserverState& state : run.states) odometry.push(state);
+  OdometryBuffer odometry(config);
+  for (const OdometryState& state : run.states) odometry.push(state);
   TimeOffsetEstimator estimator(sequence.T_base_cam());
   for (ImageFeatures& image : images) {
     image.stamp_ns -= std::llround(offset_s * 1e9);

@@ -81,9 +81,9 @@ TEST(World, ThingsMoveAndTheRestStands) {
   std::size_t moved = 0;
   double fastest_m_s = 0;
   for (std::size_t i = 0; i < early.surfaces.size(); ++i) {
-    const double way_m = (early.surfaces[i].corner - late.surfaces[i].corner).norm();
-    moved += way_m > 0 ? 1 : 0;
-    fastest_m_s = std::max(fastest_m_s, way_m);
+    const double displacement_m = (early.surfaces[i].corner - late.surfaces[i].corner).norm();
+    moved += displacement_m > 0 ? 1 : 0;
+    fastest_m_s = std::max(fastest_m_s, displacement_m);
   }
   EXPECT_EQ(moved, 15U) << "three boxes of five faces";
   EXPECT_LT(fastest_m_s, 1.5);

@@ -11,12 +11,13 @@
 #include <stdexcept>
 
 #include "random_source.hpp"
+#include "test_paths.hpp"
 #include "world_room.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-const std::string kProfiles = ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml";
+const std::string kProfiles = ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml";
 
 WorldOptions shortFlight(double duration_s, double rate_hz) {
   WorldOptions options;
@@ -167,7 +168,7 @@ TEST(WorldSequence, BaseIsWhereItIsAskedForAndTheCameraFliesAlike) {
 
 TEST(WorldSequence, SeedsDecide) {
   WorldOptions options = shortFlight(4, 1);
-  options.observer = loadObserverProfile("drone", kProfiles);
+  options.odometry = loadOdometryProfile("drone", kProfiles);
   options.seed = 3;
   WorldSequence world(options), again(options);
   options.seed = 4;
@@ -175,10 +176,10 @@ TEST(WorldSequence, SeedsDecide) {
   options.world_seed = 1;
   WorldSequence other_room(options);
   for (std::size_t i : {3, 0}) EXPECT_TRUE(sameBytes(world.image(i), again.image(i)));
-  EXPECT_EQ(world.observerNote().scale_error, again.observerNote().scale_error);
-  EXPECT_NE(world.observerNote().scale_error, other_noise.observerNote().scale_error);
-  EXPECT_EQ(world.observer().back().T_odom_base.matrix(),
-            again.observer().back().T_odom_base.matrix());
+  EXPECT_EQ(world.odometryNote().scale_error, again.odometryNote().scale_error);
+  EXPECT_NE(world.odometryNote().scale_error, other_noise.odometryNote().scale_error);
+  EXPECT_EQ(world.odometry().back().T_odom_base.matrix(),
+            again.odometry().back().T_odom_base.matrix());
   EXPECT_FALSE(sameBytes(world.image(0), other_noise.image(0)));
   const double noise = cv::norm(world.image(0), other_noise.image(0), cv::NORM_L1);
   EXPECT_GT(cv::norm(world.image(0), other_room.image(0), cv::NORM_L1), 5 * noise);

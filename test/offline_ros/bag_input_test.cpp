@@ -31,10 +31,10 @@ TEST(BagInput, SoundBag) {
   EXPECT_EQ(sequence->stamp_ns(2), 1'200'000'000);
   EXPECT_EQ(sequence->camera().k1, -0.5);
   EXPECT_TRUE(sequence->T_base_cam().isApprox(Eigen::Translation3d(0.2, 0, 0) * forwardCamera()));
-  ASSERT_EQ(sequence->observer().size(), 5u);
-  EXPECT_EQ(sequence->observer()[2].T_odom_base.translation().x(), 1.0);
-  EXPECT_EQ(sequence->observer()[2].covariance(0, 0), 0.25);
-  EXPECT_EQ(sequence->observer()[2].covariance(5, 5), 0.5);
+  ASSERT_EQ(sequence->odometry().size(), 5u);
+  EXPECT_EQ(sequence->odometry()[2].T_odom_base.translation().x(), 1.0);
+  EXPECT_EQ(sequence->odometry()[2].covariance(0, 0), 0.25);
+  EXPECT_EQ(sequence->odometry()[2].covariance(5, 5), 0.5);
 }
 
 TEST(BagInput, EveryEncodingGivesGrey) {
@@ -176,7 +176,7 @@ TEST(BagInput, OdometryThatIsWrongIsDroppedAndCounted) {
   recipe.odometry[2].pose.pose.orientation.w = 0;
   const TestBag not_finite(recipe);
   const auto sequence = not_finite.open();
-  EXPECT_EQ(sequence->observer().size(), 3u);
+  EXPECT_EQ(sequence->odometry().size(), 3u);
   expectWarning(*sequence, {"/odom", "2 messages dropped", "not finite"});
 
   // The nodelets drop these, too.
@@ -185,20 +185,20 @@ TEST(BagInput, OdometryThatIsWrongIsDroppedAndCounted) {
   recipe.odometry[2].twist.twist.angular.x = std::numeric_limits<double>::infinity();
   recipe.odometry[4].twist.covariance[7] = kNan;
   const auto without_twist = TestBag(recipe).open();
-  EXPECT_EQ(without_twist->observer().size(), 2u);
+  EXPECT_EQ(without_twist->odometry().size(), 2u);
   expectWarning(*without_twist, {"/odom", "3 messages dropped", "twist", "not finite"});
 
   recipe = BagRecipe();
   recipe.odometry[2].header.stamp = ros::Time(0.5);
   recipe.odometry[3].header.stamp = recipe.odometry[1].header.stamp;  // a burst: kept
   const auto backward = TestBag(recipe).open();
-  EXPECT_EQ(backward->observer().size(), 4u);
+  EXPECT_EQ(backward->odometry().size(), 4u);
   expectWarning(*backward, {"/odom", "1 messages dropped", "goes back"});
 
   recipe = BagRecipe();
   recipe.odometry[3].pose.pose.position.z = -1e300;
   const auto far = TestBag(recipe).open();
-  EXPECT_EQ(far->observer().size(), 4u);
+  EXPECT_EQ(far->odometry().size(), 4u);
   expectWarning(*far, {"/odom", "1 messages dropped", "more than 1e7 m"});
 
   recipe = BagRecipe();
@@ -210,7 +210,7 @@ TEST(BagInput, ACovarianceThatCountsAsNotGivenIsToldOnce) {
   BagRecipe recipe;
   for (auto& message : recipe.odometry) message.pose.covariance[0] = -1;
   const auto negative = TestBag(recipe).open();
-  EXPECT_EQ(negative->observer().size(), 5u);
+  EXPECT_EQ(negative->odometry().size(), 5u);
   expectWarning(*negative, {"/odom", "variance of -1 m^2", "counts as not given"});
   for (auto& message : recipe.odometry) message.pose.covariance.assign(0);  // the usual "none"
   EXPECT_TRUE(TestBag(recipe).open()->warnings().empty());
@@ -268,7 +268,7 @@ TEST(BagInput, TopicsMissingSeveralOrOfAnotherType) {
   options.image_topic = "/cam/image";
   bag.expectRefused({"several topics", "/odom, /other_odom", "--odometry-topic"}, options);
   options.odometry_topic = "odom";
-  EXPECT_EQ(bag.open(options)->observer().size(), 5u);
+  EXPECT_EQ(bag.open(options)->odometry().size(), 5u);
   options.odometry_topic = "/odometry";
   bag.expectRefused({"no topic /odometry", "Topics there", "/odom (nav_msgs/Odometry)"}, options);
   options.odometry_topic = "/cam/image";
@@ -293,7 +293,7 @@ TEST(BagInput, TruthOfEveryType) {
     ASSERT_EQ(sequence->truth().size(), 1u);
     EXPECT_EQ(sequence->truth().poses()[0].stamp_ns, 1'000'000'000);
     EXPECT_EQ(sequence->truth().poses()[0].T_map_base.translation().x(), 4);
-    EXPECT_EQ(sequence->observer().size(), 5u);
+    EXPECT_EQ(sequence->odometry().size(), 5u);
     expectWarning(*sequence, {"/ground_truth", "1 messages dropped", "does not ascend"});
   };
   check(stamped);

@@ -24,11 +24,11 @@ namespace {
 
 constexpr std::int64_t kOffset_ns = 100'000'000'000;
 
-ObserverProfile driftingProfile() {
-  ObserverProfile profile;
+OdometryProfile driftingProfile() {
+  OdometryProfile profile;
   profile.name = "drifting";
   profile.rate_hz = 50;
-  profile.scale_deviation = 0.02;
+  profile.scale_sigma = 0.02;
   profile.velocity_noise_m_s = 0.05;
   profile.yaw_walk_rad_per_sqrt_s = 0.01;
   return profile;
@@ -36,7 +36,7 @@ ObserverProfile driftingProfile() {
 
 BagWriteOptions driftingOptions() {
   BagWriteOptions options;
-  options.observer_profile = driftingProfile();
+  options.odometry_profile = driftingProfile();
   options.seed = 7;
   options.tool = "test 1.0";
   return options;
@@ -83,12 +83,12 @@ TEST(BagRoundTrip, KittiFolderWithSimulatedObserver) {
   expectSamePose(bag->T_base_cam(), source->T_base_cam());
   expectSameImages(*source, *bag, kOffset_ns);
   expectSameTruth(source->truth(), bag->truth(), kOffset_ns);
-  const auto run = simulateObserver(source->truth(), driftingProfile(), 7);
-  ASSERT_EQ(bag->observer().size(), run.states.size());
+  const auto run = simulateOdometry(source->truth(), driftingProfile(), 7);
+  ASSERT_EQ(bag->odometry().size(), run.states.size());
   EXPECT_EQ(report.odometry, run.states.size());
   for (std::size_t i = 0; i < run.states.size(); ++i) {
-    EXPECT_EQ(bag->observer()[i].stamp_ns, run.states[i].stamp_ns + kOffset_ns);
-    expectSamePose(bag->observer()[i].T_odom_base, run.states[i].T_odom_base);
+    EXPECT_EQ(bag->odometry()[i].stamp_ns, run.states[i].stamp_ns + kOffset_ns);
+    expectSamePose(bag->odometry()[i].T_odom_base, run.states[i].T_odom_base);
   }
 }
 
@@ -97,7 +97,7 @@ TEST(BagRoundTrip, RecordedObserverWithDistortionAndOwnNames) {
   makeTumFolder(folder, 4);
   folder.write("times.txt", "1305031102.175304\n1305031102.211214\n1305031102.3\n1305031102.4\n");
   folder.write("poses_tum.txt", "1305031102.1 1 2 3 0 0 0 1\n1305031102.5 2 2 3 0 0 0 1\n");
-  folder.write("observer_tum.txt",
+  folder.write("odometry_tum.txt",
                "1305031102.1 1 0 0 0 0 0.6 0.8\n1305031102.2 1 1 0 0 0 0.6 0.8\n"
                "1305031102.2 1 2 0 0 0 0.6 0.8\n1305031102.5 1 5 0 0 0 0.6 0.8\n");
   BagWriteOptions options;
@@ -113,10 +113,10 @@ TEST(BagRoundTrip, RecordedObserverWithDistortionAndOwnNames) {
   EXPECT_EQ(bag->stamp_ns(0), 1305031102'175304000);
   expectSameImages(*source, *bag, 0);
   expectSameTruth(source->truth(), bag->truth(), 0);
-  ASSERT_EQ(bag->observer().size(), 4u);
+  ASSERT_EQ(bag->odometry().size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(bag->observer()[i].stamp_ns, source->observer()[i].stamp_ns);
-    expectSamePose(bag->observer()[i].T_odom_base, source->observer()[i].T_odom_base);
+    EXPECT_EQ(bag->odometry()[i].stamp_ns, source->odometry()[i].stamp_ns);
+    expectSamePose(bag->odometry()[i].T_odom_base, source->odometry()[i].T_odom_base);
   }
 }
 
@@ -147,8 +147,8 @@ TEST(BagRoundTrip, RangesGiveTheSameHeights) {
   }
   constexpr double kSingle_m = 1e-6;  // sensor_msgs/Range is of single precision
   int heights = 0;
-  ObserverState here;
-  ObserverState there;
+  OdometryState here;
+  OdometryState there;
   for (std::size_t i = 0; i < source->size(); ++i) {
     here.stamp_ns = source->stamp_ns(i);
     there.stamp_ns = bag->stamp_ns(i);
@@ -228,7 +228,7 @@ TEST(BagWriter, MessagesComeInTheOrderOfTimeAtTheirStamps) {
     if (instance.getTopic() == "/tf_static") is_static_latched = instance.isLatching();
     if (const auto text = instance.instantiate<std_msgs::String>()) {
       const YAML::Node info = YAML::Load(text->data);
-      EXPECT_EQ(info["observer_profile"].as<std::string>(), "drifting");
+      EXPECT_EQ(info["odometry_profile"].as<std::string>(), "drifting");
       EXPECT_EQ(info["seed"].as<int>(), 7);
       EXPECT_NE(info["scale_error"].as<double>(), 0);
       EXPECT_EQ(info["stamp_offset_s"].as<double>(), 100);
@@ -248,8 +248,8 @@ TEST(BagWriter, TwistIsTheMotionInBase) {
   TemporaryFolder folder;
   makeKittiFolder(folder, 4);  // base looks along map's -y and moves along it: forward at 5 m/s
   BagWriteOptions options;
-  options.observer_profile = ObserverProfile();
-  options.observer_profile->name = "truth";
+  options.odometry_profile = OdometryProfile();
+  options.odometry_profile->name = "truth";
   writeBag(*openFolder(folder.path()), options, folder.file("out.bag"));
   rosbag::Bag bag(folder.file("out.bag"));
   std::size_t count = 0;
@@ -288,7 +288,7 @@ TEST(BagWriter, ProfileNeedsTruth) {
               {"no true poses", "'drifting'", "give the truth"});
   EXPECT_EQ(writeBag(*source, {}, out).odometry, 0u);
   const auto bag = openBag(out, {});
-  EXPECT_TRUE(bag->observer().empty());
+  EXPECT_TRUE(bag->odometry().empty());
   EXPECT_TRUE(bag->truth().empty());
   // Without odometry base is the camera's parent in tf.
   expectSamePose(bag->T_base_cam(), forwardCamera());

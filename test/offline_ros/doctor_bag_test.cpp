@@ -111,11 +111,11 @@ TEST_F(DoctorBag, NamesTheReleasedDriversFaultsAndSuggestsTheirRemedies) {
   EXPECT_TRUE(report.parameters.empty()) << textOf(report);
   std::map<std::string, std::string> values;
   for (const auto& parameter : report.configured) values[parameter.key] = parameter.value;
-  EXPECT_EQ(values["observer_mode"], "twist");
+  EXPECT_EQ(values["odometry_mode"], "twist");
   // The video is 75 to 100 ms late.
   EXPECT_NEAR(std::stod(values["image_time_offset_s"]), -0.0875, 0.01);
   const PipelineConfig config = configOf(report);
-  EXPECT_EQ(config.mapper.observer_adapter.mode, ObserverMode::kTwist);
+  EXPECT_EQ(config.mapper.odometry_adapter.mode, OdometryMode::kTwist);
   EXPECT_NEAR(config.mapper.image_time_offset_s, -0.0875, 0.01);
 }
 
@@ -125,7 +125,7 @@ TEST_F(DoctorBag, AFlightTooShortToTellTheDriversFaultsGetsItsConfigurationAllTh
   EXPECT_EQ(found(report).count("odometry_yaw"), 0U) << textOf(report);
   EXPECT_TRUE(report.canWork()) << textOf(report);
   const PipelineConfig config = configOf(report);
-  EXPECT_EQ(config.mapper.observer_adapter.mode, ObserverMode::kTwist);
+  EXPECT_EQ(config.mapper.odometry_adapter.mode, OdometryMode::kTwist);
   EXPECT_TRUE(config.rescale_calibration);
   EXPECT_TRUE(config.mapper.height_input.use_navdata_height);
 }

@@ -8,6 +8,7 @@
 #include "doctor_bag.hpp"
 #include "doctor_examination.hpp"
 #include "driver_recording.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 
@@ -24,7 +25,7 @@ class DriverFlight {
     DriverBagOptions options;
     options.faults = faults;
     options.profile =
-        loadObserverProfile("drone", ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");
+        loadOdometryProfile("drone", ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
     options.tool = "test";
     writeDriverBag(world_, options, path);
   }

@@ -9,6 +9,7 @@
 #include "ardrone_vslam/rotation.hpp"
 #include "bag_recipe.hpp"
 #include "doctor_flights.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -41,8 +42,8 @@ class DoctorTool : public DoctorBag {
 TEST_F(DoctorTool, ExitCodesTellUsableFromNotAndFromWrongUsage) {
   laps().write(driverFaultsNamed({"released"}), path());
   EXPECT_EQ(run(path() + " --json " + path("report.json")), 0) << errors();
-  EXPECT_NE(output().find("set observer_mode to twist"), std::string::npos) << output();
-  EXPECT_NE(output().find("config/ardrone.yaml, which has mapper/observer_mode"), std::string::npos)
+  EXPECT_NE(output().find("set odometry_mode to twist"), std::string::npos) << output();
+  EXPECT_NE(output().find("config/ardrone.yaml, which has mapper/odometry_mode"), std::string::npos)
       << output();
   const auto json = nlohmann::json::parse(readWhole(path("report.json")));
   EXPECT_TRUE(json["usable"].get<bool>());
@@ -73,9 +74,9 @@ TEST_F(DoctorTool, NavdataWithoutOdometryIsUsableAndItsReplayLineRuns) {
   laps().write({}, path("whole.bag"));
   dropOdometry(path("whole.bag"), path());
   EXPECT_EQ(run(path() + " --json " + path("report.json")), 0) << output() << errors();
-  EXPECT_NE(output().find("observer_mode: navdata"), std::string::npos) << output();
+  EXPECT_NE(output().find("odometry_mode: navdata"), std::string::npos) << output();
   const auto json = nlohmann::json::parse(readWhole(path("report.json")));
-  EXPECT_EQ(json["parameters"]["mapper/observer_mode"]["value"], "navdata");
+  EXPECT_EQ(json["parameters"]["mapper/odometry_mode"]["value"], "navdata");
   for (const auto& check : json["checks"]) {
     if (check["check"] == "topics" || check["verdict"] == "not checked") continue;
     EXPECT_EQ(check["verdict"], "ok") << check;

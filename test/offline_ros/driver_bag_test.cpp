@@ -86,8 +86,9 @@ TEST(DriverBag, TwistIntegratesToTheOdometryAndWithoutDriftToTheTruth) {
       EXPECT_NEAR(rotationOf(odometry[i].pose.pose).angularDistance(rotationOf(truth[i].pose)), 0,
                   1e-7);
     }
-    const double way_m = (positionOf(truth.back().pose) - positionOf(truth.front().pose)).norm();
-    EXPECT_GT(way_m, 0.01);
+    const double displacement_m =
+        (positionOf(truth.back().pose) - positionOf(truth.front().pose)).norm();
+    EXPECT_GT(displacement_m, 0.01);
   }
 }
 

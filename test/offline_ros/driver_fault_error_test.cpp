@@ -16,6 +16,7 @@
 #include "offline_run.hpp"
 #include "point_world.hpp"
 #include "support/sequence_folders.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -59,7 +60,7 @@ RunResult fly(const WorldSequence& flown, const BagSequence& bag, const DriverFa
   PointWorld seen = points(flown.world().extent(), seed);
   DriverLink link(!is_late, seed);
   const CameraChoice* camera = &cameraNamed("front");
-  BackEnd back_end(config.mapper, camera->T_body_cam, bag.observer(), bag.ranges());
+  BackEnd back_end(config.mapper, camera->T_body_cam, bag.odometry(), bag.ranges());
   for (int i = 0; i < kDuration_s * kRate_hz; ++i) {
     const double t_s = i / kRate_hz;
     const bool is_middle = t_s >= kDuration_s / 3 && t_s < kDuration_s * 2 / 3;
@@ -105,7 +106,7 @@ double errorWith_m(const DriverFaults& faults) {
     DriverBagOptions options;
     options.faults = faults;
     options.profile =
-        loadObserverProfile("drone", ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");
+        loadOdometryProfile("drone", ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
     options.tool = "test";
     writeDriverBag(flown, options, folder.file("driver.bag"));
     BagReadOptions read;

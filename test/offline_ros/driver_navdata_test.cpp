@@ -53,7 +53,7 @@ TEST(DriverNavdata, ItsHeightIsAVerticalReadingWithinTheSonarsReach) {
   EXPECT_EQ(push(0), HeightInput::Push::kOutOfRange) << "on the ground";
   EXPECT_EQ(push(-3), HeightInput::Push::kOutOfRange);
   EXPECT_EQ(push(9000), HeightInput::Push::kOutOfRange);
-  ObserverState upright;
+  OdometryState upright;
   upright.stamp_ns = 5'005'000'000;
   EXPECT_NEAR(*input.at(upright), 0.85, 1e-9);
 }
@@ -69,9 +69,9 @@ TEST(DriverNavdata, TakesTheOdometrysPlaceInABag) {
   BagReadOptions options = frontCamera();
   options.drone_filter = DroneFilterConfig{};
   const auto bag = openBag(recording.path(), options);
-  const auto& states = bag->observer();
+  const auto& states = bag->odometry();
   ASSERT_EQ(states.size(), recording.read<Navdata>("/ardrone/navdata").size());
-  EXPECT_GT(bag->observerFaults()[static_cast<std::size_t>(OdometryFault::kBurst)], 0U);
+  EXPECT_GT(bag->odometryInputFaults()[static_cast<std::size_t>(OdometryFault::kBurst)], 0U);
   const Eigen::Vector3d begin_m = bag->truth().at(states.front().stamp_ns).translation();
   for (std::size_t i = 1; i < states.size(); ++i) {
     ASSERT_GT(states[i].stamp_ns, states[i - 1].stamp_ns);
@@ -81,7 +81,7 @@ TEST(DriverNavdata, TakesTheOdometrysPlaceInABag) {
     EXPECT_TRUE(positionVariance_m2(states[i]));
   }
   EXPECT_FALSE(states.back().twist_base.tail<3>().isZero(0)) << "the IMU's";
-  EXPECT_EQ(openBag(recording.path(), frontCamera())->observerFaults(), OdometryFaultCounts{});
+  EXPECT_EQ(openBag(recording.path(), frontCamera())->odometryInputFaults(), OdometryFaultCounts{});
 }
 
 TEST(DriverNavdata, HeightsAreReadWhereTheyAreAskedFor) {

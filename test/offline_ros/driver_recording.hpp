@@ -23,6 +23,7 @@
 #include "bag_topics.hpp"
 #include "driver_bag.hpp"
 #include "support/sequence_folders.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 
@@ -47,7 +48,7 @@ class DriverRecording {
     options.tf_prefix = tf_prefix;
     options.camera = camera;
     options.profile =
-        loadObserverProfile(profile, ARDRONE_VSLAM_SOURCE_DIR "/config/observer_profiles.yaml");
+        loadOdometryProfile(profile, ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
     options.tool = "test";
     writeDriverBag(world(), options, path());
     bag_.open(path(), rosbag::bagmode::Read);

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "bag_damage.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -61,9 +62,9 @@ TEST_F(ToolUsage, SeedsAreWholeNumbersAndNeedAProfile) {
   }
   const TestBag bag{BagRecipe()};
   EXPECT_EQ(replay(bag.path() + " --seed 3"), 2);
-  expectOutput({"--seed needs --observer-profile"});
+  expectOutput({"--seed needs --odometry-profile"});
   EXPECT_EQ(replay(bag.path() + " --seeds 1:2"), 2);
-  expectOutput({"--seeds needs --observer-profile"});
+  expectOutput({"--seeds needs --odometry-profile"});
 }
 
 TEST_F(ToolUsage, AFramesFaultIsWrongUsage) {
@@ -87,10 +88,10 @@ TEST_F(ToolUsage, ABagsNameEndsInBag) {
 
 TEST_F(ToolUsage, AVideoStreamHasTruePosesOnlyAtRest) {
   const std::string command = "pave stream.pave --out " + path("a.bag");
-  EXPECT_EQ(makeBag(command + " --observer-profile drone"), 2);
-  expectOutput({"make_bag: stream.pave", "--observer-profile drone", "true poses", "--at-rest"});
+  EXPECT_EQ(makeBag(command + " --odometry-profile drone"), 2);
+  expectOutput({"make_bag: stream.pave", "--odometry-profile drone", "true poses", "--at-rest"});
   // With it the fault is that there is no such file.
-  EXPECT_EQ(makeBag(command + " --observer-profile drone --at-rest"), 1);
+  EXPECT_EQ(makeBag(command + " --odometry-profile drone --at-rest"), 1);
   expectOutput({"stream.pave", "check the path"});
 }
 
@@ -115,12 +116,12 @@ TEST_F(ToolUsage, WhatIsNamedOnTheCommandLineWronglyIsWrongUsage) {
   expectOutput({"no_such_key"});
   EXPECT_EQ(replay(folder_.path() + " --estimator foo"), 2);
   expectOutput({"--estimator", "thesis"});
-  EXPECT_EQ(replay(folder_.path() + " --observer-profile foo"), 2);
-  expectOutput({"replay: --observer-profile", "'foo'", "drone"});
+  EXPECT_EQ(replay(folder_.path() + " --odometry-profile foo"), 2);
+  expectOutput({"replay: --odometry-profile", "'foo'", "drone"});
   EXPECT_EQ(
-      makeBag("kitti " + folder_.path() + " --out " + path("a.bag") + " --observer-profile foo"),
+      makeBag("kitti " + folder_.path() + " --out " + path("a.bag") + " --odometry-profile foo"),
       2);
-  expectOutput({"make_bag: --observer-profile", "'foo'", "drone"});
+  expectOutput({"make_bag: --odometry-profile", "'foo'", "drone"});
   folder_.write("wrong.yaml", "tracker: {no_such_key: 1}\n");
   EXPECT_EQ(replay(folder_.path() + " --config " + path("wrong.yaml")), 1);
   expectOutput({"no_such_key"});
@@ -129,7 +130,7 @@ TEST_F(ToolUsage, WhatIsNamedOnTheCommandLineWronglyIsWrongUsage) {
 TEST_F(ToolUsage, RecordedOdometryDoesNotRunBackwards) {
   const TestBag bag{BagRecipe()};
   EXPECT_EQ(replay(bag.path() + " --ping-pong"), 2);
-  expectOutput({"replay: ", bag.path(), "cannot run backwards", "--observer-profile"});
+  expectOutput({"replay: ", bag.path(), "cannot run backwards", "--odometry-profile"});
 }
 
 TEST_F(ToolUsage, TheConfigurationsBaseFrameHolds) {
@@ -148,12 +149,12 @@ TEST_F(ToolUsage, TheConfigurationsBaseFrameHolds) {
 
 TEST_F(ToolUsage, ARunLeavesNothingOfTheOneBefore) {
   const std::string flight =
-      ARDRONE_VSLAM_SOURCE_DIR "/bags/laps_20s.bag --frames 0:20 --observer-profile drone";
+      ARDRONE_VSLAM_SOURCE_DIR "/bags/laps_20s.bag --frames 0:20 --odometry-profile drone";
   const auto has = [this](const std::string& name) {
     return std::filesystem::exists(path("run/" + name));
   };
   EXPECT_EQ(replay(flight + " --seeds 1:3"), 0) << output();
-  expectOutput({"  seed  observer RMSE [m]", "\nmedian", "\n worst"});
+  expectOutput({"  seed  odometry RMSE [m]", "\nmedian", "\n worst"});
   EXPECT_TRUE(has("seed_3/fused.tum") && has("summary.json") && !has("fused.tum"));
   folder_.write("run/notes.txt", "");
   EXPECT_EQ(replay(flight), 0) << output();
@@ -179,7 +180,7 @@ TEST_F(ToolUsage, HelpNamesChoicesPlainly) {
 TEST_F(ToolUsage, ATumFolderIsFlownWithTheDronesProfile) {
   makeTumFolder(folder_, 5);
   EXPECT_EQ(makeBag("tum " + folder_.path() + " --out " + path("a.bag")), 0) << output();
-  expectOutput({"observer profile drone"});
+  expectOutput({"odometry profile drone"});
   folder_.remove("poses_tum.txt");
   EXPECT_EQ(replay(folder_.path()), 1);
   expectOutput({"the profile 'drone'"});
@@ -223,7 +224,7 @@ TEST_F(ToolUsage, TheDriversOptionsGoWithADriver) {
   expectOutput({"--driver is for bags only"});
   EXPECT_FALSE(std::filesystem::exists(path("d.bag")));
   EXPECT_EQ(makeWorld("--driver ardrone --fault all --compressed jpeg"), 0);
-  expectOutput({"d.bag: 2 images", "observer profile drone"});
+  expectOutput({"d.bag: 2 images", "odometry profile drone"});
 }
 
 }  // namespace

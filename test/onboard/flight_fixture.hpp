@@ -52,7 +52,7 @@ class FlightFixture : public ::testing::Test {
   static std::string records() {
     std::string bytes;
     for (int i = -1; i <= kImages; ++i) {
-      VslamObserver observer = observerAt(stampOf(i), static_cast<std::uint32_t>(i + 10));
+      VslamObserver observer = odometryAt(stampOf(i), static_cast<std::uint32_t>(i + 10));
       observer.position_m[0] = 0.5;
       const Record record = recordOf(observer);
       bytes.append(record.begin(), record.end());

@@ -19,7 +19,7 @@ namespace ardrone_vslam::test {
 using Record = std::array<std::uint8_t, VSLAM_OBSERVER_BYTES>;
 
 /// A good state at rest.
-inline VslamObserver observerAt(std::int64_t stamp_ns, std::uint32_t sequence) {
+inline VslamObserver odometryAt(std::int64_t stamp_ns, std::uint32_t sequence) {
   VslamObserver observer{};
   observer.sequence = sequence;
   observer.stamp_ns = stamp_ns;

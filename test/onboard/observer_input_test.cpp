@@ -23,7 +23,7 @@ class ObserverInputTest : public ::testing::Test {
 };
 
 TEST_F(ObserverInputTest, GivesTheState) {
-  VslamObserver observer = observerAt(5, 1);
+  VslamObserver observer = odometryAt(5, 1);
   observer.position_m[1] = 2;
   observer.quaternion[2] = observer.quaternion[3] = std::sqrt(0.5);
   observer.variance[0] = observer.variance[5] = 0.25;
@@ -47,26 +47,26 @@ TEST_F(ObserverInputTest, GivesTheState) {
 }
 
 TEST_F(ObserverInputTest, OldNumbersAreDroppedAlsoAcrossTheWrap) {
-  EXPECT_TRUE(accepts(observerAt(1, 0xFFFFFFFEU)));
-  EXPECT_FALSE(accepts(observerAt(2, 0xFFFFFFFEU)));
-  EXPECT_FALSE(accepts(observerAt(3, 0xFFFFFFF0U)));
-  EXPECT_TRUE(accepts(observerAt(4, 1)));
-  EXPECT_FALSE(accepts(observerAt(5, 0xFFFFFFFFU)));
+  EXPECT_TRUE(accepts(odometryAt(1, 0xFFFFFFFEU)));
+  EXPECT_FALSE(accepts(odometryAt(2, 0xFFFFFFFEU)));
+  EXPECT_FALSE(accepts(odometryAt(3, 0xFFFFFFF0U)));
+  EXPECT_TRUE(accepts(odometryAt(4, 1)));
+  EXPECT_FALSE(accepts(odometryAt(5, 0xFFFFFFFFU)));
   EXPECT_EQ(input_.counts().old, 3U);
   EXPECT_EQ(input_.counts().accepted, 2U);
 }
 
 TEST_F(ObserverInputTest, AControllerThatBeginsAgainIsHeardAfterASilence) {
-  EXPECT_TRUE(accepts(observerAt(1, 5000), 0));
-  EXPECT_FALSE(accepts(observerAt(2, 1), ObserverInput::kForget_ns - 1));
-  EXPECT_TRUE(accepts(observerAt(2, 1), ObserverInput::kForget_ns));
-  EXPECT_TRUE(accepts(observerAt(3, 2), ObserverInput::kForget_ns + 1));
+  EXPECT_TRUE(accepts(odometryAt(1, 5000), 0));
+  EXPECT_FALSE(accepts(odometryAt(2, 1), ObserverInput::kForget_ns - 1));
+  EXPECT_TRUE(accepts(odometryAt(2, 1), ObserverInput::kForget_ns));
+  EXPECT_TRUE(accepts(odometryAt(3, 2), ObserverInput::kForget_ns + 1));
 }
 
 TEST_F(ObserverInputTest, WhatCannotBeIsRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::array<VslamObserver, 6> wrong;
-  wrong.fill(observerAt(1, 1));
+  wrong.fill(odometryAt(1, 1));
   wrong[0].position_m[2] = nan;
   wrong[1].quaternion[0] = nan;
   wrong[2].quaternion[3] = 1.01;
@@ -75,11 +75,11 @@ TEST_F(ObserverInputTest, WhatCannotBeIsRefused) {
   wrong[5].stamp_ns = 0;
   for (const VslamObserver& observer : wrong) EXPECT_FALSE(accepts(observer));
   EXPECT_EQ(input_.counts().refused, wrong.size());
-  EXPECT_TRUE(accepts(observerAt(1, 1))) << "a refused record's number is not taken";
+  EXPECT_TRUE(accepts(odometryAt(1, 1))) << "a refused record's number is not taken";
 }
 
 TEST_F(ObserverInputTest, EachKindOfDamageIsCounted) {
-  Record record = recordOf(observerAt(1, 1));
+  Record record = recordOf(odometryAt(1, 1));
   EXPECT_FALSE(input_.read(record.data(), 3, 0));
   EXPECT_FALSE(input_.read(record.data(), record.size() - 1, 0));
   record[30] ^= 1;
@@ -94,9 +94,9 @@ TEST_F(ObserverInputTest, EachKindOfDamageIsCounted) {
 
 TEST_F(ObserverInputTest, SilenceIsFromTheLastGoodRecord) {
   EXPECT_TRUE(input_.isSilent(0, 0.5));
-  EXPECT_TRUE(accepts(observerAt(1, 1), 0));
+  EXPECT_TRUE(accepts(odometryAt(1, 1), 0));
   EXPECT_FALSE(input_.isSilent(500 * kMillisecond_ns, 0.5));
-  EXPECT_FALSE(accepts(observerAt(1, 1), 400 * kMillisecond_ns));
+  EXPECT_FALSE(accepts(odometryAt(1, 1), 400 * kMillisecond_ns));
   EXPECT_TRUE(input_.isSilent(501 * kMillisecond_ns, 0.5));
 }
 

@@ -165,7 +165,7 @@ TEST_F(OnboardLoopTest, WhatCannotBeReadIsAFault) {
 }
 
 TEST_F(OnboardLoopTest, ARecordOfADamagedTimeIsRefused) {
-  VslamObserver late = observerAt(INT64_MAX, 1);
+  VslamObserver late = odometryAt(INT64_MAX, 1);
   const Record record = recordOf(late);
   writeFile(file("observer"), std::string(record.begin(), record.end()) + records());
   settings_.onboard.observer = file("observer");
@@ -246,14 +246,13 @@ TEST(MapFile, IsWrittenWholeOrNotAtAll) {
   LandmarkMap map{LandmarkMapConfig{}};
   Landmark landmark;
   landmark.position_map = {1, 2, 3};
-  landmark.deviation_m = 0.25;
+  landmark.sigma_m = 0.25;
   map.add(landmark);
   landmark.position_map.x() = std::numeric_limits<double>::quiet_NaN();
   map.add(landmark);
   const std::string path = ::testing::TempDir() + "onboard_landmarks.csv";
   EXPECT_EQ(writeLandmarks(path, map), "");
-  EXPECT_EQ(readFile(path),
-            "id,x_m,y_m,z_m,deviation_m,depth_deviation_m,times_seen\n1,1,2,3,0.25,0,0\n");
+  EXPECT_EQ(readFile(path), "id,x_m,y_m,z_m,sigma_m,depth_sigma_m,times_seen\n1,1,2,3,0.25,0,0\n");
   std::remove(path.c_str());
   EXPECT_NE(writeLandmarks("/nowhere/landmarks.csv", map).find("/nowhere"), std::string::npos);
 }

@@ -12,8 +12,8 @@
 namespace ardrone_vslam::test {
 namespace {
 
-VslamObserver someObserver() {
-  VslamObserver o = observerAt(1234567890123456789, 0xFFFFFFF0U);
+VslamObserver someOdometry() {
+  VslamObserver o = odometryAt(1234567890123456789, 0xFFFFFFF0U);
   o.flags = VSLAM_OBSERVER_HAS_VARIANCE | VSLAM_OBSERVER_HAS_HEIGHT;
   const double position[] = {1.5, -2.25, 1e-300};
   const double quaternion[] = {0.5, -0.5, 0.5, -0.5};
@@ -31,7 +31,7 @@ TEST(Protocol, TheChecksumIsZlibs) {
 }
 
 TEST(Protocol, ObserverComesBackAsItWas) {
-  const VslamObserver sent = someObserver();
+  const VslamObserver sent = someOdometry();
   const Record record = recordOf(sent);
   VslamObserver got{};
   ASSERT_EQ(vslam_read_observer(record.data(), record.size(), &got), VSLAM_GOOD);
@@ -72,7 +72,7 @@ TEST(Protocol, PoseComesBackAsItWas) {
 
 /// Other programs, perhaps in other languages, have these places.
 TEST(Protocol, FieldsAreWhereTheyAreDocumented) {
-  const Record record = recordOf(someObserver());
+  const Record record = recordOf(someOdometry());
   EXPECT_EQ(std::string(record.begin(), record.begin() + 4), "VSLM");
   EXPECT_EQ(record[4], 1);  // version
   EXPECT_EQ(record[5], 1);  // kind
@@ -84,8 +84,8 @@ TEST(Protocol, FieldsAreWhereTheyAreDocumented) {
 }
 
 TEST(Protocol, EveryBitThatFlipsAndEveryOtherSizeIsSeen) {
-  const Record good = recordOf(someObserver());
-  VslamObserver observer = observerAt(42, 42);
+  const Record good = recordOf(someOdometry());
+  VslamObserver observer = odometryAt(42, 42);
   for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
     Record record = good;
     record[bit / 8] = static_cast<std::uint8_t>(record[bit / 8] ^ (1U << bit % 8));

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "flight_records.hpp"
+#include "test_paths.hpp"
 #include "yaml_sections.hpp"
 
 namespace ardrone_vslam::test {
@@ -110,10 +111,10 @@ TEST(SettingsTest, EveryFaultIsNamed) {
   EXPECT_NE(settingsFault({"tracker/features_per_frame=many"}).find("whole number"),
             std::string::npos);
   EXPECT_NE(settingsFault({"mapper/estimator=best"}).find("constraint"), std::string::npos);
-  EXPECT_NE(settingsFault({"mapper/observer_mode=twist"}).find("pose"), std::string::npos);
+  EXPECT_NE(settingsFault({"mapper/odometry_mode=twist"}).find("pose"), std::string::npos);
   EXPECT_NE(settingsFault({"planar=true"}).find("section/key=value"), std::string::npos);
   EXPECT_NE(settingsFault({"maper/planar=true"}).find("unknown section"), std::string::npos);
-  EXPECT_EQ(settingsFault({"mapper/map_frame=m", "observer_fusion/observer_mode=twist"}), "");
+  EXPECT_EQ(settingsFault({"mapper/map_frame=m", "odometry_fusion/odometry_mode=twist"}), "");
   EXPECT_THROW(loadSettings("/nowhere/config.yaml", {}), ConfigError);
 }
 

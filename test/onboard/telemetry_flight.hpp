@@ -22,7 +22,7 @@ struct TelemetryFlight {
     for (int i = 0; i < count; ++i) {
       Landmark landmark;
       landmark.position_map = {metres(random), metres(random), metres(random)};
-      landmark.deviation_m = std::abs(metres(random));
+      landmark.sigma_m = std::abs(metres(random));
       landmark.last_seen_ns = features.stamp_ns + 1;  // by the next image
       map.add(landmark);
     }

@@ -44,7 +44,7 @@ TEST(TelemetryReader, WhatIsWrittenComesBack) {
     for (const Landmark& landmark : reader.landmarks()) {
       const Landmark& sent = *flight.map.find(landmark.id);
       EXPECT_LT((landmark.position_map - sent.position_map).norm(), 1e-5);
-      EXPECT_EQ(landmark.deviation_m, static_cast<float>(sent.deviation_m));
+      EXPECT_EQ(landmark.sigma_m, static_cast<float>(sent.sigma_m));
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "camera_yaml.hpp"
 #include "config_file.hpp"
 #include "settings.hpp"
+#include "test_paths.hpp"
 #include "yaml_sections.hpp"
 
 namespace ardrone_vslam {
@@ -101,7 +102,7 @@ TEST(YamlReading, AConfigurationMeansTheSameAsForReplay) {
     SCOPED_TRACE(path);
     ++files;
     // The mode is not offered on board; and more room than max_landmarks asks for.
-    const std::string mode = "mapper/observer_mode=pose";
+    const std::string mode = "mapper/odometry_mode=pose";
     const Settings onboard = loadSettings(path, {mode, "onboard/max_map_mb=1000"});
     const PipelineConfig replay = loadConfig(path, {mode});
     EXPECT_EQ(written(onboard.tracker), written(replay.tracker));

@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 
-#include "ardrone_vslam/association.hpp"
-#include "ardrone_vslam/corner_detector.hpp"
-#include "ardrone_vslam/descriptor_index.hpp"
-#include "ardrone_vslam/freak.hpp"
-#include "ardrone_vslam/hamming.hpp"
+#include "corners/corner_detector.hpp"
+#include "freak/freak.hpp"
+#include "matching/association.hpp"
+#include "matching/descriptor_index.hpp"
+#include "matching/hamming.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "ardrone_vslam/corner_detector.hpp"
+#include "corners/corner_detector.hpp"
 #include "support/grey_images.hpp"
 
 // FAST-9 with strict suppression against OpenCV's: the same corners in the same order with the same

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "ardrone_vslam/corner_detector.hpp"
+#include "corners/corner_detector.hpp"
 #include "support/fast_scan.hpp"
 
 // The detector as a whole is the same with every instruction set.

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "ardrone_vslam/corner_detector.hpp"
-#include "corner_thresholds.hpp"
-#include "sampling_raster.hpp"
+#include "corners/corner_detector.hpp"
+#include "corners/corner_thresholds.hpp"
+#include "corners/sampling_raster.hpp"
 #include "support/fast_oracle.hpp"
 #include "support/fast_scan.hpp"
 #include "support/grey_images.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/descriptor_index.hpp"
+#include "matching/descriptor_index.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include "ardrone_vslam/hamming.hpp"
+#include "matching/hamming.hpp"
 #include "support/grey_images.hpp"
 
 namespace ardrone_vslam::test {

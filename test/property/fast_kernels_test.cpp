@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernels/fast_kernels.hpp"
+#include "kernels/fast/fast_kernels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "freak_pattern.hpp"
+#include "freak/freak_pattern.hpp"
 #include "kernels/kernels.hpp"
 #include "support/generated_image.hpp"
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "ardrone_vslam/freak.hpp"
-#include "ardrone_vslam/hamming.hpp"
+#include "freak/freak.hpp"
+#include "matching/hamming.hpp"
 #include "support/freak_oracle.hpp"
 #include "support/generated_image.hpp"
 

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "../../tools/lib/random_source.hpp"
-#include "ardrone_vslam/thesis_filter.hpp"
-#include "ardrone_vslam/triangulation.hpp"
+#include "map/triangulation.hpp"
+#include "thesis/thesis_filter.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -80,19 +80,19 @@ TEST(TriangulationProperty, OffsetsAgreeWithTheTriangle) {
 
 class FilterProperty : public ::testing::TestWithParam<MeanKind> {};
 
-std::vector<Sighting> randomSightings(const Eigen::Vector3d& camera, double shared_m2,
-                                      RandomSource& random) {
-  std::vector<Sighting> sightings;
+std::vector<Observation> randomObservations(const Eigen::Vector3d& camera, double shared_m2,
+                                            RandomSource& random) {
+  std::vector<Observation> observations;
   const Eigen::Vector3d ahead = direction(random);
   for (int i = random.integer(0, 20); i > 0; --i) {
-    Sighting s;
+    Observation s;
     s.direction_map = (ahead + 0.5 * random.normal3()).normalized();
     s.landmark_map = camera + random.uniform(0.1, 50) * s.direction_map + 0.02 * random.normal3();
-    s.landmark_deviation_m = random.uniform(0.001, 0.1);
+    s.landmark_sigma_m = random.uniform(0.001, 0.1);
     s.position_variance_m2 = shared_m2 * random.uniform(0.2, 1.2);
-    sightings.push_back(s);
+    observations.push_back(s);
   }
-  return sightings;
+  return observations;
 }
 
 TEST_P(FilterProperty, CovarianceStaysSymmetricAndPositiveDefinite) {
@@ -105,7 +105,7 @@ TEST_P(FilterProperty, CovarianceStaysSymmetricAndPositiveDefinite) {
     config.fix_deviation_floor_m = random.chance(0.5) ? 0 : 0.01;
     config.fix_angle_floor_deg = 0;
     ThesisFilter filter(config);
-    ObserverState state;
+    OdometryState state;
     filter.start(Eigen::Vector3d::Zero(), state);
     int fused = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -113,8 +113,8 @@ TEST_P(FilterProperty, CovarianceStaysSymmetricAndPositiveDefinite) {
       state.T_odom_base.translation() += 0.1 * random.normal3();
       filter.predict(state);
       const double before_m2 = filter.covariance().trace() / 3;
-      const auto sightings = randomSightings(filter.position_map(), before_m2, random);
-      const auto fix = filter.locate(sightings, filter.position_map(), 0.002);
+      const auto observations = randomObservations(filter.position_map(), before_m2, random);
+      const auto fix = filter.locate(observations, filter.position_map(), 0.002);
       if (fix && filter.fuse(*fix)) ++fused;
       const Eigen::Matrix3d& p = filter.covariance();
       ASSERT_TRUE(filter.position_map().allFinite()) << seed << ' ' << i;
@@ -133,7 +133,7 @@ TEST_P(FilterProperty, CovarianceNeverFallsBelowWhatTheLandmarksShare) {
   config.mean = GetParam();
   config.min_landmarks = 1;
   ThesisFilter filter(config);
-  ObserverState state;
+  OdometryState state;
   filter.start(Eigen::Vector3d::Zero(), state);
   int fused = 0;
   for (int i = 0; i < 2000; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernels/hamming_distances.hpp"
+#include "kernels/hamming/hamming_distances.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "ardrone_vslam/match_acceptance.hpp"
 #include "kernels/kernels.hpp"
+#include "matching/match_acceptance.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

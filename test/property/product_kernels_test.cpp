@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernels/product_kernels.hpp"
+#include "kernels/product/product_kernels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "kernels/kernels.hpp"
+#include "linear/tiled_product.hpp"
 #include "support/grey_images.hpp"
-#include "tiled_product.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

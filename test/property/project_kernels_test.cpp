@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernels/project_kernels.hpp"
+#include "kernels/project/project_kernels.hpp"
 
 #include <gtest/gtest.h>
 

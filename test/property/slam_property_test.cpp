@@ -14,7 +14,7 @@ using test::FlightRun;
 
 struct Recording {
   std::vector<ImageFeatures> frames;
-  std::vector<ObserverState> observer;
+  std::vector<OdometryState> odometry;
 };
 
 Recording recordLaps(std::uint64_t seed) {
@@ -26,9 +26,9 @@ Recording recordLaps(std::uint64_t seed) {
   return {test::film(world, flight), test::observe(flight, {}, seed)};
 }
 
-std::vector<ObserverState> moved(std::vector<ObserverState> states,
+std::vector<OdometryState> moved(std::vector<OdometryState> states,
                                  const Eigen::Isometry3d& T_new_old) {
-  for (ObserverState& state : states) state.T_odom_base = T_new_old * state.T_odom_base;
+  for (OdometryState& state : states) state.T_odom_base = T_new_old * state.T_odom_base;
   return states;
 }
 
@@ -43,9 +43,9 @@ class SlamProperty : public ::testing::TestWithParam<MeanKind> {
   /// Runs the same images with a moved odometry frame and compares.
   void expectMovesAlike(const SlamConfig& config, const Eigen::Isometry3d& T_new_old) {
     const Recording recording = recordLaps(3);
-    const FlightRun still = test::run(recording.frames, recording.observer, config);
+    const FlightRun still = test::run(recording.frames, recording.odometry, config);
     const FlightRun turned =
-        test::run(recording.frames, moved(recording.observer, T_new_old), config);
+        test::run(recording.frames, moved(recording.odometry, T_new_old), config);
     const Eigen::Matrix3d R = T_new_old.linear();
     constexpr double kRounding = 1e-9;
     int localised = 0;
@@ -94,8 +94,8 @@ TEST_P(SlamProperty, PlanarModeTurnsAboutTheVertical) {
 
 TEST_P(SlamProperty, EqualInputGivesEqualBytes) {
   const Recording recording = recordLaps(4);
-  const FlightRun first = test::run(recording.frames, recording.observer, config());
-  const FlightRun second = test::run(recording.frames, recording.observer, config());
+  const FlightRun first = test::run(recording.frames, recording.odometry, config());
+  const FlightRun second = test::run(recording.frames, recording.odometry, config());
   const auto bytesEqual = [](const auto& a, const auto& b) {
     return std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) ==
            0;
@@ -118,23 +118,23 @@ TEST_P(SlamProperty, OutputIsFiniteAndTheCovariancePositiveDefinite) {
     SlamConfig with = config();
     with.thesis_filter.common_drift = common_drift;
     const Recording recording = recordLaps(5);
-    for (const FrameResult& r : test::run(recording.frames, recording.observer, with).results) {
+    for (const FrameResult& r : test::run(recording.frames, recording.odometry, with).results) {
       ASSERT_TRUE(r.T_map_base.matrix().allFinite());
       const Eigen::Matrix3d p = r.covariance.topLeftCorner<3, 3>();
       ASSERT_EQ(p, Eigen::Matrix3d(p.transpose()));
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(p);
       ASSERT_GT(eigen.eigenvalues()(0), 0);
-      ASSERT_NEAR(r.deviation_m, std::sqrt(p.trace() / 3), 1e-12);
+      ASSERT_NEAR(r.sigma_m, std::sqrt(p.trace() / 3), 1e-12);
     }
   }
 }
 
 TEST_P(SlamProperty, OrientationIsTheObservers) {
   const Recording recording = recordLaps(6);
-  const FlightRun run = test::run(recording.frames, recording.observer, config());
+  const FlightRun run = test::run(recording.frames, recording.odometry, config());
   for (std::size_t i = 0; i < run.results.size(); ++i) {
-    ASSERT_EQ(run.results[i].T_map_base.linear(), recording.observer[i].T_odom_base.linear());
-    ASSERT_EQ(run.results[i].T_odom_base.matrix(), recording.observer[i].T_odom_base.matrix());
+    ASSERT_EQ(run.results[i].T_map_base.linear(), recording.odometry[i].T_odom_base.linear());
+    ASSERT_EQ(run.results[i].T_odom_base.matrix(), recording.odometry[i].T_odom_base.matrix());
   }
 }
 
@@ -142,22 +142,22 @@ INSTANTIATE_TEST_SUITE_P(Means, SlamProperty,
                          ::testing::Values(MeanKind::kPrinted, MeanKind::kExact),
                          [](const auto& mean) { return std::string(nameOf(mean.param)); });
 
-/// The constraint filter, with and without errors of attitude.
-class ConstraintProperty : public ::testing::TestWithParam<bool> {
+/// The MSCKF, with and without errors of attitude.
+class MsckfProperty : public ::testing::TestWithParam<bool> {
  protected:
   static SlamConfig config() {
     SlamConfig config;
-    config.constraint_filter.attitude_states = GetParam();
+    config.msckf.attitude_states = GetParam();
     return config;
   }
 };
 
-TEST_P(ConstraintProperty, EveryCovarianceIsSymmetricAndPositiveDefinite) {
+TEST_P(MsckfProperty, EveryCovarianceIsSymmetricAndPositiveDefinite) {
   const Recording recording = recordLaps(5);
-  for (const double mounting_deviation_deg : {0, 1}) {
+  for (const double extrinsics_sigma_deg : {0, 1}) {
     SlamConfig with = config();
-    with.constraint_filter.observer.mounting_deviation_deg = mounting_deviation_deg;
-    const FlightRun run = test::run(recording.frames, recording.observer, with);
+    with.msckf.odometry.extrinsics_sigma_deg = extrinsics_sigma_deg;
+    const FlightRun run = test::run(recording.frames, recording.odometry, with);
     for (std::size_t i = 0; i < run.results.size(); ++i) {
       const FrameResult& r = run.results[i];
       ASSERT_TRUE(r.T_map_base.matrix().allFinite()) << i;
@@ -168,12 +168,12 @@ TEST_P(ConstraintProperty, EveryCovarianceIsSymmetricAndPositiveDefinite) {
       const Matrix6d correlation = scale.asDiagonal() * r.covariance * scale.asDiagonal();
       const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(correlation);
       ASSERT_GT(eigen.eigenvalues()(0), 1e-9) << i;
-      ASSERT_NEAR(r.deviation_m, std::sqrt(r.covariance.topLeftCorner<3, 3>().trace() / 3), 1e-12);
+      ASSERT_NEAR(r.sigma_m, std::sqrt(r.covariance.topLeftCorner<3, 3>().trace() / 3), 1e-12);
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, ConstraintProperty, ::testing::Values(true, false),
+INSTANTIATE_TEST_SUITE_P(Forms, MsckfProperty, ::testing::Values(true, false),
                          [](const auto& form) { return form.param ? "full" : "linear"; });
 
 }  // namespace

@@ -17,7 +17,7 @@ constexpr double kRate_hz = 30;
 /// Images of a flight, their stamps early by the offset. @param after  called with the seconds
 /// since the first one, after each image
 template <class Flight, class After>
-void film(TimeOffsetEstimator& estimator, const Flight& flight, const ObserverBuffer& odometry,
+void film(TimeOffsetEstimator& estimator, const Flight& flight, const OdometryBuffer& odometry,
           double offset_s, double duration_s, std::uint64_t seed, const After& after) {
   PointCamera camera(seed);
   for (double t_s = 0; t_s < duration_s; t_s += 1 / kRate_hz) {
@@ -35,7 +35,7 @@ TEST(TimeOffset, IsFoundWithinTwentySecondsWhateverItIs) {
     const AttitudeErrors errors{random.uniform(0, 0.003), random.uniform(-0.005, 0.005)};
     const double odometry_hz = seed % 3 == 0 ? 30 : seed % 3 == 1 ? 50 : 200;
     const auto odometry = test::swayOdometry(flight, 20, odometry_hz, errors, seed);
-    TimeOffsetEstimator estimator(test::forwardMounting());
+    TimeOffsetEstimator estimator(test::forwardExtrinsics());
     film(estimator, flight, odometry, offset_s, 20, seed, [&](double t_s) {
       const TimeOffset& found = estimator.estimate();
       if (found.state != TimeOffsetState::kKnown) return;
@@ -53,11 +53,11 @@ TEST(TimeOffset, IsFoundWithinTwentySecondsWhateverItIs) {
 TEST(TimeOffset, LiesAboutTheCentre) {
   const Swaying flight(3);
   const auto odometry = test::swayOdometry(flight, 20, 200, {0.001, 0}, 3);
-  TimeOffsetEstimator about(test::forwardMounting(), -0.4);
+  TimeOffsetEstimator about(test::forwardExtrinsics(), -0.4);
   film(about, flight, odometry, -0.35, 20, 3, [](double) {});
   ASSERT_EQ(about.estimate().state, TimeOffsetState::kKnown);
   EXPECT_NEAR(about.estimate().offset_s, -0.35, 0.006);
-  TimeOffsetEstimator beside(test::forwardMounting());
+  TimeOffsetEstimator beside(test::forwardExtrinsics());
   film(beside, flight, odometry, -0.35, 20, 3, [](double) {});
   EXPECT_NE(beside.estimate().state, TimeOffsetState::kKnown);
 }
@@ -75,7 +75,7 @@ TEST(TimeOffset, IsNotKnownWithoutTurningToAndFro) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       const Even flight{rate_rad_s};
       const auto odometry = test::swayOdometry(flight, 30, 200, {0.002, 0.003}, seed);
-      TimeOffsetEstimator estimator(test::forwardMounting());
+      TimeOffsetEstimator estimator(test::forwardExtrinsics());
       film(estimator, flight, odometry, 0.04, 30, seed, [&](double t_s) {
         ASSERT_NE(estimator.estimate().state, TimeOffsetState::kKnown) << seed << " at " << t_s;
       });
@@ -87,7 +87,7 @@ TEST(TimeOffset, IsNotKnownWithoutTurningToAndFro) {
 TEST(TimeOffset, AWrongMountingIsADisagreement) {
   const Swaying flight(2);
   const auto odometry = test::swayOdometry(flight, 20, 200, {0.001, 0}, 2);
-  Eigen::Isometry3d T_base_cam = test::forwardMounting();
+  Eigen::Isometry3d T_base_cam = test::forwardExtrinsics();
   T_base_cam.rotate(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()));  // upside down
   TimeOffsetEstimator estimator(T_base_cam);
   film(estimator, flight, odometry, 0.04, 20, 2,
@@ -97,8 +97,8 @@ TEST(TimeOffset, AWrongMountingIsADisagreement) {
 
 TEST(TimeOffset, ImagesWithoutOdometryOrTracksAreLeftOut) {
   const Swaying flight(4);
-  TimeOffsetEstimator blind(test::forwardMounting());
-  film(blind, flight, ObserverBuffer({}), 0, 5, 4, [](double) {});
+  TimeOffsetEstimator blind(test::forwardExtrinsics());
+  film(blind, flight, OdometryBuffer({}), 0, 5, 4, [](double) {});
   EXPECT_EQ(blind.estimate().state, TimeOffsetState::kTooFewImages);
   ImageFeatures empty;
   empty.focal_length_px = 570;
@@ -113,7 +113,7 @@ TEST(TimeOffset, ImagesWithoutOdometryOrTracksAreLeftOut) {
 TEST(TimeOffset, IsKeptWhenTimeBeginsAgain) {
   const Swaying flight(5);
   const auto odometry = test::swayOdometry(flight, 20, 200, {0.001, 0}, 5);
-  TimeOffsetEstimator estimator(test::forwardMounting());
+  TimeOffsetEstimator estimator(test::forwardExtrinsics());
   film(estimator, flight, odometry, 0.1, 20, 5, [](double) {});
   const double found_s = estimator.estimate().offset_s;
   ASSERT_EQ(estimator.estimate().state, TimeOffsetState::kKnown);
@@ -134,7 +134,7 @@ TEST(TimeOffset, AdviceNeedsAClearDifference) {
 TEST(TimeOffset, FollowsAChange) {
   const Swaying flight(7);
   const auto odometry = test::swayOdometry(flight, 90, 200, {0.001, 0}, 7);
-  TimeOffsetEstimator estimator(test::forwardMounting());
+  TimeOffsetEstimator estimator(test::forwardExtrinsics());
   PointCamera camera(7);
   for (double t_s = 0; t_s < 90; t_s += 1 / kRate_hz) {
     const double offset_s = t_s < 30 ? 0.02 : 0.08;

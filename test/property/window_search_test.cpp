@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/window_search.hpp"
+#include "matching/window_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "ardrone_vslam/frame_tracker.hpp"
-#include "ardrone_vslam/hamming.hpp"
+#include "matching/hamming.hpp"
 #include "support/grey_images.hpp"
 
 namespace ardrone_vslam::test {

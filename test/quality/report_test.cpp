@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/sequence_folders.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """ardrone.launch fake:=true with its autopilot and the released driver's faults: a pose for every
-image, and less error than the observer that it corrects."""
+image, and less error than the odometry that it corrects."""
 import os
 import sys
 import time
@@ -75,9 +75,9 @@ class ArdroneFake(unittest.TestCase):
             return np.sqrt(np.mean(np.square(errors)))
 
         fused_m = rmse(lambda c: c.fused_pose.pose)
-        observer_m = rmse(lambda c: c.observer_pose)
-        print("fused %.3f m, observer %.3f m" % (fused_m, observer_m))
-        self.assertLess(fused_m, observer_m)
+        odometry_m = rmse(lambda c: c.observer_pose)
+        print("fused %.3f m, odometry %.3f m" % (fused_m, odometry_m))
+        self.assertLess(fused_m, odometry_m)
         self.assertGreater(np.ptp(places[:, 0]), 3, "it did not fly")
         self.assertIsNotNone(path.wait(lambda m: len(m.poses) > 100))
 

@@ -193,7 +193,7 @@ class BadMessages(unittest.TestCase):
             self.assertLess(pose.pose.covariance[0], 1)
             fused = self.fused.wait(lambda f: f.header.stamp == stamp)
             self.assertTrue(all(math.isfinite(n) for n in fused.twist.covariance))
-        self.assert_said("/odometry", "counts as not given", "observer_noise_m_per_sqrt_m")
+        self.assert_said("/odometry", "counts as not given", "odometry_noise_m_per_sqrt_m")
         after = self.fly_well()
         self.assertEqual(after.odometry_refused, before.odometry_refused)
         self.assertEqual(after.results_not_finite, 0)

@@ -146,7 +146,7 @@ class FakeDriver(unittest.TestCase):
         self.assertIn("must be X,Y,YAW", self.refused("_start:=here"))
         self.assertIn("must be between 0.1 and 100", self.refused("_rate:=0"))
         self.assertIn("does not fit into the world", self.refused("_autopilot:=corridor", "_world:=room"))
-        self.assertIn("known", self.refused("_observer_profile:=perfect"))
+        self.assertIn("known", self.refused("_odometry_profile:=perfect"))
 
 
 if __name__ == "__main__":

@@ -21,8 +21,8 @@ FeaturesConstPtr featuresAt(std::int64_t stamp_ns) {
   return features;
 }
 
-ObserverState observerAt(std::int64_t stamp_ns, double x_m) {
-  ObserverState state;
+OdometryState odometryAt(std::int64_t stamp_ns, double x_m) {
+  OdometryState state;
   state.stamp_ns = stamp_ns;
   state.T_odom_base.translation().x() = x_m;
   return state;
@@ -37,18 +37,18 @@ bool unusable(const Features& /*unused*/) {
 
 class FrameMatcherTest : public testing::Test {
  protected:
-  FrameMatcher matcher_{ObserverBufferConfig{}, 0.5};
+  FrameMatcher matcher_{OdometryBufferConfig{}, 0.5};
 };
 
 TEST_F(FrameMatcherTest, WaitsForTheOdometryAfterTheImage) {
   matcher_.addFeatures(featuresAt(10 * kSecond_ns), 0);
-  matcher_.addObserver(observerAt(10 * kSecond_ns - 100, 1));
+  matcher_.addOdometry(odometryAt(10 * kSecond_ns - 100, 1));
   EXPECT_FALSE(matcher_.next(0.1, usable));
-  matcher_.addObserver(observerAt(10 * kSecond_ns + 100, 3));
+  matcher_.addOdometry(odometryAt(10 * kSecond_ns + 100, 3));
   const auto frame = matcher_.next(0.2, usable);
   ASSERT_TRUE(frame);
-  EXPECT_EQ(frame->observer.stamp_ns, 10 * kSecond_ns);
-  EXPECT_NEAR(frame->observer.T_odom_base.translation().x(), 2, 1e-12);
+  EXPECT_EQ(frame->odometry.stamp_ns, 10 * kSecond_ns);
+  EXPECT_NEAR(frame->odometry.T_odom_base.translation().x(), 2, 1e-12);
   EXPECT_FALSE(matcher_.next(0.2, usable));
   EXPECT_EQ(matcher_.droppedNoOdometry(), 0U);
 }
@@ -58,21 +58,21 @@ TEST_F(FrameMatcherTest, TheOdometryIsThatOfTheExposure) {
     FrameMatcher matcher({}, 0.5, offset_s);
     const std::int64_t exposed_ns = 10 * kSecond_ns + (offset_s > 0 ? 1 : -1) * kSecond_ns / 10;
     matcher.addFeatures(featuresAt(10 * kSecond_ns), 0);
-    matcher.addObserver(observerAt(exposed_ns - kSecond_ns / 20, 1));
+    matcher.addOdometry(odometryAt(exposed_ns - kSecond_ns / 20, 1));
     // With a positive offset this is after the image's stamp, and still too early.
     EXPECT_FALSE(matcher.next(0.1, usable));
-    matcher.addObserver(observerAt(exposed_ns + kSecond_ns / 20, 3));
+    matcher.addOdometry(odometryAt(exposed_ns + kSecond_ns / 20, 3));
     const auto frame = matcher.next(0.2, usable);
     ASSERT_TRUE(frame);
-    EXPECT_EQ(frame->observer.stamp_ns, exposed_ns);
-    EXPECT_NEAR(frame->observer.T_odom_base.translation().x(), 2, 1e-9);
+    EXPECT_EQ(frame->odometry.stamp_ns, exposed_ns);
+    EXPECT_NEAR(frame->odometry.T_odom_base.translation().x(), 2, 1e-9);
     EXPECT_EQ(matcher.droppedNoOdometry(), 0U);
   }
 }
 
 TEST_F(FrameMatcherTest, FramesComeInOrder) {
   for (int i = 1; i <= 3; ++i) matcher_.addFeatures(featuresAt(i * kSecond_ns), 0);
-  for (int i = 0; i <= 30; ++i) matcher_.addObserver(observerAt(i * kSecond_ns / 10 + 1, i));
+  for (int i = 0; i <= 30; ++i) matcher_.addOdometry(odometryAt(i * kSecond_ns / 10 + 1, i));
   for (int i = 1; i <= 2; ++i) {
     const auto frame = matcher_.next(0, usable);
     ASSERT_TRUE(frame);
@@ -86,12 +86,12 @@ TEST_F(FrameMatcherTest, WithoutOdometryTheWaitIsBounded) {
   EXPECT_EQ(matcher_.droppedNoOdometry(), 0U);
   EXPECT_FALSE(matcher_.next(100.6, usable));
   EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
-  EXPECT_EQ(matcher_.lastMiss(), ObserverBuffer::Lookup::kEmpty);
+  EXPECT_EQ(matcher_.lastMiss(), OdometryBuffer::Lookup::kEmpty);
 }
 
 TEST_F(FrameMatcherTest, OdometryThatCanNeverComeIsNotWaitedFor) {
-  matcher_.addObserver(observerAt(10 * kSecond_ns, 0));
-  matcher_.addObserver(observerAt(12 * kSecond_ns, 0));
+  matcher_.addOdometry(odometryAt(10 * kSecond_ns, 0));
+  matcher_.addOdometry(odometryAt(12 * kSecond_ns, 0));
   matcher_.addFeatures(featuresAt(9 * kSecond_ns), 0);
   matcher_.addFeatures(featuresAt(11 * kSecond_ns), 0);  // in a hole of 2 s
   matcher_.addFeatures(featuresAt(12 * kSecond_ns), 0);
@@ -99,11 +99,11 @@ TEST_F(FrameMatcherTest, OdometryThatCanNeverComeIsNotWaitedFor) {
   ASSERT_TRUE(frame);
   EXPECT_EQ(toNanoseconds(frame->features->header.stamp), 12 * kSecond_ns);
   EXPECT_EQ(matcher_.droppedNoOdometry(), 2U);
-  EXPECT_EQ(matcher_.lastMiss(), ObserverBuffer::Lookup::kGap);
+  EXPECT_EQ(matcher_.lastMiss(), OdometryBuffer::Lookup::kGap);
 }
 
 TEST_F(FrameMatcherTest, HeldFramesWaitAsLong) {
-  matcher_.addObserver(observerAt(kSecond_ns, 0));
+  matcher_.addOdometry(odometryAt(kSecond_ns, 0));
   matcher_.addFeatures(featuresAt(kSecond_ns), 0);
   EXPECT_FALSE(matcher_.next(0.4, unusable));
   EXPECT_EQ(matcher_.droppedHeld(), 0U);
@@ -114,21 +114,21 @@ TEST_F(FrameMatcherTest, HeldFramesWaitAsLong) {
 }
 
 TEST_F(FrameMatcherTest, ARestartForgetsTheRunBeforeWhicheverInputComesFirst) {
-  matcher_.addObserver(observerAt(100 * kSecond_ns, 0));
+  matcher_.addOdometry(odometryAt(100 * kSecond_ns, 0));
   matcher_.addFeatures(featuresAt(101 * kSecond_ns), 0);
   EXPECT_TRUE(matcher_.forgetAfter(2 * kSecond_ns));
   EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
-  EXPECT_EQ(matcher_.addObserver(observerAt(kSecond_ns, 5)), ObserverBuffer::Push::kAccepted);
+  EXPECT_EQ(matcher_.addOdometry(odometryAt(kSecond_ns, 5)), OdometryBuffer::Push::kAccepted);
   EXPECT_FALSE(matcher_.forgetAfter(2 * kSecond_ns));  // the second input: nothing old is left
   matcher_.addFeatures(featuresAt(kSecond_ns), 0);
   const auto frame = matcher_.next(0, usable);
   ASSERT_TRUE(frame);
-  EXPECT_EQ(frame->observer.T_odom_base.translation().x(), 5);
+  EXPECT_EQ(frame->odometry.T_odom_base.translation().x(), 5);
   EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
 }
 
 TEST(OdometryMiss, EachReasonNamesTheTopic) {
-  using Lookup = ObserverBuffer::Lookup;
+  using Lookup = OdometryBuffer::Lookup;
   std::set<std::string> sentences;
   for (const auto miss : {Lookup::kEmpty, Lookup::kNotYet, Lookup::kTooOld, Lookup::kGap}) {
     const std::string sentence = explain(miss, "/drone/odometry");

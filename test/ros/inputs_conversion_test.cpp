@@ -194,7 +194,7 @@ nav_msgs::Odometry goodOdometry() {
 }
 
 TEST(OdometryConversion, PoseAndCovariance) {
-  const auto state = toObserverState(goodOdometry()).value;
+  const auto state = toOdometryState(goodOdometry()).value;
   ASSERT_TRUE(state);
   EXPECT_EQ(state->stamp_ns, 12'000'000'345);
   EXPECT_EQ(state->T_odom_base.translation(), Eigen::Vector3d(1, 2, 3));
@@ -209,7 +209,7 @@ TEST(OdometryConversion, QuaternionIsNormalised) {
   auto odometry = goodOdometry();
   odometry.pose.pose.orientation.z *= 1.05;
   odometry.pose.pose.orientation.w *= 1.05;
-  const auto state = toObserverState(odometry).value;
+  const auto state = toOdometryState(odometry).value;
   ASSERT_TRUE(state);
   const Eigen::Matrix3d r = state->T_odom_base.linear();
   EXPECT_TRUE((r * r.transpose()).isIdentity(1e-12));
@@ -219,7 +219,7 @@ TEST(OdometryConversion, AVarianceThatMeansUnknownIsNoReasonToRefuse) {
   for (const double marker : {-1.0, 1e9, std::numeric_limits<double>::max()}) {
     auto odometry = goodOdometry();
     odometry.pose.covariance[7] = marker;
-    const auto state = toObserverState(odometry).value;
+    const auto state = toOdometryState(odometry).value;
     ASSERT_TRUE(state);
     EXPECT_NE(covarianceFault(*state), "");
   }
@@ -235,7 +235,7 @@ class OdometryFault : public testing::TestWithParam<SpoiledOdometry> {};
 TEST_P(OdometryFault, IsNamed) {
   auto odometry = goodOdometry();
   GetParam().spoil(odometry);
-  const auto checked = toObserverState(odometry);
+  const auto checked = toOdometryState(odometry);
   EXPECT_FALSE(checked.value);
   EXPECT_NE(checked.fault.find(GetParam().expected), std::string::npos) << checked.fault;
 }
@@ -261,7 +261,7 @@ INSTANTIATE_TEST_SUITE_P(
         SpoiledOdometry{"stamp is zero", [](auto& o) { o.header.stamp = ros::Time(); }}));
 
 TEST(OdometryConversion, AStateThereAndBack) {
-  ObserverState state;
+  OdometryState state;
   state.stamp_ns = 5'000'000'007;
   state.T_odom_base =
       Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 2).normalized());

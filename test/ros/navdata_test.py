@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""observer_mode navdata: the package's own observer of navdata and IMU, of the driver's own message type, too."""
+"""odometry_mode navdata: the package's own observer of navdata and IMU, of the driver's own message type, too."""
 import math
 import os
 import sys

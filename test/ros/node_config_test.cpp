@@ -10,9 +10,10 @@
 #include <iterator>
 #include <regex>
 
-#include "ardrone_vslam/late_fusion.hpp"
+#include "ardrone_vslam/delayed_fusion.hpp"
 #include "config_file.hpp"
 #include "params.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -47,7 +48,7 @@ std::string loadingFault(const std::string& section, const std::vector<std::stri
 TEST(NodeConfig, OfflineToolsPassOverTheNodesKeys) {
   EXPECT_EQ(loadingFault("tracker", namesOf(TrackerNodeConfig{})), "");
   EXPECT_EQ(loadingFault("mapper", namesOf(MapperNodeConfig{})), "");
-  EXPECT_EQ(loadingFault("observer_fusion", namesOf(ObserverFusionNodeConfig{})), "");
+  EXPECT_EQ(loadingFault("odometry_fusion", namesOf(OdometryFusionNodeConfig{})), "");
 }
 
 TEST(NodeConfig, OfflineToolsRefuseOtherKeys) {
@@ -63,7 +64,7 @@ TEST(NodeConfig, NoNameIsUsedTwiceInANode) {
   };
   check(namesOf(TrackerNodeConfig{}), namesOf(TrackerConfig{}));
   check(namesOf(MapperNodeConfig{}), namesOf(SlamConfig{}));
-  check(namesOf(ObserverFusionNodeConfig{}), namesOf(LateFusionConfig{}));
+  check(namesOf(OdometryFusionNodeConfig{}), namesOf(DelayedFusionConfig{}));
   check(namesOf(OnboardBridgeConfig{}), {});
 }
 

@@ -106,7 +106,7 @@ class OnboardBridge(unittest.TestCase):
     def fly(cls):
         flight, packed = cls.out / "flight", cls.out / "packed"
         subprocess.run([rospy.get_param("~make_world"), "laps", "--seconds", "8", "--rate", str(RATE_HZ), "--camera", "front",
-                        "--observer-profile", "drone", "--seed", "1", "--out", flight], check=True, stdout=subprocess.DEVNULL)
+                        "--odometry-profile", "drone", "--seed", "1", "--out", flight], check=True, stdout=subprocess.DEVNULL)
         subprocess.run([SOURCE / "scripts" / "onboard_flight", flight, packed], check=True, stdout=subprocess.DEVNULL)
         cls.images = len((flight / "times.txt").read_text().split())
         stream = (packed / "frames.pgm").read_bytes()
@@ -114,7 +114,7 @@ class OnboardBridge(unittest.TestCase):
         cls.frames = [stream[at:at + size] for at in range(0, len(stream), size)]
         cls.began_s = time.time()
         program = subprocess.Popen(
-            cls.command(observer=packed / "observer.bin", poses=packed / "poses.bin", map=packed / "landmarks.csv",
+            cls.command(odometry=packed / "odometry.bin", poses=packed / "poses.bin", map=packed / "landmarks.csv",
                         every_frame="true") + ["--frames", "-"], stdin=subprocess.PIPE)
         for frame in cls.frames:  # about as fast as the drone
             program.stdin.write(frame)

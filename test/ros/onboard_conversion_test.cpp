@@ -38,7 +38,7 @@ TEST(OnboardConversion, AnAnswerIsWhatTheMapperHad) {
       (result.T_odom_base.linear() * Eigen::Vector3d::UnitX()).isApprox(-Eigen::Vector3d::UnitX()));
   for (int i = 0; i < 6; ++i) EXPECT_DOUBLE_EQ(result.covariance(i, i), 0.01 * (i + 1) * (i + 1));
   EXPECT_EQ(result.covariance.sum(), result.covariance.trace());
-  EXPECT_NEAR(result.deviation_m, std::sqrt((0.01 + 0.04 + 0.09) / 3), 1e-12);
+  EXPECT_NEAR(result.sigma_m, std::sqrt((0.01 + 0.04 + 0.09) / 3), 1e-12);
   EXPECT_EQ(result.landmarks, 9);
 }
 

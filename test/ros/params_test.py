@@ -41,13 +41,13 @@ class Params(unittest.TestCase):
         self.assert_refused("mapper_node", [
             "__name:=bad_mapper", "_odometry_wait_s:=-1", "_estimator:=kalman"], [
                 "odometry_wait_s is -1 but must be between 0 and 60",
-                "/bad_mapper/estimator is 'kalman' but must be one of: thesis, constraint, observer"])
+                "/bad_mapper/estimator is 'kalman' but must be one of: thesis, msckf, odometry"])
 
-    def test_observer_fusion_lists_all_faults(self):
-        self.assert_refused("observer_fusion_node", [
-            "__name:=bad_fusion", "_observer_buffer_s:=0", "_scale_deviation:=much"], [
-                "observer_buffer_s is 0 but must be between 0.1 and 600",
-                "/bad_fusion/scale_deviation is 'much' but must be a number"])
+    def test_odometry_fusion_lists_all_faults(self):
+        self.assert_refused("odometry_fusion_node", [
+            "__name:=bad_fusion", "_odometry_buffer_s:=0", "_scale_sigma:=much"], [
+                "odometry_buffer_s is 0 but must be between 0.1 and 600",
+                "/bad_fusion/scale_sigma is 'much' but must be a number"])
 
     def test_onboard_bridge_names_what_it_cannot_do(self):
         self.assert_refused("onboard_bridge_node", [
@@ -90,11 +90,11 @@ class Params(unittest.TestCase):
                     stdout=subprocess.PIPE, text=True, timeout=30, check=True).stdout
                 self.assertIn("/vslam/tracker/image_transport: " + transport, dumped)
 
-    def test_launch_file_gives_observer_fusion_the_mappers_frames(self):
+    def test_launch_file_gives_odometry_fusion_the_mappers_frames(self):
         dumped = subprocess.run(
             ["roslaunch", "--dump-params", rospy.get_param("~launch"), "map_frame:=world", "base_frame:=body"],
             stdout=subprocess.PIPE, text=True, timeout=30, check=True).stdout
-        for node in ["mapper", "observer_fusion"]:
+        for node in ["mapper", "odometry_fusion"]:
             self.assertIn("/vslam/%s/map_frame: world" % node, dumped)
             self.assertIn("/vslam/%s/base_frame: body" % node, dumped)
 
@@ -108,16 +108,16 @@ class Params(unittest.TestCase):
                 (["fake:=yes"], "fake:=yes: it is a switch: give true or false"),
                 (["rviz:=2"], "rviz:=2: it is a switch"),
                 (["fake:=true", "driver:=1"], "driver:=true fake:=true: the one is a real drone's driver"),
-                (["navdata:=/ardrone/navdata", "observer_mode:=twist"],
-                 "observer_mode:=twist: navdata is used by observer_mode navdata alone")]:
+                (["navdata:=/ardrone/navdata", "odometry_mode:=twist"],
+                 "odometry_mode:=twist: navdata is used by odometry_mode navdata alone")]:
             ended = self.roslaunch("ardrone_launch", *arguments)
             self.assertEqual(ended.returncode, 1, arguments)
             self.assertIn(said, ended.stdout)
             self.assertNotIn("started with pid", ended.stdout)
 
-    def test_observer_mode_navdata_listens_to_the_drivers_navdata(self):
+    def test_odometry_mode_navdata_listens_to_the_drivers_navdata(self):
         arguments = subprocess.run(
-            ["roslaunch", "--args", "/vslam/mapper", rospy.get_param("~ardrone_launch"), "observer_mode:=navdata"],
+            ["roslaunch", "--args", "/vslam/mapper", rospy.get_param("~ardrone_launch"), "odometry_mode:=navdata"],
             stdout=subprocess.PIPE, text=True, timeout=30, check=True).stdout
         self.assertIn("navdata:=/ardrone/navdata imu:=/ardrone/imu", arguments)
 
@@ -139,7 +139,7 @@ class Params(unittest.TestCase):
         self.assertIn("REQUIRED process [other/", ended.stdout)
 
     def test_help_and_version(self):
-        for executable in ["tracker_node", "mapper_node", "observer_fusion_node", "onboard_bridge_node"]:
+        for executable in ["tracker_node", "mapper_node", "odometry_fusion_node", "onboard_bridge_node"]:
             for argument, code, said in [("--help", 0, "Usage"), ("--version", 0, "ardrone_vslam "),
                                          ("--bogus", 2, "--bogus")]:
                 process = start(executable, argument)

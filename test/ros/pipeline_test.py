@@ -61,7 +61,7 @@ class Pipeline(unittest.TestCase):
         self.assertEqual([m.header.stamp for m in self.all("features")], self.images)
 
     def test_it_localises(self):
-        """Not the observer passed on: most images after the first are corrected by the camera, by
+        """Not the odometry passed on: most images after the first are corrected by the camera, by
         tracks and, once they are a second old, by landmarks."""
         states = [s.state for s in self.all("status") if s.images > 0]
         self.assertGreater(states.count(Status.LOCALISED) + states.count(Status.TRACKING),
@@ -89,14 +89,14 @@ class Pipeline(unittest.TestCase):
             self.assertGreater(np.linalg.eigvalsh(covariance).min(), 0)
 
     def test_correction_is_consistent(self):
-        """fused = map_to_odom * observer, and pose, odometry_fused and correction agree."""
+        """fused = map_to_odom * odometry, and pose, odometry_fused and correction agree."""
         poses = {p.header.stamp: p.pose for p in self.all("pose")}
         fused = {o.header.stamp: o.pose for o in self.all("odometry_fused")}
         for c in self.all("correction"):
-            observer = matrix(c.observer_pose.position, c.observer_pose.orientation)
+            odometry = matrix(c.observer_pose.position, c.observer_pose.orientation)
             pose = matrix(c.fused_pose.pose.position, c.fused_pose.pose.orientation)
             map_odom = matrix(c.map_to_odom.translation, c.map_to_odom.rotation)
-            np.testing.assert_allclose(map_odom @ observer, pose, atol=1e-9)
+            np.testing.assert_allclose(map_odom @ odometry, pose, atol=1e-9)
             self.assertEqual(c.fused_pose, poses[c.header.stamp])
             self.assertEqual(c.fused_pose, fused[c.header.stamp])
 
@@ -106,7 +106,7 @@ class Pipeline(unittest.TestCase):
                                    atol=1e-9)
 
     def test_tf(self):
-        """map -> odom only: odom -> base is the observer's (REP-105)."""
+        """map -> odom only: odom -> base is the odometry's (REP-105)."""
         ours = [t for m in self.tf.all() for t in m.transforms if t.header.frame_id == "map"]
         self.assertEqual({t.child_frame_id for t in ours}, {"odom"})
         self.assertEqual(len(ours), len(self.answerable))

@@ -33,7 +33,7 @@ class ReplayEqualsNodelets(unittest.TestCase):
         image_time_offset_s = rospy.get_param("~image_time_offset_s", 0)
         offline[:, 0] -= image_time_offset_s
         self.assertGreater(len(offline), 30)
-        live = Recorder("/vslam/odometry_live", Odometry) if rospy.get_param("~observer_fusion", False) else None
+        live = Recorder("/vslam/odometry_live", Odometry) if rospy.get_param("~odometry_fusion", False) else None
         play([poses, live] if live else [poses])
         last_s = offline[-1, 0]
         poses.wait(lambda p: p.header.stamp.to_sec() > last_s - 1e-4, PLAY_TIMEOUT_S)
@@ -53,9 +53,9 @@ class ReplayEqualsNodelets(unittest.TestCase):
             self.check(live, online)
 
     def check(self, live, fused):
-        """Corrections are of the odometry as observer_fusion has it: it goes on from the fused poses."""
+        """Corrections are of the odometry as odometry_fusion has it: it goes on from the fused poses."""
         last = live.wait(lambda o: o.header.stamp.to_sec() >= fused[-1, 0])
-        self.assertIsNotNone(last, "observer_fusion does not follow")
+        self.assertIsNotNone(last, "odometry_fusion does not follow")
         stamps_s = np.array([o.header.stamp.to_sec() for o in live.all()])
         self.assertTrue((np.diff(stamps_s) > 0).all())
         self.assertGreater(len(stamps_s), 3 * len(fused))

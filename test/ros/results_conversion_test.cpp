@@ -22,10 +22,10 @@ FrameResult someResult() {
   for (int row = 0; row < 6; ++row) {
     for (int column = 0; column < 6; ++column) result.covariance(row, column) = 10 * row + column;
   }
-  result.deviation_m = 0.25;
+  result.sigma_m = 0.25;
   result.fix_nis = 1.5;
   result.scale_error = -0.02;
-  result.scale_deviation = 0.01;
+  result.scale_sigma = 0.01;
   result.features = 100;
   result.match_method = MatchMethod::kIndexed;
   result.landmark_candidates = 30;
@@ -56,13 +56,13 @@ TEST(ResultConversion, Pose) {
 }
 
 TEST(ResultConversion, OdometryCarriesTheObserversTwist) {
-  ObserverState observer;
-  observer.twist_base << 0.7, 1, 2, 3, 4, 5;
+  OdometryState odometry;
+  odometry.twist_base << 0.7, 1, 2, 3, 4, 5;
   for (int row = 0; row < 6; ++row) {
     for (int column = 0; column < 6; ++column)
-      observer.twist_covariance(row, column) = 10 * row + column;
+      odometry.twist_covariance(row, column) = 10 * row + column;
   }
-  const auto message = toOdometryMessage(someResult(), kFrames, observer);
+  const auto message = toOdometryMessage(someResult(), kFrames, odometry);
   EXPECT_EQ(message.header.frame_id, "map");
   EXPECT_EQ(message.child_frame_id, "base_link");
   const auto& twist = message.twist.twist;
@@ -139,7 +139,7 @@ TEST(ResultConversion, EveryOtherStateHasAReason) {
       {SlamState::kRotating, Status::ROTATING},
       {SlamState::kRelocated, Status::RELOCATED},
       {SlamState::kDistrusted, Status::DISTRUSTED},
-      {SlamState::kObserverOnly, Status::OBSERVER_ONLY},
+      {SlamState::kOdometryOnly, Status::OBSERVER_ONLY},
       {SlamState::kNotFinite, Status::NOT_FINITE}};
   for (const auto& [state, constant] : states) {
     FrameResult result = someResult();
@@ -154,7 +154,7 @@ TEST(ResultConversion, EveryOtherStateHasAReason) {
 TEST(ResultConversion, TheStatusOfAResultThatIsNotFiniteIsFinite) {
   FrameResult result = someResult();
   result.state = SlamState::kNotFinite;
-  result.deviation_m = std::numeric_limits<double>::quiet_NaN();
+  result.sigma_m = std::numeric_limits<double>::quiet_NaN();
   Status status;
   toStatus(result, "map", status);
   EXPECT_EQ(status.state_name, "not_finite");
@@ -166,7 +166,7 @@ LandmarkMap someMap() {
   for (int i = 0; i < 5; ++i) {
     Landmark landmark;
     landmark.position_map << i, 2 * i, -i;
-    landmark.deviation_m = 0.01 + 0.3 * i;
+    landmark.sigma_m = 0.01 + 0.3 * i;
     landmark.times_seen = 3 + i;
     map.add(landmark);
   }
@@ -183,7 +183,7 @@ TEST(MapConversion, Cloud) {
   sensor_msgs::PointCloud2ConstIterator<std::uint32_t> id(cloud, "id");
   for (const Landmark& landmark : map.all()) {
     EXPECT_EQ(*y, static_cast<float>(landmark.position_map.y()));
-    EXPECT_EQ(*deviation, static_cast<float>(landmark.deviation_m));
+    EXPECT_EQ(*deviation, static_cast<float>(landmark.sigma_m));
     EXPECT_EQ(*seen, static_cast<std::uint32_t>(landmark.times_seen));
     EXPECT_EQ(*id, landmark.id);
     ++y;

@@ -30,14 +30,14 @@ ImageFeatures lookFrom(const Eigen::Isometry3d& T_map_cam, std::int64_t stamp_ns
 class StandstillWatchTest : public testing::Test {
  protected:
   /// Images at rest or in motion, with odometry that tells the share `told` of position and turn.
-  void fly(int images, const Eigen::Vector3d& step_m, double turn_rad, double told_m,
+  void fly(int images, const Eigen::Vector3d& step_m, double rotation_rad, double told_m,
            double told_rad, int points = 40) {
     for (int i = 0; i < images; ++i) {
       stamp_ns_ += kPeriod_ns;
       position_m_ += step_m;
-      yaw_rad_ += turn_rad;
+      yaw_rad_ += rotation_rad;
       odom_m_ += told_m * step_m;
-      odom_rad_ += told_rad * turn_rad;
+      odom_rad_ += told_rad * rotation_rad;
       watch_.see(lookFrom(pose(position_m_, yaw_rad_), stamp_ns_, points),
                  pose(odom_m_, odom_rad_));
     }

@@ -33,9 +33,9 @@ inline Eigen::Isometry3d doctorPose(double t_s) {
   return T_odom_base;
 }
 
-inline ObserverState doctorState(double t_s) {
+inline OdometryState doctorState(double t_s) {
   constexpr double kStep_s = 1e-4;
-  ObserverState state;
+  OdometryState state;
   state.stamp_ns = doctorStamp_ns(t_s);
   state.T_odom_base = doctorPose(t_s);
   const Eigen::Isometry3d before = doctorPose(t_s - kStep_s), after = doctorPose(t_s + kStep_s);
@@ -77,7 +77,7 @@ inline DoctorRecording goodRecording() {
     recording.camera_infos.push_back({{stamp_ns, stamp_ns}, 0});
   }
   for (int i = 0; i < 1200; ++i) {
-    const ObserverState state = doctorState(0.01 * i);
+    const OdometryState state = doctorState(0.01 * i);
     recording.odometry.push_back({{state.stamp_ns, state.stamp_ns}, state});
   }
   recording.transforms["base"] = {"odom", doctorPose(0), {}};

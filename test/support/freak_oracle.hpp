@@ -8,7 +8,7 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/image_view.hpp"
-#include "freak_selected_pairs.hpp"
+#include "freak/freak_selected_pairs.hpp"
 
 namespace ardrone_vslam::test {
 

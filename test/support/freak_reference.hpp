@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ardrone_vslam/freak.hpp"
+#include "freak/freak.hpp"
 
 namespace ardrone_vslam::test {
 

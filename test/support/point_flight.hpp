@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "support/point_world.hpp"
 
@@ -51,19 +51,19 @@ inline Flight straightFlight(int frames, double rate_hz, double speed_m_s) {
   return flight;
 }
 
-/// An observer with exact attitude whose position drifts.
+/// Odometry with exact attitude whose position drifts.
 struct DriftConfig {
   double walk_m_per_sqrt_s = 0.03;
   double bias_m_s = 0.01;  ///< deviation per axis of a constant velocity error
   double scale_error = 0;  ///< ways are reported (1 + scale_error) times as long
 };
 
-inline std::vector<ObserverState> observe(const Flight& flight, const DriftConfig& drift,
+inline std::vector<OdometryState> observe(const Flight& flight, const DriftConfig& drift,
                                           std::uint64_t seed) {
   RandomSource random(seed, 77);
   const Eigen::Vector3d bias_m_s = drift.bias_m_s * random.normal3();
   Eigen::Vector3d error_m = Eigen::Vector3d::Zero();
-  std::vector<ObserverState> states;
+  std::vector<OdometryState> states;
   const FlightPose* last = nullptr;
   for (const FlightPose& pose : flight) {
     if (!states.empty()) {
@@ -72,7 +72,7 @@ inline std::vector<ObserverState> observe(const Flight& flight, const DriftConfi
       error_m +=
           drift.scale_error * (pose.T_map_base.translation() - last->T_map_base.translation());
     }
-    ObserverState state;
+    OdometryState state;
     state.stamp_ns = pose.stamp_ns;
     state.T_odom_base = pose.T_map_base;
     state.T_odom_base.translation() += error_m;
@@ -82,7 +82,7 @@ inline std::vector<ObserverState> observe(const Flight& flight, const DriftConfi
   return states;
 }
 
-inline std::vector<ObserverState> observeExactly(const Flight& flight) {
+inline std::vector<OdometryState> observeExactly(const Flight& flight) {
   return observe(flight, {0, 0}, 0);
 }
 
@@ -109,14 +109,14 @@ struct FlightRun {
   std::vector<FrameResult> results;
   std::vector<Landmark> landmarks;
   PositionError fused;
-  PositionError observer;
+  PositionError odometry;
 };
 
 /// What the camera sees on the flight, frame by frame.
 inline std::vector<ImageFeatures> film(PointWorld& world, const Flight& flight) {
   std::vector<ImageFeatures> frames;
   for (const FlightPose& pose : flight)
-    frames.push_back(world.look(pose.T_map_base * forwardMounting(), pose.stamp_ns));
+    frames.push_back(world.look(pose.T_map_base * forwardExtrinsics(), pose.stamp_ns));
   return frames;
 }
 
@@ -126,25 +126,25 @@ inline SlamConfig thesisConfig() {
   return config;
 }
 
-/// Frames and observer states of equal stamps through Slam.
+/// Frames and odometry states of equal stamps through Slam.
 inline FlightRun run(const std::vector<ImageFeatures>& frames,
-                     const std::vector<ObserverState>& observer, const SlamConfig& config) {
-  Slam slam(config, forwardMounting());
+                     const std::vector<OdometryState>& odometry, const SlamConfig& config) {
+  Slam slam(config, forwardExtrinsics());
   FlightRun run;
   for (std::size_t i = 0; i < frames.size(); ++i)
-    run.results.push_back(slam.process(frames[i], observer[i]));
-  run.landmarks = slam.landmarks().all();
+    run.results.push_back(slam.process(frames[i], odometry[i]));
+  run.landmarks = slam.landmarks();
   return run;
 }
 
 /// The same, with errors.
 inline FlightRun fly(PointWorld& world, const Flight& flight,
-                     const std::vector<ObserverState>& observer, const SlamConfig& config) {
-  FlightRun flown = run(film(world, flight), observer, config);
+                     const std::vector<OdometryState>& odometry, const SlamConfig& config) {
+  FlightRun flown = run(film(world, flight), odometry, config);
   flown.fused =
       errorOf(flight, [&](std::size_t i) { return flown.results[i].T_map_base.translation(); });
-  flown.observer =
-      errorOf(flight, [&](std::size_t i) { return observer[i].T_odom_base.translation(); });
+  flown.odometry =
+      errorOf(flight, [&](std::size_t i) { return odometry[i].T_odom_base.translation(); });
   return flown;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "ardrone_vslam/thesis_filter.hpp"
+#include "thesis/thesis_filter.hpp"
 
 namespace ardrone_vslam::test {
 
@@ -12,7 +12,7 @@ inline ThesisFilterConfig printedOnly() {
   config.min_landmarks = 1;
   config.fix_deviation_floor_m = 0;
   config.fix_angle_floor_deg = 0;
-  config.gate_deviations = 1e6;
+  config.gate_sigmas = 1e6;
   return config;
 }
 

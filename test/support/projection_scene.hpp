@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernels/project_kernels.hpp"
+#include "kernels/project/project_kernels.hpp"
 
 // Landmarks about a camera, for tests of the projection kernels; needs no other library, so that it
 // runs on bare cross-compiled programs too.

@@ -8,7 +8,7 @@
 
 #include "../../tools/lib/random_source.hpp"
 #include "ardrone_vslam/features.hpp"
-#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 #include "support/point_world.hpp"
 
 namespace ardrone_vslam::test {
@@ -16,12 +16,12 @@ namespace ardrone_vslam::test {
 /// A drone that sways and yaws about at frequencies and phases drawn from the seed.
 class Swaying {
  public:
-  explicit Swaying(std::uint64_t seed, double turn_rad = 0.15, double way_m = 0.4) {
+  explicit Swaying(std::uint64_t seed, double rotation_rad = 0.15, double displacement_m = 0.4) {
     RandomSource random(seed, 5);
     for (int axis = 0; axis < 3; ++axis) {
-      turns_.push_back(
-          {turn_rad * (axis == 2 ? 3 : 1), random.uniform(0.3, 0.8), random.uniform(0, 2 * M_PI)});
-      ways_.push_back({way_m, random.uniform(0.1, 0.3), random.uniform(0, 2 * M_PI)});
+      turns_.push_back({rotation_rad * (axis == 2 ? 3 : 1), random.uniform(0.3, 0.8),
+                        random.uniform(0, 2 * M_PI)});
+      ways_.push_back({displacement_m, random.uniform(0.1, 0.3), random.uniform(0, 2 * M_PI)});
     }
   }
 
@@ -63,14 +63,14 @@ struct AttitudeErrors {
 
 /// Odometry of a flight from t = -1 s to its end and a second more.
 template <class Flight>
-ObserverBuffer swayOdometry(const Flight& flight, double duration_s, double rate_hz,
+OdometryBuffer swayOdometry(const Flight& flight, double duration_s, double rate_hz,
                             const AttitudeErrors& errors, std::uint64_t seed) {
-  ObserverBufferConfig config;
+  OdometryBufferConfig config;
   config.buffer_s = 600;
-  ObserverBuffer buffer(config);
+  OdometryBuffer buffer(config);
   RandomSource random(seed, 6);
   for (double t_s = -1; t_s < duration_s + 1; t_s += 1 / rate_hz) {
-    ObserverState state;
+    OdometryState state;
     state.stamp_ns = swayStamp_ns(t_s);
     state.T_odom_base = flight.T_map_base(t_s);
     const Eigen::Vector3d noise_rad = errors.noise_rad * random.normal3();
@@ -101,7 +101,7 @@ class PointCamera {
     features.width_px = 640;
     features.height_px = 360;
     features.focal_length_px = static_cast<float>(kFocal_px);
-    const Eigen::Isometry3d T_cam_map = (T_map_base * forwardMounting()).inverse();
+    const Eigen::Isometry3d T_cam_map = (T_map_base * forwardExtrinsics()).inverse();
     for (std::size_t i = 0; i < points_map_m_.size(); ++i) {
       const Eigen::Vector3d seen = T_cam_map * points_map_m_[i];
       if (seen.z() < 0.5 || std::abs(seen.x()) > 0.56 * seen.z() ||

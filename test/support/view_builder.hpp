@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "ardrone_vslam/frame_view.hpp"
+#include "matching/frame_view.hpp"
 #include "support/point_flight.hpp"
 #include "support/point_world.hpp"
 
@@ -19,7 +19,7 @@ class ViewBuilder {
   void lookFrom(const Eigen::Vector3d& position_map, bool planar = false) {
     stamp_ns_ += 100'000'000;
     planar_ = planar;
-    T_map_cam_ = forwardMounting();
+    T_map_cam_ = forwardExtrinsics();
     T_map_cam_.translation() = position_map;
     features_ = maker_.emptyView(stamp_ns_);
     stale_ = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/association.hpp"
+#include "matching/association.hpp"
 
 #include <gtest/gtest.h>
 
@@ -98,25 +98,25 @@ TEST_F(AssociationTest, RemovesLandmarkMatchesOffThePrediction) {
 TEST_F(AssociationTest, ThresholdAndWindowGrowWithTheDeviationOfThePose) {
   config_.landmark_threshold_px = 8;
   config_.search_radius_px = 10;
-  config_.threshold_deviations = 3;
+  config_.threshold_sigmas = 3;
   const Descriptor a = builder_.randomDescriptor();
   addLandmark(5, kNoTrack, a);
-  const double deviation_m = 0.05;
-  const double margin_px = 3 * kFocalLength_px * deviation_m / 5;  // 17.1
+  const double sigma_m = 0.05;
+  const double margin_px = 3 * kFocalLength_px * sigma_m / 5;  // 17.1
   const auto matches = [&](double off_px, bool common_drift, double shared_m2) {
     landmarks_.at(0).position_variance_m2 = shared_m2;
     builder_.lookFrom({0, 0, 0});
     builder_.addPixel(0, off_px, 1, a);
-    builder_.view().setPositionVariance(deviation_m * deviation_m, common_drift);
+    builder_.view().setPositionVariance(sigma_m * sigma_m, common_drift);
     return matchLandmarks().matches.size();
   };
   EXPECT_EQ(matches(8 + margin_px - 0.2, true, 0), 1U);
   EXPECT_EQ(matches(8 + margin_px + 0.2, true, 0), 0U);
-  const double all_m2 = deviation_m * deviation_m;
+  const double all_m2 = sigma_m * sigma_m;
   EXPECT_EQ(matches(7.8, true, all_m2), 1U);
   EXPECT_EQ(matches(8.2, true, all_m2), 0U) << "no drift since the landmark was made";
   EXPECT_EQ(matches(8 + margin_px - 0.2, false, all_m2), 1U) << "without common drift all counts";
-  config_.threshold_deviations = 0;
+  config_.threshold_sigmas = 0;
   EXPECT_EQ(matches(8.2, false, 0), 0U) << "fixed thresholds";
 }
 
@@ -236,12 +236,12 @@ TEST_F(AssociationTest, MapFeaturesWhoseLinesMeetBehindTheFirstCameraAreMismatch
 
 TEST_F(AssociationTest, EpipolarTestAllowsForAnUncertainBaseline) {
   config_.epipolar_threshold_px = 2;
-  config_.threshold_deviations = 3;
+  config_.threshold_sigmas = 3;
   storeRay({0, 0.02, 0}, {1, 0, 0}, 3);
-  const auto mismatches = [&](double deviation_m) {
+  const auto mismatches = [&](double sigma_m) {
     builder_.lookFrom({0, 0, 0});
     builder_.addPixel(0, 6, 3);  // a parallax of 6 px across the presumed plane
-    builder_.view().setPositionVariance(deviation_m * deviation_m, true);
+    builder_.view().setPositionVariance(sigma_m * sigma_m, true);
     return matchMapFeatures().mismatches;
   };
   EXPECT_EQ(mismatches(0), 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "corner_cells.hpp"
+#include "corners/corner_cells.hpp"
 
 #include <gtest/gtest.h>
 

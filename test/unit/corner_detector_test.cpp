@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/corner_detector.hpp"
+#include "corners/corner_detector.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "corner_thresholds.hpp"
+#include "corners/corner_thresholds.hpp"
 
 #include <gtest/gtest.h>
 

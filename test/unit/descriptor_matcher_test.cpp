@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/descriptor_matcher.hpp"
+#include "matching/descriptor_matcher.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/drone_filter.hpp"
+#include "ardrone/drone_filter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -102,7 +102,7 @@ TEST_F(DroneFilterTest, TheCovarianceStaysOneWhateverIsMeasured) {
 TEST_F(DroneFilterTest, TheAccelerometerTellsTheSpeedByTheDrag) {
   DroneFilterConfig config;
   config.force_bias_m_s2 = 0.001;
-  config.drag_deviation_per_s = 0.001;
+  config.drag_sigma_per_s = 0.001;
   config.flow_bias_m_s = 1;  // the flow says next to nothing
   DroneFilter filter(config);
   DroneMeasurement m;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/floor_watch.hpp"
+#include "heights/floor_watch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 using Answer = FloorWatch::Answer;
 
 constexpr double kStep_m = 0.15;
-constexpr double kDeviation_m = 0.02;
+constexpr double kSigma_m = 0.02;
 
 /// The floor below is `floor_m(t)` high, the position 1 m above the first one. @return how often it
 /// was told to be another one in `seconds`
@@ -21,7 +21,7 @@ int steps(FloorWatch& watch, double seconds, const Floor& floor_m) {
   double known_m = 0;
   for (double t_s = 0; t_s < seconds; t_s += 0.005) {
     const double innovation_m = known_m - floor_m(t_s);
-    if (watch.see(t_s, innovation_m, kDeviation_m, floor_m(t_s)) != Answer::kOther) continue;
+    if (watch.see(t_s, innovation_m, kSigma_m, floor_m(t_s)) != Answer::kOther) continue;
     known_m = watch.floor_m();
     ++count;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/frame_view.hpp"
+#include "matching/frame_view.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freak_orientation.hpp"
+#include "freak/freak_orientation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freak_pattern.hpp"
+#include "freak/freak_pattern.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "ardrone_vslam/freak.hpp"
+#include "freak/freak.hpp"
 
 namespace ardrone_vslam {
 namespace {

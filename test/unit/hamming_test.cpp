@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/hamming.hpp"
+#include "matching/hamming.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/hamming_distances.hpp"
+#include "kernels/hamming/hamming_distances.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/height_update.hpp"
+#include "heights/height_update.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 namespace ardrone_vslam {
 namespace {
 
-ObserverState observerAt(int frame, double z_m) {
-  ObserverState state;
+OdometryState odometryAt(int frame, double z_m) {
+  OdometryState state;
   state.stamp_ns = 1'000'000'000LL * (frame + 1);
   state.T_odom_base.translation() << 0.1 * frame, 0, z_m;
   return state;
@@ -19,12 +19,12 @@ ObserverState observerAt(int frame, double z_m) {
 /// One frame a second, climbing by `climb_m` each; all stay.
 class Climb {
  public:
-  explicit Climb(double climb_m) : climb_m_(climb_m), state_(ObserverNoiseConfig()) {
-    state_.start(observerAt(0, 0));
+  explicit Climb(double climb_m) : climb_m_(climb_m), state_(OdometryNoiseConfig()) {
+    state_.start(odometryAt(0, 0));
   }
   void step() {
     ++frame_;
-    state_.propagate(observerAt(frame_, climb_m_ * frame_));
+    state_.propagate(odometryAt(frame_, climb_m_ * frame_));
   }
   int newestZ() const { return state_.frameCoordinate(state_.frames().size() - 1) + 2; }
   double reported_m() const { return climb_m_ * frame_; }
@@ -116,7 +116,7 @@ TEST(HeightUpdate, AStepIsRejectedAndANewFloorOnceItLasts) {
 
 TEST(HeightUpdate, ItsParametersAreChecked) {
   HeightConfig config;
-  config.height_deviation_m = 0;
+  config.height_sigma_m = 0;
   EXPECT_THROW(HeightUpdate{config}, ConfigError);
 }
 

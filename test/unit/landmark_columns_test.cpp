@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/landmark_columns.hpp"
+#include "map/landmark_columns.hpp"
 
 #include <gtest/gtest.h>
 
 #include "../../tools/lib/random_source.hpp"
-#include "ardrone_vslam/landmark_map.hpp"
+#include "map/landmark_map.hpp"
 #include "support/view_builder.hpp"
 
 namespace ardrone_vslam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/map_fix.hpp"
+#include "map_update/map_fix.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,18 +9,18 @@ namespace ardrone_vslam {
 namespace {
 
 const Eigen::Vector3d kCamera_base(0.2, 0.05, -0.1);
-constexpr double kAngleDeviation_rad = 0.002;
+constexpr double kAngleSigma_rad = 0.002;
 constexpr int kAllIndependent = 1000;
 
 /// Six frames of a curved way, two of them anchors with a stretch of their own.
 WindowState curvedWindow() {
-  WindowState state((ObserverNoiseConfig()));
+  WindowState state((OdometryNoiseConfig()));
   for (int i = 0; i < 6; ++i) {
-    ObserverState observer;
-    observer.stamp_ns = 100'000'000LL * i;
-    observer.T_odom_base.translation() << 0.3 * i, 0.05 * i * i, -0.04 * i;
-    observer.T_odom_base.linear() = rotationOf({0.02 * i, -0.03 * i, 0.1 * i});
-    i == 0 ? state.start(observer) : state.propagate(observer);
+    OdometryState odometry;
+    odometry.stamp_ns = 100'000'000LL * i;
+    odometry.T_odom_base.translation() << 0.3 * i, 0.05 * i * i, -0.04 * i;
+    odometry.T_odom_base.linear() = rotationOf({0.02 * i, -0.03 * i, 0.1 * i});
+    i == 0 ? state.start(odometry) : state.propagate(odometry);
   }
   state.makeAnchor(1);
   state.makeAnchor(1);
@@ -28,13 +28,12 @@ WindowState curvedWindow() {
 }
 
 /// Three landmarks of each anchor.
-std::vector<MapSighting> landmarksOf(const WindowState& state) {
-  std::vector<MapSighting> landmarks;
+std::vector<MapObservation> landmarksOf(const WindowState& state) {
+  std::vector<MapObservation> landmarks;
   const auto add = [&](std::size_t anchor, const Eigen::Vector3d& point_base) {
-    MapSighting s;
+    MapObservation s;
     s.anchor = anchor;
-    s.point_map =
-        state.frames().back().position_map + state.frames().back().R_map_base * point_base;
+    s.point_map = state.frames().back().position_map + state.frames().back().R_map_rig * point_base;
     s.covariance_m2 = Eigen::Vector3d(0.02, 0.001, 0.003).asDiagonal();
     landmarks.push_back(s);
   };
@@ -47,51 +46,49 @@ std::vector<MapSighting> landmarksOf(const WindowState& state) {
   return landmarks;
 }
 
-WindowPose moved(WindowPose pose, const Vector6d& error) {
+Clone moved(Clone pose, const Vector6d& error) {
   pose.position_map += error.head<3>();
-  pose.R_map_base = rotationOf(error.tail<3>()) * pose.R_map_base;
+  pose.R_map_rig = rotationOf(error.tail<3>()) * pose.R_map_rig;
   return pose;
 }
 
 /// The landmarks as the agreed pose sees them when the state errs by so much (WindowState's
 /// coordinates), each carried along by its anchor.
-SightingConsensus seen(const WindowState& state, const WindowPose& agreed,
-                       const Eigen::VectorXd& error) {
+ObservationConsensus seen(const WindowState& state, const Clone& agreed,
+                          const Eigen::VectorXd& error) {
   const int newest = state.frameCoordinate(state.frames().size() - 1);
-  const WindowPose camera = moved(agreed, error.segment<6>(newest));
-  SightingConsensus consensus{agreed.position_map, agreed.R_map_base, landmarksOf(state)};
-  for (MapSighting& s : consensus.sightings) {
-    const WindowPose& anchor = state.anchors()[s.anchor];
+  const Clone camera = moved(agreed, error.segment<6>(newest));
+  ObservationConsensus consensus{agreed.position_map, agreed.R_map_rig, landmarksOf(state)};
+  for (MapObservation& s : consensus.observations) {
+    const Clone& anchor = state.anchors()[s.anchor];
     const int at = state.anchorCoordinate(s.anchor);
     const double stretch = error(WindowState::kScale) + error(at + 6);
     const Eigen::Vector3d from_anchor = s.point_map - anchor.position_map;
     const Eigen::Vector3d truly =
         anchor.position_map + error.segment<3>(at) +
         (1 - stretch) * (rotationOf(error.segment<3>(at + 3)) * from_anchor);
-    const Eigen::Vector3d offset = truly - camera.position_map - camera.R_map_base * kCamera_base;
-    s.bearing_base = (camera.R_map_base.transpose() * offset).normalized();
+    const Eigen::Vector3d offset = truly - camera.position_map - camera.R_map_rig * kCamera_base;
+    s.bearing_base = (camera.R_map_rig.transpose() * offset).normalized();
   }
   return consensus;
 }
 
 /// Where nothing errs the information's vector is zero, and an error changes it by the
 /// information's column of that error: by central differences of the rays themselves.
-Eigen::VectorXd columnByDifferences(const WindowState& state, const WindowPose& agreed,
-                                    int coordinate) {
+Eigen::VectorXd columnByDifferences(const WindowState& state, const Clone& agreed, int coordinate) {
   constexpr double kStep = 1e-5;
   const auto vectorOf = [&](double step) {
     Eigen::VectorXd error = Eigen::VectorXd::Zero(state.covariance().rows());
     error(coordinate) = step;
-    return fixBy(state, kCamera_base, seen(state, agreed, error), kAngleDeviation_rad,
-                 kAllIndependent)
+    return fixBy(state, kCamera_base, seen(state, agreed, error), kAngleSigma_rad, kAllIndependent)
         .information.vector;
   };
   return (vectorOf(kStep) - vectorOf(-kStep)) / (2 * kStep);
 }
 
-Information exactly(const WindowState& state, const WindowPose& agreed) {
+Information exactly(const WindowState& state, const Clone& agreed) {
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(state.covariance().rows());
-  return fixBy(state, kCamera_base, seen(state, agreed, none), kAngleDeviation_rad, kAllIndependent)
+  return fixBy(state, kCamera_base, seen(state, agreed, none), kAngleSigma_rad, kAllIndependent)
       .information;
 }
 
@@ -114,7 +111,7 @@ TEST(MapFix, ItsJacobianIsTakenWhereTheRaysAgree) {
   const WindowState state = curvedWindow();
   Vector6d offset;
   offset << 0.3, -0.4, 0.1, 0.02, -0.01, 0.03;
-  const WindowPose agreed = moved(state.frames().back(), offset);
+  const Clone agreed = moved(state.frames().back(), offset);
   const Information information = exactly(state, agreed);
   for (std::size_t k = 1; k < information.coordinates.size(); ++k) {
     const Eigen::VectorXd column = information.matrix.col(static_cast<Eigen::Index>(k));
@@ -131,12 +128,12 @@ TEST(MapFix, DoesNotSeeTheScale) {
   const WindowState state = curvedWindow();
   Vector6d offset = Vector6d::Zero();
   offset.head<3>() << 0.3, -0.4, 0.1;
-  const WindowPose agreed = moved(state.frames().back(), offset);
+  const Clone agreed = moved(state.frames().back(), offset);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(state.covariance().rows());
-  SightingConsensus consensus = seen(state, agreed, none);
+  ObservationConsensus consensus = seen(state, agreed, none);
   const Eigen::Vector3d at_base = Eigen::Vector3d::Zero();
   const Information information =
-      fixBy(state, at_base, consensus, kAngleDeviation_rad, kAllIndependent).information;
+      fixBy(state, at_base, consensus, kAngleSigma_rad, kAllIndependent).information;
   Eigen::VectorXd dilation = Eigen::VectorXd::Zero(information.matrix.cols());
   dilation(0) = 1;
   dilation.segment<3>(1) = -state.frames().back().position_map;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/mapper.hpp"
+#include "map/mapper.hpp"
 
 #include <gtest/gtest.h>
 
@@ -58,11 +58,11 @@ TEST_F(MapperTest, FeatureSeenTwiceBecomesALandmark) {
   EXPECT_EQ(landmark.last_seen_ns, 2'000'000'000);
   const Eigen::Vector3d from_camera = points[0] - Eigen::Vector3d(0, -0.5, 0);
   const double depth_m = from_camera.norm();
-  EXPECT_NEAR(landmark.deviation_m,
-              config_.position_deviation_m + depth_m * config_.angle_deviation_px / kFocalLength_px,
+  EXPECT_NEAR(landmark.sigma_m,
+              config_.position_sigma_m + depth_m * config_.angle_sigma_px / kFocalLength_px,
               1e-6);  // (5.19)
   EXPECT_LT((landmark.view_direction_map - from_camera / depth_m).norm(), 1e-6);
-  EXPECT_GT(landmark.depth_deviation_m, 5 * landmark.deviation_m);
+  EXPECT_GT(landmark.depth_sigma_m, 5 * landmark.sigma_m);
 }
 
 TEST_F(MapperTest, TooLittleParallaxWaits) {
@@ -112,11 +112,11 @@ TEST_F(MapperTest, StoresTheRestWithPoseAndDeviation) {
 
 // Worked example of (5.20-5.22, 5.30-5.34).
 TEST_F(MapperTest, RefinesByAScalarKalmanUpdate) {
-  config_.position_deviation_m = 0.02;
-  config_.angle_deviation_px = 0.01 * kFocalLength_px;  // sigma_a = 0.01
+  config_.position_sigma_m = 0.02;
+  config_.angle_sigma_px = 0.01 * kFocalLength_px;  // sigma_a = 0.01
   Landmark landmark;
   landmark.position_map << 4, 0.3, 0;
-  landmark.deviation_m = 0.08;
+  landmark.sigma_m = 0.08;
   landmarks_.add(landmark);
   builder_.lookFrom({0, 0, 0});
   builder_.addPoint({7, 0, 0}, 9);  // the measured ray is x
@@ -126,7 +126,7 @@ TEST_F(MapperTest, RefinesByAScalarKalmanUpdate) {
   const double gain = 0.0064 / (0.0064 + sigma * sigma);
   const Landmark& refined = landmarks_.all()[0];
   EXPECT_LT((refined.position_map - Eigen::Vector3d(4, 0.3 * (1 - gain), 0)).norm(), 1e-6);
-  EXPECT_NEAR(refined.deviation_m, std::sqrt((1 - gain) * 0.0064), 1e-9);
+  EXPECT_NEAR(refined.sigma_m, std::sqrt((1 - gain) * 0.0064), 1e-9);
   EXPECT_EQ(refined.track_id, 9U);
   EXPECT_EQ(refined.times_seen, 1);
 }
@@ -136,7 +136,7 @@ TEST_F(MapperTest, UncertainPoseMovesLandmarksLess) {
     LandmarkMap map({});
     Landmark landmark;
     landmark.position_map << 4, 0.3, 0;
-    landmark.deviation_m = 0.08;
+    landmark.sigma_m = 0.08;
     map.add(landmark);
     builder_.lookFrom({0, 0, 0});
     builder_.addPoint({7, 0, 0}, 9);
@@ -200,7 +200,7 @@ TEST_F(MapperTest, AMatchForgetsTheMisses) {
   config_.drop_unconfirmed_after = 2;
   Landmark landmark;
   landmark.position_map << 4, 0, 0;
-  landmark.deviation_m = 0.1;
+  landmark.sigma_m = 0.1;
   landmarks_.add(landmark);
   builder_.lookFrom({0, 0, 0});
   builder_.addPoint({4, 0, 0}, 9);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/match_acceptance.hpp"
+#include "matching/match_acceptance.hpp"
 
 #include <gtest/gtest.h>
 

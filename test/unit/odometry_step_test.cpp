@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/odometry_step.hpp"
+#include "odometry/odometry_step.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 class OdometryStepTest : public ::testing::Test {
  protected:
   std::optional<OdometryStep> see(double time_s, double x_m, double variance_m2 = 0) {
-    ObserverState state;
+    OdometryState state;
     state.stamp_ns = 1'000'000'000 + std::llround(time_s * 1e9);
     state.T_odom_base.translation().x() = x_m;
     state.covariance.diagonal().head<3>().setConstant(variance_m2);
@@ -82,7 +82,7 @@ TEST_F(OdometryStepTest, AfterAFreezeInFlightTheWayMayHaveGoneOn) {
   ASSERT_TRUE(thawed);
   EXPECT_EQ(thawed->step_odom_m.norm(), 0);
   EXPECT_NEAR(thawed->motion_odom_m.x(), 0.1, 1e-9);
-  EXPECT_NEAR(thawed->motion_deviation_m, 3, 0.01) << "1 m/s for 3 s";
+  EXPECT_NEAR(thawed->motion_sigma_m, 3, 0.01) << "1 m/s for 3 s";
   EXPECT_FALSE(see(4.1, 1.1));
   flyAndFreeze();
   const auto caught_up = see(4.0, 4.0);

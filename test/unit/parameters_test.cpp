@@ -91,9 +91,9 @@ TEST(Parameters, BothEndsOfARangeAreValid) {
 TEST(Parameters, StagesRefuseInvalidConfigurations) {
   SlamConfig config;
   config.association.search_radius_px = 0;
-  config.observer.buffer_s = -1;
+  config.odometry.buffer_s = -1;
   EXPECT_THROW(Associator{config.association}, ConfigError);
-  EXPECT_THROW(ObserverBuffer{config.observer}, ConfigError);
+  EXPECT_THROW(OdometryBuffer{config.odometry}, ConfigError);
   try {
     Slam slam(config, Eigen::Isometry3d::Identity());
     FAIL() << "must throw";
@@ -104,7 +104,7 @@ TEST(Parameters, StagesRefuseInvalidConfigurations) {
 
 TEST(Parameters, NamesOfChoices) {
   EXPECT_STREQ(nameOf(Estimator::kThesis), "thesis");
-  EXPECT_STREQ(nameOf(Estimator::kObserver), "observer");
+  EXPECT_STREQ(nameOf(Estimator::kOdometry), "odometry");
   EXPECT_STREQ(nameOf(MeanKind::kPrinted), "printed");
   EXPECT_STREQ(nameOf(MeanKind::kExact), "exact");
 }

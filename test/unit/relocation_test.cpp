@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/relocation.hpp"
+#include "map_update/relocation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,12 +27,12 @@ class RelocationTest : public ::testing::Test {
 
   void begin(std::uint64_t seed) {
     random_ = RandomSource(seed);
-    sightings_.clear();
+    observations_.clear();
     truth_.position_map << 2, -1, 1.5;
-    truth_.R_map_base = rotationOf({0, 0, random_.uniform(-3, 3)});
+    truth_.R_map_rig = rotationOf({0, 0, random_.uniform(-3, 3)});
     predicted_ = truth_;
     predicted_.position_map += Eigen::Vector3d(1.5, -2, 0.5);
-    predicted_.R_map_base = rotationOf(0.02 * random_.normal3()) * truth_.R_map_base;
+    predicted_.R_map_rig = rotationOf(0.02 * random_.normal3()) * truth_.R_map_rig;
   }
   Eigen::Vector3d anyBearing() {
     return Eigen::Vector3d(1, random_.uniform(-kHalfWidth, kHalfWidth),
@@ -40,16 +40,16 @@ class RelocationTest : public ::testing::Test {
         .normalized();
   }
   void add(const Eigen::Vector3d& bearing_base, const Eigen::Vector3d& point_map) {
-    MapSighting s;
+    MapObservation s;
     s.bearing_base = bearing_base;
     s.point_map = point_map;
     s.covariance_m2 = 0.01 * 0.01 * Eigen::Matrix3d::Identity();
-    s.index = sightings_.size();
-    sightings_.push_back(s);
+    s.index = observations_.size();
+    observations_.push_back(s);
   }
   /// A landmark that the true camera sees along a bearing.
   Eigen::Vector3d pointAlong(const Eigen::Vector3d& bearing_base, double distance_m) const {
-    return truth_.position_map + truth_.R_map_base * (camera_base_ + distance_m * bearing_base);
+    return truth_.position_map + truth_.R_map_rig * (camera_base_ + distance_m * bearing_base);
   }
   void addRight() {
     const Eigen::Vector3d bearing = anyBearing();
@@ -60,15 +60,15 @@ class RelocationTest : public ::testing::Test {
   void addMixture(int count, double wrong_share) {
     for (int i = 0; i < count; ++i) random_.chance(wrong_share) ? addWrong() : addRight();
   }
-  std::optional<SightingConsensus> find() const {
-    return relocate(predicted_, camera_base_, sightings_, kAngle_rad, 0.01);
+  std::optional<ObservationConsensus> find() const {
+    return relocate(predicted_, camera_base_, observations_, kAngle_rad, 0.01);
   }
 
   Eigen::Vector3d camera_base_{0.2, 0, -0.05};
   RandomSource random_{1};
-  WindowPose truth_;
-  WindowPose predicted_;
-  std::vector<MapSighting> sightings_;
+  Clone truth_;
+  Clone predicted_;
+  std::vector<MapObservation> observations_;
 };
 
 TEST_F(RelocationTest, FindsThePoseAmongWrongMatches) {
@@ -81,17 +81,18 @@ TEST_F(RelocationTest, FindsThePoseAmongWrongMatches) {
       // Measured: at most 0.02 m and 0.2 degrees; the prediction errs by 2.5 m and up to 4 degrees.
       EXPECT_LT((found->position_map - truth_.position_map).norm(), 0.05)
           << wrong_share << ", seed " << seed;
-      EXPECT_LT(degrees(rotationVectorOf(found->R_map_base * truth_.R_map_base.transpose()).norm()),
+      EXPECT_LT(degrees(rotationVectorOf(found->R_map_rig * truth_.R_map_rig.transpose()).norm()),
                 0.5)
           << wrong_share << ", seed " << seed;
-      EXPECT_GT(static_cast<double>(found->sightings.size()), 0.8 * (1 - wrong_share) * 200 - 5);
-      EXPECT_LT(static_cast<double>(found->sightings.size()), 1.1 * (1 - wrong_share) * 200 + 15);
+      EXPECT_GT(static_cast<double>(found->observations.size()), 0.8 * (1 - wrong_share) * 200 - 5);
+      EXPECT_LT(static_cast<double>(found->observations.size()),
+                1.1 * (1 - wrong_share) * 200 + 15);
     }
   }
 }
 
 TEST_F(RelocationTest, TwoLandmarksGiveThePositionWhereTheAttitudeIsKnown) {
-  predicted_.R_map_base = truth_.R_map_base;
+  predicted_.R_map_rig = truth_.R_map_rig;
   for (int i = 0; i < 8; ++i) {
     const Eigen::Vector3d bearing = anyBearing();
     add(bearing, pointAlong(bearing, 3 + i));
@@ -99,8 +100,8 @@ TEST_F(RelocationTest, TwoLandmarksGiveThePositionWhereTheAttitudeIsKnown) {
   const auto found = find();
   ASSERT_TRUE(found);
   EXPECT_LT((found->position_map - truth_.position_map).norm(), 1e-4);
-  EXPECT_EQ(found->sightings.size(), 8U);
-  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(found->sightings[i].index, i);
+  EXPECT_EQ(found->observations.size(), 8U);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(found->observations[i].index, i);
 }
 
 TEST_F(RelocationTest, IsTheSameEveryTime) {
@@ -109,7 +110,7 @@ TEST_F(RelocationTest, IsTheSameEveryTime) {
   const auto again = find();
   ASSERT_TRUE(once && again);
   EXPECT_EQ(once->position_map, again->position_map);
-  EXPECT_EQ(once->sightings.size(), again->sightings.size());
+  EXPECT_EQ(once->observations.size(), again->observations.size());
 }
 
 TEST_F(RelocationTest, AFewLandmarksAreNotEnough) {
@@ -131,7 +132,7 @@ TEST_F(RelocationTest, LandmarksInOneDirectionTellNoDistance) {
   EXPECT_FALSE(find());
 }
 
-TEST_F(RelocationTest, ManySightingsOfOnePointTellNothing) {
+TEST_F(RelocationTest, ManyObservationsOfOnePointTellNothing) {
   for (int i = 0; i < 50; ++i) add(anyBearing(), {1, 2, 3});
   EXPECT_FALSE(find());
 }
@@ -148,7 +149,7 @@ TEST_F(RelocationTest, WrongMatchesThatAgreeByChanceAreRefused) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     begin(seed);
     addMixture(random_.integer(6, 300), 1);
-    EXPECT_FALSE(find()) << "seed " << seed << ", " << sightings_.size();
+    EXPECT_FALSE(find()) << "seed " << seed << ", " << observations_.size();
   }
 }
 
@@ -174,7 +175,7 @@ TEST_F(RelocationTest, CornersAndLandmarksInGroupsAgreeByChanceMoreOften) {
 TEST_F(RelocationTest, InNarrowWindowsAgreementSaysLittle) {
   addMixture(40, 0.6);
   EXPECT_TRUE(find());
-  for (MapSighting& s : sightings_) s.window_rad = 0.02;
+  for (MapObservation& s : observations_) s.window_rad = 0.02;
   EXPECT_FALSE(find());
 }
 

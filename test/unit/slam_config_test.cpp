@@ -34,7 +34,7 @@ TEST(SlamConfig, TheThesisFilterRefusesWhatItWouldNotUse) {
   config.height_input.known_height_m = 1.65;
   expectFault(config, {"known_height_m", "estimator to constraint", "known_height_m to 0"});
   config.height_input.known_height_m = 0;
-  config.constraint_filter.attitude_states = false;
+  config.msckf.attitude_states = false;
   expectFault(config, {"attitude_states", "estimator to constraint", "attitude_states to true"});
   config.height_input.use_range = true;
   EXPECT_EQ(faultsOf(config).size(), 2U) << "all faults are told at once";
@@ -42,18 +42,18 @@ TEST(SlamConfig, TheThesisFilterRefusesWhatItWouldNotUse) {
 
 TEST(SlamConfig, TheObserverIsARowBesideTheOthersWithTheirParameters) {
   SlamConfig config;
-  config.estimator = Estimator::kObserver;
+  config.estimator = Estimator::kOdometry;
   config.height_input.use_range = true;
-  config.constraint_filter.attitude_states = false;
+  config.msckf.attitude_states = false;
   EXPECT_TRUE(faultsOf(config).empty());
 }
 
 TEST(SlamConfig, TracksMustFitIntoTheWindow) {
   SlamConfig config;
-  config.constraint_filter.window_frames = 5;
-  config.constraint_filter.min_track_views = 5;
+  config.msckf.window_frames = 5;
+  config.msckf.min_track_views = 5;
   EXPECT_TRUE(faultsOf(config).empty());
-  config.constraint_filter.min_track_views = 6;
+  config.msckf.min_track_views = 6;
   expectFault(config, {"lower min_track_views", "raise window_frames"});
   config.estimator = Estimator::kThesis;
   EXPECT_TRUE(faultsOf(config).empty()) << "it has no window";
@@ -72,9 +72,9 @@ TEST(SlamConfig, OneHeightIsEnough) {
   expectFault(config, {"use_range and use_navdata_height exclude each other"});
 }
 
-TEST(SlamConfig, FloorPointsNeedAHeightAndTheConstraintFilter) {
+TEST(SlamConfig, FloorPointsNeedAHeightAndTheMsckf) {
   SlamConfig config;
-  config.constraint_filter.height.floor_points = true;
+  config.msckf.height.floor_points = true;
   expectFault(config,
               {"floor_points needs a height", "use_range", "use_navdata_height", "known_height_m"});
   config.height_input.known_height_m = 1.2;

@@ -12,60 +12,60 @@ namespace {
 
 using test::printedOnly;
 
-ObserverState observerAt(double seconds, const Eigen::Vector3d& position) {
-  ObserverState state;
+OdometryState odometryAt(double seconds, const Eigen::Vector3d& position) {
+  OdometryState state;
   state.stamp_ns = static_cast<std::int64_t>(seconds * 1e9);
   state.T_odom_base.translation() = position;
   return state;
 }
 
-PositionFix fixAt(const Eigen::Vector3d& position, double deviation_m, double shared_m2 = 0) {
+PositionFix fixAt(const Eigen::Vector3d& position, double sigma_m, double shared_m2 = 0) {
   PositionFix fix;
   fix.position_map = position;
-  fix.covariance = deviation_m * deviation_m * Eigen::Matrix3d::Identity();
+  fix.covariance = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
   fix.shared_variance_m2 = shared_m2;
   return fix;
 }
 
 TEST(ThesisFilter, WorkedExampleOfThePrintedFusion) {
   ThesisFilterConfig config = printedOnly();
-  config.initial_deviation_m = 0.3;
+  config.initial_sigma_m = 0.3;
   ThesisFilter filter(config);
-  filter.start({1, 2, 3}, observerAt(0, {1, 2, 3}));
+  filter.start({1, 2, 3}, odometryAt(0, {1, 2, 3}));
   ASSERT_TRUE(filter.fuse(fixAt({2, 2, 3}, 0.1)));
   const double gain = 0.09 / (0.09 + 0.01);  // (6.9, 6.10)
   EXPECT_TRUE(filter.position_map().isApprox(Eigen::Vector3d(1 + gain, 2, 3), 1e-12));  // (6.11)
-  EXPECT_NEAR(filter.deviation_m(), std::sqrt((1 - gain) * 0.09), 1e-12);               // (6.12)
+  EXPECT_NEAR(filter.sigma_m(), std::sqrt((1 - gain) * 0.09), 1e-12);                   // (6.12)
 }
 
 TEST(ThesisFilter, PredictionFollowsTheObserversIncrement) {
   ThesisFilterConfig config = printedOnly();
-  config.initial_deviation_m = 0.1;
-  config.observer_noise_m_per_sqrt_m = 0.02;
-  config.observer_noise_m_per_sqrt_s = 0.03;
+  config.initial_sigma_m = 0.1;
+  config.odometry_noise_m_per_sqrt_m = 0.02;
+  config.odometry_noise_m_per_sqrt_s = 0.03;
   ThesisFilter filter(config);
-  filter.start({10, 0, 0}, observerAt(1, {0, 0, 0}));
-  filter.predict(observerAt(3, {0, 4, 0}));
+  filter.start({10, 0, 0}, odometryAt(1, {0, 0, 0}));
+  filter.predict(odometryAt(3, {0, 4, 0}));
   EXPECT_TRUE(filter.position_map().isApprox(Eigen::Vector3d(10, 4, 0), 1e-12));
   const double variance = 0.01 + 0.02 * 0.02 * 4 + 0.03 * 0.03 * 2;
-  EXPECT_NEAR(filter.deviation_m(), std::sqrt(variance), 1e-12);
+  EXPECT_NEAR(filter.sigma_m(), std::sqrt(variance), 1e-12);
 }
 
 TEST(ThesisFilter, PredictionTakesTheObserversOwnGrowthIfThereIsAny) {
   ThesisFilterConfig config = printedOnly();
-  config.initial_deviation_m = 0.1;
-  config.observer_noise_m_per_sqrt_s = 0.5;
+  config.initial_sigma_m = 0.1;
+  config.odometry_noise_m_per_sqrt_s = 0.5;
   ThesisFilter filter(config);
-  ObserverState first = observerAt(0, {0, 0, 0});
+  OdometryState first = odometryAt(0, {0, 0, 0});
   first.covariance.topLeftCorner<3, 3>() = 0.2 * Eigen::Matrix3d::Identity();
   filter.start({0, 0, 0}, first);
-  ObserverState second = observerAt(1, {0, 0, 0});
+  OdometryState second = odometryAt(1, {0, 0, 0});
   second.covariance.topLeftCorner<3, 3>() = 0.23 * Eigen::Matrix3d::Identity();
   filter.predict(second);
   EXPECT_NEAR(filter.covariance()(0, 0), 0.01 + 0.03, 1e-12);
 
   // A constant covariance tells nothing, not even when its last bit changes.
-  ObserverState third = second;
+  OdometryState third = second;
   third.stamp_ns = 2'000'000'000;
   third.covariance *= 1 + 1e-15;
   filter.predict(third);
@@ -74,12 +74,12 @@ TEST(ThesisFilter, PredictionTakesTheObserversOwnGrowthIfThereIsAny) {
 
 TEST(ThesisFilter, AVarianceThatIsNotGivenIsNoGrowth) {
   ThesisFilterConfig config = printedOnly();
-  config.initial_deviation_m = 0.1;
-  config.observer_noise_m_per_sqrt_s = 0.5;
+  config.initial_sigma_m = 0.1;
+  config.odometry_noise_m_per_sqrt_s = 0.5;
   const double kLargest = std::numeric_limits<double>::max();
   for (const double marker : {0.0, -1.0, -kLargest, 99999.0, 1e6, 1e12, kLargest}) {
     ThesisFilter filter(config);
-    ObserverState state = observerAt(0, {0, 0, 0});
+    OdometryState state = odometryAt(0, {0, 0, 0});
     state.covariance = 0.2 * Matrix6d::Identity();
     filter.start({0, 0, 0}, state);
     double expected = 0.01;
@@ -95,7 +95,7 @@ TEST(ThesisFilter, AVarianceThatIsNotGivenIsNoGrowth) {
 
 TEST(ThesisFilter, AFixThatIsNotFiniteIsRejected) {
   ThesisFilter filter(printedOnly());
-  filter.start(Eigen::Vector3d::Zero(), observerAt(0, {0, 0, 0}));
+  filter.start(Eigen::Vector3d::Zero(), odometryAt(0, {0, 0, 0}));
   PositionFix fix = fixAt({0, 0, 0}, 0.1);
   fix.covariance(1, 1) = std::nan("");
   EXPECT_FALSE(filter.fuse(fix));
@@ -105,14 +105,14 @@ TEST(ThesisFilter, AFixThatIsNotFiniteIsRejected) {
 
 TEST(ThesisFilter, GateRejectsAndLeavesThePrediction) {
   ThesisFilterConfig config = printedOnly();
-  config.initial_deviation_m = 0.03;
-  config.gate_deviations = 3;
+  config.initial_sigma_m = 0.03;
+  config.gate_sigmas = 3;
   ThesisFilter filter(config);
-  filter.start(Eigen::Vector3d::Zero(), observerAt(0, {0, 0, 0}));
+  filter.start(Eigen::Vector3d::Zero(), odometryAt(0, {0, 0, 0}));
   // Deviation of the innovation: hypot(0.03, 0.04) = 0.05.
   EXPECT_FALSE(filter.fuse(fixAt({0.151, 0, 0}, 0.04)));
   EXPECT_EQ(filter.position_map(), Eigen::Vector3d(Eigen::Vector3d::Zero()));
-  EXPECT_NEAR(filter.deviation_m(), 0.03, 1e-15);
+  EXPECT_NEAR(filter.sigma_m(), 0.03, 1e-15);
   EXPECT_TRUE(filter.fuse(fixAt({0.149, 0, 0}, 0.04)));
 }
 
@@ -120,23 +120,23 @@ TEST(ThesisFilter, GateRejectsAndLeavesThePrediction) {
 TEST(CommonDrift, FreshLandmarksCorrectNothing) {
   ThesisFilterConfig config = printedOnly();
   config.common_drift = true;
-  config.initial_deviation_m = 0.2;
+  config.initial_sigma_m = 0.2;
   ThesisFilter filter(config);
-  filter.start(Eigen::Vector3d::Zero(), observerAt(0, {0, 0, 0}));
+  filter.start(Eigen::Vector3d::Zero(), odometryAt(0, {0, 0, 0}));
   ASSERT_TRUE(filter.fuse(fixAt({0.1, 0, 0}, 0.05, 0.2 * 0.2)));
   EXPECT_LT(filter.position_map().norm(), 1e-12);
-  EXPECT_NEAR(filter.deviation_m(), 0.2, 1e-12);
+  EXPECT_NEAR(filter.sigma_m(), 0.2, 1e-12);
 }
 
 TEST(CommonDrift, OldLandmarksCorrectTheDriftSinceAndNoMore) {
   ThesisFilterConfig config = printedOnly();
   config.common_drift = true;
-  config.initial_deviation_m = 0.1;
-  config.observer_noise_m_per_sqrt_s = 1;
+  config.initial_sigma_m = 0.1;
+  config.odometry_noise_m_per_sqrt_s = 1;
   ThesisFilter filter(config);
-  filter.start(Eigen::Vector3d::Zero(), observerAt(0, {0, 0, 0}));
+  filter.start(Eigen::Vector3d::Zero(), odometryAt(0, {0, 0, 0}));
   const double then_m2 = filter.covariance()(0, 0);
-  filter.predict(observerAt(4, {0, 0, 0}));  // drift: 4 m^2
+  filter.predict(odometryAt(4, {0, 0, 0}));  // drift: 4 m^2
   ASSERT_TRUE(filter.fuse(fixAt({1, 0, 0}, 0.001, then_m2)));
   EXPECT_NEAR(filter.position_map().x(), 1, 1e-6) << "the drift is all of the error";
   EXPECT_NEAR(filter.covariance()(0, 0), then_m2, 2e-6) << "P_a stays";
@@ -146,9 +146,9 @@ TEST(CommonDrift, OldLandmarksCorrectTheDriftSinceAndNoMore) {
 TEST(CommonDrift, GainIsThatOfTheDriftAlone) {
   ThesisFilterConfig config = printedOnly();
   config.common_drift = true;
-  config.initial_deviation_m = 0.5;
+  config.initial_sigma_m = 0.5;
   ThesisFilter filter(config);
-  filter.start(Eigen::Vector3d::Zero(), observerAt(0, {0, 0, 0}));
+  filter.start(Eigen::Vector3d::Zero(), odometryAt(0, {0, 0, 0}));
   ASSERT_TRUE(filter.fuse(fixAt({1, 0, 0}, 0.3, 0.16)));  // P_t = 0.25, P_a = 0.16, R = 0.09
   EXPECT_NEAR(filter.position_map().x(), 0.09 / (0.09 + 0.09), 1e-12);
   EXPECT_NEAR(filter.covariance()(0, 0), 0.16 + 0.5 * 0.09, 1e-12);

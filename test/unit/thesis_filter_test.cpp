@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/thesis_filter.hpp"
+#include "thesis/thesis_filter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,29 +18,30 @@ using test::printedOnly;
 constexpr double kPixel_rad = 1.0 / 570;
 
 /// Landmarks 2 to 10 m ahead within a camera's field of 80 x 52 degrees, seen from the origin.
-std::vector<Sighting> sightingsAhead(int count, double landmark_deviation_m, RandomSource& random) {
-  std::vector<Sighting> sightings;
+std::vector<Observation> observationsAhead(int count, double landmark_sigma_m,
+                                           RandomSource& random) {
+  std::vector<Observation> observations;
   for (int i = 0; i < count; ++i) {
     const double y = std::tan(random.uniform(-40, 40) * M_PI / 180);
     const double z = std::tan(random.uniform(-26, 26) * M_PI / 180);
-    Sighting s;
+    Observation s;
     s.direction_map = Eigen::Vector3d(1, y, z).normalized();
     s.landmark_map = random.uniform(2, 10) * s.direction_map;
-    s.landmark_map += landmark_deviation_m * random.normal3();
-    s.landmark_deviation_m = landmark_deviation_m;
-    sightings.push_back(s);
+    s.landmark_map += landmark_sigma_m * random.normal3();
+    s.landmark_sigma_m = landmark_sigma_m;
+    observations.push_back(s);
   }
-  return sightings;
+  return observations;
 }
 
 TEST(ThesisFilter, WorkedExampleOfThePrintedMean) {
   ThesisFilter filter(printedOnly());
   // Two landmarks, seen along x and along y; the prediction is 0.1 m off in each.
-  std::vector<Sighting> sightings(2);
-  sightings[0] = {{5, 0.2, 0}, {1, 0, 0}, 0.05, 0};
-  sightings[1] = {{0.4, 3, 0}, {0, 1, 0}, 0.02, 0};
+  std::vector<Observation> observations(2);
+  observations[0] = {{5, 0.2, 0}, {1, 0, 0}, 0.05, 0};
+  observations[1] = {{0.4, 3, 0}, {0, 1, 0}, 0.02, 0};
   const Eigen::Vector3d predicted(0.1, 0.1, 0);
-  const auto fix = filter.locate(sightings, predicted, 0.01);
+  const auto fix = filter.locate(observations, predicted, 0.01);
   ASSERT_TRUE(fix);
   // (6.1, 6.2): d = 4.9 and 2.9; p = l - d s = (0.1, 0.2, 0) and (0.4, 0.1, 0).
   // (6.3): sigma = 0.05 + 0.049 and 0.02 + 0.029; (6.4): weights 1 / sigma.
@@ -53,7 +54,7 @@ TEST(ThesisFilter, WorkedExampleOfThePrintedMean) {
   EXPECT_TRUE(fix->covariance.isApprox(deviation * deviation * Eigen::Matrix3d::Identity(), 1e-12));
 }
 
-// The observer is 0.5 m off along the optical axis, 50 landmarks, 80 x 52 degrees.
+// The odometry is 0.5 m off along the optical axis, 50 landmarks, 80 x 52 degrees.
 TEST(ThesisFilter, PrintedMeanIsDampedAlongTheRaysTheExactOneIsNot) {
   const Eigen::Vector3d predicted(0.5, 0, 0);
   ThesisFilterConfig config = printedOnly();
@@ -63,12 +64,12 @@ TEST(ThesisFilter, PrintedMeanIsDampedAlongTheRaysTheExactOneIsNot) {
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
     RandomSource random(static_cast<std::uint64_t>(run));
-    const auto sightings = sightingsAhead(50, 0.02, random);
+    const auto observations = observationsAhead(50, 0.02, random);
     config.mean = MeanKind::kPrinted;
     printed_error +=
-        ThesisFilter(config).locate(sightings, predicted, kPixel_rad)->position_map.x();
+        ThesisFilter(config).locate(observations, predicted, kPixel_rad)->position_map.x();
     config.mean = MeanKind::kExact;
-    const auto exact = ThesisFilter(config).locate(sightings, predicted, kPixel_rad);
+    const auto exact = ThesisFilter(config).locate(observations, predicted, kPixel_rad);
     exact_error += std::abs(exact->position_map.x());
     exact_claim += std::sqrt(exact->covariance(0, 0));
   }
@@ -80,22 +81,22 @@ TEST(ThesisFilter, PrintedMeanIsDampedAlongTheRaysTheExactOneIsNot) {
 TEST(ThesisFilter, CovarianceOfTheExactMeanIsItsScatter) {
   ThesisFilterConfig config = printedOnly();
   config.mean = MeanKind::kExact;
-  config.outlier_deviations = 0;  // weighed down, good ones claim a fifth more than their scatter
+  config.outlier_sigmas = 0;  // weighed down, good ones claim a fifth more than their scatter
   const ThesisFilter filter(config);
   RandomSource geometry(3);
-  const auto truth = sightingsAhead(30, 0, geometry);
+  const auto truth = observationsAhead(30, 0, geometry);
   RandomSource random(4);
   constexpr int kRuns = 4000;
-  constexpr double kDeviation_m = 0.03;
+  constexpr double kSigma_m = 0.03;
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d claimed = Eigen::Matrix3d::Zero();
   for (int run = 0; run < kRuns; ++run) {
-    auto sightings = truth;
-    for (Sighting& s : sightings) {
-      s.landmark_map += kDeviation_m * random.normal3();
-      s.landmark_deviation_m = kDeviation_m;
+    auto observations = truth;
+    for (Observation& s : observations) {
+      s.landmark_map += kSigma_m * random.normal3();
+      s.landmark_sigma_m = kSigma_m;
     }
-    const auto fix = filter.locate(sightings, Eigen::Vector3d::Zero(), 1e-9);
+    const auto fix = filter.locate(observations, Eigen::Vector3d::Zero(), 1e-9);
     ASSERT_TRUE(fix);
     scatter += fix->position_map * fix->position_map.transpose() / kRuns;
     claimed += fix->covariance / kRuns;
@@ -109,7 +110,7 @@ TEST(ThesisFilter, CovarianceOfTheExactMeanIsItsScatter) {
 
 TEST(ThesisFilter, DeviationOfThePrintedMeanShrinksWithTheRootOfTheNumber) {
   ThesisFilter filter(printedOnly());
-  const Sighting s{{5, 0, 0}, {1, 0, 0}, 0.1, 0};
+  const Observation s{{5, 0, 0}, {1, 0, 0}, 0.1, 0};
   const auto one = filter.locate({s}, Eigen::Vector3d::Zero(), 0);
   const auto four = filter.locate({s, s, s, s}, Eigen::Vector3d::Zero(), 0);
   EXPECT_NEAR(std::sqrt(one->covariance(0, 0)), 0.1, 1e-12);
@@ -121,7 +122,7 @@ TEST(ThesisFilter, FloorsHoldErrorsThatAllLandmarksShare) {
   config.fix_deviation_floor_m = 0.03;
   config.fix_angle_floor_deg = 1;
   const ThesisFilter filter(config);
-  const std::vector<Sighting> many(10000, Sighting{{4, 0, 0}, {1, 0, 0}, 0.1, 0});
+  const std::vector<Observation> many(10000, Observation{{4, 0, 0}, {1, 0, 0}, 0.1, 0});
   const auto fix = filter.locate(many, Eigen::Vector3d::Zero(), 0);
   EXPECT_NEAR(std::sqrt(fix->covariance(2, 2)), std::hypot(0.03, 4 * M_PI / 180, 0.001), 1e-9);
 }
@@ -131,8 +132,8 @@ TEST(ThesisFilter, TooFewLandmarksFixNothing) {
   config.min_landmarks = 3;
   const ThesisFilter filter(config);
   RandomSource random(1);
-  const auto three = sightingsAhead(3, 0.1, random);
-  const std::vector<Sighting> two(three.begin(), three.begin() + 2);
+  const auto three = observationsAhead(3, 0.1, random);
+  const std::vector<Observation> two(three.begin(), three.begin() + 2);
   EXPECT_FALSE(filter.locate({}, Eigen::Vector3d::Zero(), kPixel_rad));
   EXPECT_FALSE(filter.locate(two, Eigen::Vector3d::Zero(), kPixel_rad));
   EXPECT_TRUE(filter.locate(three, Eigen::Vector3d::Zero(), kPixel_rad));
@@ -142,16 +143,16 @@ TEST(ThesisFilter, ExactMeanWeighsWrongMatchesDown) {
   ThesisFilterConfig config = printedOnly();
   config.mean = MeanKind::kExact;
   ThesisFilterConfig trusting = config;
-  trusting.outlier_deviations = 0;
+  trusting.outlier_sigmas = 0;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     RandomSource random(seed);
-    auto sightings = sightingsAhead(100, 0.02, random);
+    auto observations = observationsAhead(100, 0.02, random);
     for (std::size_t i = 0; i < 30; ++i)  // another thing to the left of what the landmarks show
-      sightings[i].direction_map =
-          (sightings[i].direction_map + Eigen::Vector3d(0, 0.1, 0)).normalized();
-    const auto fix = ThesisFilter(config).locate(sightings, Eigen::Vector3d::Zero(), kPixel_rad);
+      observations[i].direction_map =
+          (observations[i].direction_map + Eigen::Vector3d(0, 0.1, 0)).normalized();
+    const auto fix = ThesisFilter(config).locate(observations, Eigen::Vector3d::Zero(), kPixel_rad);
     const auto drawn =
-        ThesisFilter(trusting).locate(sightings, Eigen::Vector3d::Zero(), kPixel_rad);
+        ThesisFilter(trusting).locate(observations, Eigen::Vector3d::Zero(), kPixel_rad);
     ASSERT_TRUE(fix && drawn);
     EXPECT_LT(fix->position_map.norm(), 0.03) << seed;
     EXPECT_GT(drawn->position_map.norm(), 3 * fix->position_map.norm()) << seed;
@@ -162,20 +163,20 @@ TEST(ThesisFilter, ExactMeanRefusesLandmarksInOneDirection) {
   ThesisFilterConfig config = printedOnly();
   config.mean = MeanKind::kExact;
   const ThesisFilter filter(config);
-  const std::vector<Sighting> same(5, Sighting{{5, 0, 0}, {1, 0, 0}, 0.1, 0});
+  const std::vector<Observation> same(5, Observation{{5, 0, 0}, {1, 0, 0}, 0.1, 0});
   EXPECT_FALSE(filter.locate(same, Eigen::Vector3d::Zero(), kPixel_rad));
 }
 
-TEST(ThesisFilter, DegenerateSightingsGiveNoNumberThatIsNotFinite) {
+TEST(ThesisFilter, DegenerateObservationsGiveNoNumberThatIsNotFinite) {
   const ThesisFilter filter(printedOnly());
-  const std::vector<Sighting> at_camera(3, Sighting{{0, 0, 0}, {1, 0, 0}, 0, 0});
+  const std::vector<Observation> at_camera(3, Observation{{0, 0, 0}, {1, 0, 0}, 0, 0});
   EXPECT_FALSE(filter.locate(at_camera, Eigen::Vector3d::Zero(), 0));
 }
 
 TEST(ThesisFilter, RefusesInvalidParameters) {
   ThesisFilterConfig config;
   config.min_landmarks = 0;
-  config.gate_deviations = std::nan("");
+  config.gate_sigmas = std::nan("");
   try {
     ThesisFilter filter(config);
     FAIL() << "must throw";

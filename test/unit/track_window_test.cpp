@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/track_window.hpp"
+#include "msckf/track_window.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 /// One image after the other, with the window's frames that they belong to.
 struct Images {
-  std::vector<WindowPose> frames;
+  std::vector<Clone> frames;
   TrackWindow window{Eigen::Matrix3d::Identity()};
   ImageFeatures features;
   TrackOrder order;
@@ -30,7 +30,7 @@ struct Images {
       features.descriptor.back().words[0] = 1000 * frames.size() + id;
     }
     order.reset(features);
-    WindowPose pose;
+    Clone pose;
     pose.id = frames.empty() ? 1 : frames.back().id + 1;
     frames.push_back(pose);
   }

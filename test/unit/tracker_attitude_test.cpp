@@ -17,14 +17,14 @@ CameraIntrinsics camera() {
   return intrinsics;
 }
 
-std::vector<Descriptor> describe(bool use_attitude, std::optional<float> turn_rad) {
+std::vector<Descriptor> describe(bool use_attitude, std::optional<float> rotation_rad) {
   static const test::TestImage image = test::generatedImage(320, 240);
   TrackerConfig config;
   config.use_attitude = use_attitude;
   config.corners.threshold = 8;
   Tracker tracker(config, camera());
   ImageFeatures features;
-  tracker.process(image.view(), 1, features, {}, turn_rad);
+  tracker.process(image.view(), 1, features, {}, rotation_rad);
   return features.descriptor;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/triangulation.hpp"
+#include "map/triangulation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -131,11 +131,11 @@ TEST(Deviation, OfTheDepthIsTheScatterOfNoisyRays) {
     squares += (found->position_map - point).squaredNorm();
   }
   const double scatter_m = std::sqrt(squares / kRuns);
-  const double deviation_m = measurementDeviation_m(sigma_p_m, point.x(), sigma_a_rad);
-  EXPECT_NEAR(deviation_m, 0.0243, 1e-4);
-  EXPECT_GT(scatter_m, 10 * deviation_m);
-  EXPECT_NEAR(depthDeviation_m(deviation_m, parallax_rad) / scatter_m, 1.0, 0.2);
-  EXPECT_TRUE(std::isfinite(depthDeviation_m(deviation_m, 0)));
+  const double sigma_m = measurementSigma_m(sigma_p_m, point.x(), sigma_a_rad);
+  EXPECT_NEAR(sigma_m, 0.0243, 1e-4);
+  EXPECT_GT(scatter_m, 10 * sigma_m);
+  EXPECT_NEAR(depthSigma_m(sigma_m, parallax_rad) / scatter_m, 1.0, 0.2);
+  EXPECT_TRUE(std::isfinite(depthSigma_m(sigma_m, 0)));
 }
 
 }  // namespace

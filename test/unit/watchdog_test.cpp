@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/watchdog.hpp"
+#include "msckf/watchdog.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ std::optional<double> secondsOfTrust(Watchdog& watchdog, const Contradiction& co
 
 Contradiction biased(double deviations) {
   Contradiction contradiction;
-  contradiction.bias_deviations = deviations;
+  contradiction.bias_sigmas = deviations;
   return contradiction;
 }
 

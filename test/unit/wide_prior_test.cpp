@@ -2,7 +2,7 @@
 // How landmarks are looked for when the prediction is too uncertain to say where.
 #include <gtest/gtest.h>
 
-#include "ardrone_vslam/association.hpp"
+#include "matching/association.hpp"
 #include "support/view_builder.hpp"
 
 namespace ardrone_vslam {
@@ -30,13 +30,13 @@ class WidePriorTest : public ::testing::Test {
     }
   }
   /// The whole row is seen 250 px to the right of where the prediction puts it.
-  AssociationResult look(double deviation_m) {
+  AssociationResult look(double sigma_m) {
     builder_.lookFrom({0, 0, 0});
     for (std::size_t i = 0; i < 40; ++i) {
       const double right_px = kFocalLength_px * 0.01 * (20.0 - static_cast<double>(i));
       builder_.addPixel(right_px + 250, 0, kNoTrack, features_of_all_[i]);
     }
-    builder_.view().setPositionVariance(deviation_m * deviation_m, true);
+    builder_.view().setPositionVariance(sigma_m * sigma_m, true);
     return matchLandmarks();
   }
 
@@ -107,7 +107,7 @@ TEST_F(WidePriorTest, FewProbesFindFewerMatches) {
 }
 
 TEST_F(WidePriorTest, MismatchesAreStillRemovedAndNobodyIsMissed) {
-  config_.threshold_deviations = 1;
+  config_.threshold_sigmas = 1;
   config_.search_radius_px = 400;  // wide windows, though the prior is narrow
   const auto result = look(0);
   EXPECT_EQ(result.method, MatchMethod::kExact);

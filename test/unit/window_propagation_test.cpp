@@ -5,15 +5,15 @@
 #include <Eigen/Cholesky>
 
 #include "ardrone_vslam/rotation.hpp"
-#include "ardrone_vslam/window_state.hpp"
+#include "msckf/window_state.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr int kFrames = 8;
 
-ObserverState observerAt(int frame) {
-  ObserverState state;
+OdometryState odometryAt(int frame) {
+  OdometryState state;
   state.stamp_ns = 100'000'000LL * frame;
   state.T_odom_base.translation() << 0.1 * frame, 0.03 * frame, 0.02 * frame;
   state.T_odom_base.linear() = rotationOf({0.03 * frame, -0.02 * frame, 0.08 * frame});
@@ -42,14 +42,14 @@ void moveMean(WindowState& state, const Eigen::VectorXd& change) {
 
 /// A window whose odom and mounting were found to be turned. Neither bias nor scale have been
 /// corrected: else F stands by the corrected step for the reported one.
-WindowState window(const ObserverNoiseConfig& config, const Eigen::Vector3d& odom_turn_rad) {
+WindowState window(const OdometryNoiseConfig& config, const Eigen::Vector3d& odom_turn_rad) {
   WindowState state(config);
-  state.start(observerAt(0));
-  for (int i = 1; i < kFrames; ++i) state.propagate(observerAt(i));
+  state.start(odometryAt(0));
+  for (int i = 1; i < kFrames; ++i) state.propagate(odometryAt(i));
   Eigen::VectorXd change =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(uncertainCoordinates(state).size()));
   change.segment<3>(WindowState::kAttitude) = odom_turn_rad;
-  change.segment<3>(WindowState::kMounting) << 0.05, -0.1, 0.15;
+  change.segment<3>(WindowState::kExtrinsics) << 0.05, -0.1, 0.15;
   moveMean(state, change);
   return state;
 }
@@ -59,12 +59,12 @@ constexpr int kOutputs = 12;
 
 Eigen::Matrix<double, kOutputs, 1> difference(const WindowState& a, const WindowState& b) {
   Eigen::Matrix<double, kOutputs, 1> d;
-  const WindowPose& pose_a = a.frames().back();
-  const WindowPose& pose_b = b.frames().back();
+  const Clone& pose_a = a.frames().back();
+  const Clone& pose_b = b.frames().back();
   d << rotationVectorOf(a.T_map_odom().linear() * b.T_map_odom().linear().transpose()),
-      rotationVectorOf(a.R_mounting() * b.R_mounting().transpose()),
+      rotationVectorOf(a.R_base_rig() * b.R_base_rig().transpose()),
       pose_a.position_map - pose_b.position_map,
-      rotationVectorOf(pose_a.R_map_base * pose_b.R_map_base.transpose());
+      rotationVectorOf(pose_a.R_map_rig * pose_b.R_map_rig.transpose());
   return d;
 }
 
@@ -79,12 +79,12 @@ void expectErrorsCarriedAsTheMeanIs(const WindowState& before) {
     WindowState less = before;
     moveMean(more, kStep * Eigen::VectorXd::Unit(size, k));
     moveMean(less, -kStep * Eigen::VectorXd::Unit(size, k));
-    more.propagate(observerAt(kFrames));
-    less.propagate(observerAt(kFrames));
+    more.propagate(odometryAt(kFrames));
+    less.propagate(odometryAt(kFrames));
     transition.col(k) = difference(more, less) / (2 * kStep);
   }
   WindowState after = before;
-  after.propagate(observerAt(kFrames));
+  after.propagate(odometryAt(kFrames));
   // Of the errors that a step leaves alone, which take no noise: their covariance with the new ones
   // is the transition times what it was.
   std::vector<int> kept;
@@ -93,7 +93,7 @@ void expectErrorsCarriedAsTheMeanIs(const WindowState& before) {
   std::vector<int> outputs;
   const int newest = before.frameCoordinate(kFrames);
   for (const int first : {static_cast<int>(WindowState::kAttitude),
-                          static_cast<int>(WindowState::kMounting), newest, newest + 3})
+                          static_cast<int>(WindowState::kExtrinsics), newest, newest + 3})
     for (int k = 0; k < 3; ++k) outputs.push_back(first + k);
   const Eigen::MatrixXd expected = transition * before.covariance()(inputs, kept);
   const Eigen::MatrixXd actual = after.covariance()(outputs, kept);
@@ -106,16 +106,16 @@ void expectErrorsCarriedAsTheMeanIs(const WindowState& before) {
 }
 
 TEST(WindowPropagation, CarriesErrorsAsSmallChangesOfTheMeanShow) {
-  ObserverNoiseConfig config;
-  config.mounting_deviation_deg = 2;
+  OdometryNoiseConfig config;
+  config.extrinsics_sigma_deg = 2;
   config.tilt_time_s = 1e6;
   expectErrorsCarriedAsTheMeanIs(window(config, {0.2, -0.1, 0.4}));
 }
 
 /// To first order in the turn of odom, which is a few degrees.
 TEST(WindowPropagation, CarriesErrorsOfATiltThatFades) {
-  ObserverNoiseConfig config;
-  config.mounting_deviation_deg = 2;
+  OdometryNoiseConfig config;
+  config.extrinsics_sigma_deg = 2;
   config.tilt_time_s = 0.5;
   expectErrorsCarriedAsTheMeanIs(window(config, {0, 0, 0}));
 }

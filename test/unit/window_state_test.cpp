@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/window_state.hpp"
+#include "msckf/window_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 namespace ardrone_vslam {
 namespace {
 
-ObserverState observerAt(int frame, const Eigen::Vector3d& position, double yaw_rad = 0) {
-  ObserverState state;
+OdometryState odometryAt(int frame, const Eigen::Vector3d& position, double yaw_rad = 0) {
+  OdometryState state;
   state.stamp_ns = 100'000'000LL * frame;
   state.T_odom_base.translation() = position;
   state.T_odom_base.linear() = rotationOf({0, 0, yaw_rad});
@@ -21,11 +21,11 @@ ObserverState observerAt(int frame, const Eigen::Vector3d& position, double yaw_
 }
 
 WindowState circling(int frames) {
-  WindowState state((ObserverNoiseConfig()));
+  WindowState state((OdometryNoiseConfig()));
   for (int i = 0; i < frames; ++i) {
     const double turn = 0.1 * i;
-    const ObserverState observer = observerAt(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
-    i == 0 ? state.start(observer) : state.propagate(observer);
+    const OdometryState odometry = odometryAt(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
+    i == 0 ? state.start(odometry) : state.propagate(odometry);
   }
   return state;
 }
@@ -61,9 +61,9 @@ TEST(WindowState, FollowsTheObserverAndGrowsLessSure) {
 
 TEST(WindowState, TheObserversOwnCovarianceIsUsedWhereItGivesOne) {
   const auto grown = [](double variance_m2) {
-    WindowState state((ObserverNoiseConfig()));
-    ObserverState first = observerAt(0, {0, 0, 0});
-    ObserverState second = observerAt(1, {0, 0, 0});
+    WindowState state((OdometryNoiseConfig()));
+    OdometryState first = odometryAt(0, {0, 0, 0});
+    OdometryState second = odometryAt(1, {0, 0, 0});
     if (variance_m2 > 0) {
       first.covariance.diagonal().head<3>().setConstant(0.5);
       second.covariance.diagonal().head<3>().setConstant(0.5 + variance_m2);
@@ -77,24 +77,24 @@ TEST(WindowState, TheObserversOwnCovarianceIsUsedWhereItGivesOne) {
 }
 
 TEST(WindowState, ErrorsThatAreStatesAreNoWhiteNoiseInTheObserversCovariance) {
-  const ObserverNoiseConfig config;
+  const OdometryNoiseConfig config;
   constexpr double kSpeed_m_s = 1;
   constexpr double kWhite_m_per_sqrt_s = 0.05;
-  const auto observer = [&config](int frame) {
+  const auto odometry = [&config](int frame) {
     const double t_s = 0.1 * frame;
-    ObserverState state = observerAt(frame, {kSpeed_m_s * t_s, 0, 0});
+    OdometryState state = odometryAt(frame, {kSpeed_m_s * t_s, 0, 0});
     const double time_s = config.velocity_bias_time_s;
     const double by_bias_m2 = 2 * std::pow(config.velocity_bias_m_s, 2) * time_s *
                               (t_s + time_s * std::expm1(-t_s / time_s));
-    const double by_scale_m2 = std::pow(config.scale_deviation * kSpeed_m_s * t_s, 2);
+    const double by_scale_m2 = std::pow(config.scale_sigma * kSpeed_m_s * t_s, 2);
     state.covariance.diagonal().head<3>().setConstant(1e-6 + by_bias_m2 + by_scale_m2 +
                                                       std::pow(kWhite_m_per_sqrt_s, 2) * t_s);
     return state;
   };
   WindowState state(config);
-  state.start(observer(0));
+  state.start(odometry(0));
   for (int frame = 1; frame <= 600; ++frame) {
-    state.propagate(observer(frame));
+    state.propagate(odometry(frame));
     if (state.frames().size() > 2) state.removeFrame(0);
   }
   const double after_a_minute_m2 =
@@ -115,14 +115,14 @@ TEST(WindowState, AnUpdateIsTheKalmanUpdateInCoordinatesThatItDoesNotTurn) {
   const Eigen::Vector3d innovation(0.001, -0.002, 0.0005);
   information.matrix = Eigen::Matrix3d::Identity() / kVariance;
   information.vector = innovation / kVariance;
-  const Eigen::Matrix3d before = state.frames()[0].R_map_base;
+  const Eigen::Matrix3d before = state.frames()[0].R_map_rig;
   ASSERT_TRUE(state.update(information));
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, P.rows());
   H.middleCols<3>(at).setIdentity();
   const Eigen::Matrix3d S = H * P * H.transpose() + kVariance * Eigen::Matrix3d::Identity();
   const Eigen::MatrixXd K = P * H.transpose() * S.inverse();
   EXPECT_LT((state.covariance() - (P - K * H * P)).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT((rotationVectorOf(state.frames()[0].R_map_base * before.transpose()) -
+  EXPECT_LT((rotationVectorOf(state.frames()[0].R_map_rig * before.transpose()) -
              (K * innovation).segment<3>(at))
                 .norm(),
             1e-9);
@@ -145,7 +145,7 @@ TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
     if (round % 4 == 0) state.makeAnchor(0);
     if (round % 10 == 9) state.removeAnchor(state.anchors().size() / 2);
     const double turn = 0.1 * (12 + round);
-    state.propagate(observerAt(12 + round, {std::sin(turn), 1 - std::cos(turn), 0}, turn));
+    state.propagate(odometryAt(12 + round, {std::sin(turn), 1 - std::cos(turn), 0}, turn));
     if (state.frames().size() > 12) state.removeFrame(3);
     expectHonest(state);
   }
@@ -162,13 +162,13 @@ TEST(WindowState, WhatIsLearnedOfTheNewestFrameCorrectsTheAnchorsThatShareItsErr
   const Eigen::Vector3d innovation(0.01, -0.02, 0.005);
   information.matrix = Eigen::Matrix3d::Identity() / kVariance;
   information.vector = innovation / kVariance;
-  const std::vector<WindowPose> before = state.anchors();
+  const std::vector<Clone> before = state.anchors();
   ASSERT_TRUE(state.update(information));
   const Eigen::Matrix3d S = P.block<3, 3>(newest, newest) + kVariance * Eigen::Matrix3d::Identity();
   const Eigen::VectorXd error = P.middleCols<3>(newest) * S.inverse() * innovation;
   for (std::size_t i = 0; i < 2; ++i) {
     const int at = state.anchorCoordinate(i);
-    const WindowPose& anchor = state.anchors()[i];
+    const Clone& anchor = state.anchors()[i];
     EXPECT_LT((anchor.position_map - before[i].position_map - error.segment<3>(at)).norm(), 1e-9);
     EXPECT_NEAR(anchor.stretch, 1 - error(WindowState::kScale) - error(at + 6), 1e-9);
   }
@@ -177,15 +177,15 @@ TEST(WindowState, WhatIsLearnedOfTheNewestFrameCorrectsTheAnchorsThatShareItsErr
 }
 
 TEST(WindowState, ABiasLearnedInTheClimbDoesNotStretchTheWayForward) {
-  WindowState state((ObserverNoiseConfig()));
+  WindowState state((OdometryNoiseConfig()));
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   const auto fly = [&](int from, int to, const Eigen::Vector3d& step) {
     for (int i = from; i < to; ++i) {
-      state.propagate(observerAt(i, position += step));
+      state.propagate(odometryAt(i, position += step));
       state.removeFrame(0);
     }
   };
-  state.start(observerAt(0, position));
+  state.start(odometryAt(0, position));
   fly(1, 31, {0, 0, 0.02});
   const int at = state.frameCoordinate(0);
   Information height(coordinatesFrom(at + 2, at + 3));
@@ -200,11 +200,11 @@ TEST(WindowState, ABiasLearnedInTheClimbDoesNotStretchTheWayForward) {
 }
 
 TEST(WindowState, TheScaleIsFoundByAPositionThatIsKnown) {
-  WindowState state((ObserverNoiseConfig()));
+  WindowState state((OdometryNoiseConfig()));
   constexpr double kScale = 0.02;  // reported ways are too long
   for (int i = 0; i <= 50; ++i) {
-    const ObserverState observer = observerAt(i, {(1 + kScale) * 0.2 * i, 0, 0});
-    i == 0 ? state.start(observer) : state.propagate(observer);
+    const OdometryState odometry = odometryAt(i, {(1 + kScale) * 0.2 * i, 0, 0});
+    i == 0 ? state.start(odometry) : state.propagate(odometry);
     if (state.frames().size() > 2) state.removeFrame(0);
   }
   const double before = state.covariance()(WindowState::kScale, WindowState::kScale);
@@ -220,9 +220,9 @@ TEST(WindowState, TheScaleIsFoundByAPositionThatIsKnown) {
 }
 
 TEST(WindowState, AnInflatedVelocityErrorGrowsAtOnceAndFadesLikeTheOther) {
-  const ObserverNoiseConfig config;
+  const OdometryNoiseConfig config;
   WindowState state(config);
-  state.start(observerAt(0, {0, 0, 0}));
+  state.start(odometryAt(0, {0, 0, 0}));
   const double variance = config.velocity_bias_m_s * config.velocity_bias_m_s;
   state.inflate(9);
   for (const int at : {3, 4, 5}) EXPECT_NEAR(state.covariance()(at, at), 9 * variance, 1e-12);
@@ -230,7 +230,7 @@ TEST(WindowState, AnInflatedVelocityErrorGrowsAtOnceAndFadesLikeTheOther) {
   EXPECT_NEAR(state.covariance()(3, 3), 9 * variance, 1e-12) << "once";
   state.inflate(1);
   EXPECT_NEAR(state.covariance()(3, 3), 9 * variance, 1e-12) << "what is unknown stays unknown";
-  state.propagate(observerAt(10'000, {0, 0, 0}));
+  state.propagate(odometryAt(10'000, {0, 0, 0}));
   EXPECT_NEAR(state.covariance()(3, 3), variance, 1e-6) << "after fifty time constants";
 }
 
@@ -243,7 +243,7 @@ TEST(WindowState, ReturnsToWhereTheObserverAloneWouldBe) {
   information.matrix.diagonal().setConstant(1e5);
   information.vector.setConstant(3e3);
   ASSERT_TRUE(state.update(information));
-  ASSERT_GT(state.biasDeviations(), 0.5);
+  ASSERT_GT(state.biasSigmas(), 0.5);
   const Eigen::Vector3d before = state.frames().back().position_map;
 
   Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
@@ -251,7 +251,7 @@ TEST(WindowState, ReturnsToWhereTheObserverAloneWouldBe) {
   T_map_odom.linear() = rotationOf({0, 0, 0.1});
   state.returnTo(T_map_odom);
   EXPECT_TRUE(state.T_map_odom().isApprox(T_map_odom, 1e-12));
-  EXPECT_EQ(state.biasDeviations(), 0);
+  EXPECT_EQ(state.biasSigmas(), 0);
   const Eigen::Vector3d odom(std::sin(0.9), 1 - std::cos(0.9), 0);
   EXPECT_LT((state.frames().back().position_map - T_map_odom * odom).norm(), 1e-9);
   const int at = state.frameCoordinate(0);
@@ -259,7 +259,7 @@ TEST(WindowState, ReturnsToWhereTheObserverAloneWouldBe) {
   EXPECT_GT((state.covariance().block<3, 3>(at, at).trace()), jump_m2);
   expectHonest(state);
 
-  state.propagate(observerAt(10, {std::sin(1.0), 1 - std::cos(1.0), 0}, 1));
+  state.propagate(odometryAt(10, {std::sin(1.0), 1 - std::cos(1.0), 0}, 1));
   EXPECT_TRUE(state.T_map_odom().isApprox(T_map_odom, 1e-9));
   expectHonest(state);
 }
@@ -274,13 +274,13 @@ TEST(WindowState, NothingChangesWhenTheInformationIsNotFinite) {
 }
 
 /// A circle with anchors, and what random measurements of all coordinates make of it.
-WindowState measured(const ObserverNoiseConfig& config, bool attitude_states) {
+WindowState measured(const OdometryNoiseConfig& config, bool attitude_states) {
   RandomSource random(6);
   WindowState state(config, attitude_states);
   for (int i = 0; i < 30; ++i) {
     const double turn = 0.1 * i;
-    const ObserverState observer = observerAt(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
-    i == 0 ? state.start(observer) : state.propagate(observer);
+    const OdometryState odometry = odometryAt(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
+    i == 0 ? state.start(odometry) : state.propagate(odometry);
     if (i % 5 == 4) state.makeAnchor(0);
     if (i % 3 != 2) continue;
     Information information(coordinatesFrom(0, state.frameCoordinate(state.frames().size())));
@@ -298,13 +298,13 @@ WindowState measured(const ObserverNoiseConfig& config, bool attitude_states) {
 }
 
 TEST(WindowState, TheLinearFormIsTheOtherOneWithoutErrorsOfAttitude) {
-  ObserverNoiseConfig config;
-  config.tilt_deviation_deg = 0;
+  OdometryNoiseConfig config;
+  config.tilt_sigma_deg = 0;
   config.yaw_walk_deg_per_sqrt_s = 0;
   config.yaw_walk_deg_per_sqrt_m = 0;
   config.attitude_noise_deg = 0.001;  // the least that is allowed
   const WindowState full = measured(config, true);
-  const WindowState linear = measured(ObserverNoiseConfig(), false);
+  const WindowState linear = measured(OdometryNoiseConfig(), false);
   const auto P = full.covariance();
   EXPECT_LT((linear.covariance() - P).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_GT(P.diagonal().maxCoeff(), 5e-4);
@@ -317,13 +317,13 @@ TEST(WindowState, TheLinearFormIsTheOtherOneWithoutErrorsOfAttitude) {
 }
 
 TEST(WindowState, TheLinearFormLeavesAttitudesToTheBitAsTheObserverSays) {
-  const WindowState state = measured(ObserverNoiseConfig(), false);
+  const WindowState state = measured(OdometryNoiseConfig(), false);
   for (std::size_t i = 0; i < state.frames().size(); ++i) {
     const int at = state.frameCoordinate(i) + 3;
     EXPECT_TRUE(state.covariance().middleRows<3>(at).isZero(0));
   }
   const double yaw_rad = 0.1 * 29;
-  EXPECT_LT((state.frames().back().R_map_base - rotationOf({0, 0, yaw_rad})).norm(), 1e-12);
+  EXPECT_LT((state.frames().back().R_map_rig - rotationOf({0, 0, yaw_rad})).norm(), 1e-12);
   expectHonest(state);
 }
 

@@ -18,10 +18,10 @@ constexpr int kLapFrames = 200;
 constexpr int kLaps = 3;
 
 /// As on the AR.Drone: one ahead, at the nose, one that looks down.
-Eigen::Isometry3d frontMounting() {
-  return Eigen::Translation3d(0.21, 0, 0) * test::forwardMounting();
+Eigen::Isometry3d frontExtrinsics() {
+  return Eigen::Translation3d(0.21, 0, 0) * test::forwardExtrinsics();
 }
-Eigen::Isometry3d bottomMounting() {
+Eigen::Isometry3d bottomExtrinsics() {
   Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
   T_base_cam.linear() << 0, -1, 0, -1, 0, 0, 0, 0, -1;
   return Eigen::Translation3d(0, -0.02, 0) * T_base_cam;
@@ -43,15 +43,15 @@ struct SwitchedRun : FlightRun {
 };
 
 SwitchedRun fly(std::uint64_t seed, const Flight& flight,
-                const std::vector<ObserverState>& observer, const SlamConfig& config,
+                const std::vector<OdometryState>& odometry, const SlamConfig& config,
                 const WhichCamera& is_bottom) {
   PointWorld world = room(seed);
   bool was_bottom = is_bottom(0);
-  Slam slam(config, was_bottom ? bottomMounting() : frontMounting());
+  Slam slam(config, was_bottom ? bottomExtrinsics() : frontExtrinsics());
   SwitchedRun run;
   for (std::size_t i = 0; i < flight.size(); ++i) {
     const bool bottom = is_bottom(i);
-    const Eigen::Isometry3d T_base_cam = bottom ? bottomMounting() : frontMounting();
+    const Eigen::Isometry3d T_base_cam = bottom ? bottomExtrinsics() : frontExtrinsics();
     if (bottom != was_bottom) {
       slam.changeCamera(T_base_cam);
       world.changeCamera();
@@ -59,9 +59,9 @@ SwitchedRun fly(std::uint64_t seed, const Flight& flight,
     was_bottom = bottom;
     run.is_bottom.push_back(bottom);
     run.results.push_back(slam.process(
-        world.look(flight[i].T_map_base * T_base_cam, flight[i].stamp_ns), observer[i]));
+        world.look(flight[i].T_map_base * T_base_cam, flight[i].stamp_ns), odometry[i]));
   }
-  run.landmarks = slam.landmarks().all();
+  run.landmarks = slam.landmarks();
   return run;
 }
 
@@ -74,12 +74,12 @@ double rmse_m(const Flight& flight, const SwitchedRun& run, std::size_t first) {
   return std::sqrt(sum / static_cast<double>(flight.size() - first));
 }
 
-double observerRmse_m(const Flight& flight, const std::vector<ObserverState>& observer,
+double observerRmse_m(const Flight& flight, const std::vector<OdometryState>& odometry,
                       std::size_t first) {
   double sum = 0;
   for (std::size_t i = first; i < flight.size(); ++i)
     sum +=
-        (observer[i].T_odom_base.translation() - flight[i].T_map_base.translation()).squaredNorm();
+        (odometry[i].T_odom_base.translation() - flight[i].T_map_base.translation()).squaredNorm();
   return std::sqrt(sum / static_cast<double>(flight.size() - first));
 }
 
@@ -87,16 +87,16 @@ bool inSecondLap(std::size_t frame) {
   return frame >= kLapFrames && frame < 2 * kLapFrames;
 }
 
-SlamConfig constraintConfig() {
+SlamConfig msckfConfig() {
   SlamConfig config;
-  config.constraint_filter.observer.walk_m_per_sqrt_s = 0.03;  // what test::observe draws
+  config.msckf.odometry.walk_m_per_sqrt_s = 0.03;  // what test::observe draws
   return config;
 }
 
 TEST(CameraSwitch, OneMapHasWhatBothCamerasSaw) {
   const Flight flight = test::lapsFlight(kLapFrames, kLaps, 10);
   for (const bool thesis : {false, true}) {
-    SlamConfig config = constraintConfig();
+    SlamConfig config = msckfConfig();
     if (thesis) config.estimator = Estimator::kThesis;
     const SwitchedRun run = fly(1, flight, test::observeExactly(flight), config, inSecondLap);
     int floor = 0;
@@ -117,15 +117,15 @@ TEST(CameraSwitch, OneMapHasWhatBothCamerasSaw) {
 TEST(CameraSwitch, WhatTheFirstCameraSawCorrectsThePoseWhenItIsBack) {
   const Flight flight = test::lapsFlight(kLapFrames, kLaps, 10);
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const auto observer = test::observe(flight, {}, seed);
-    const SwitchedRun run = fly(seed, flight, observer, constraintConfig(), inSecondLap);
+    const auto odometry = test::observe(flight, {}, seed);
+    const SwitchedRun run = fly(seed, flight, odometry, msckfConfig(), inSecondLap);
     // The third lap finds the first one's landmarks.
     int localised = 0;
     for (std::size_t i = 2 * kLapFrames; i < flight.size(); ++i)
       localised += run.results[i].state == SlamState::kLocalised ? 1 : 0;
     EXPECT_GT(localised, kLapFrames / 2) << seed;
     EXPECT_LT(rmse_m(flight, run, 2 * kLapFrames),
-              0.4 * observerRmse_m(flight, observer, 2 * kLapFrames))
+              0.4 * observerRmse_m(flight, odometry, 2 * kLapFrames))
         << seed;
   }
 }
@@ -133,8 +133,8 @@ TEST(CameraSwitch, WhatTheFirstCameraSawCorrectsThePoseWhenItIsBack) {
 TEST(CameraSwitch, ThePoseDoesNotJumpWithTheCamera) {
   const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
   const auto every_2_s = [](std::size_t frame) { return frame / 20 % 2 == 1; };
-  const auto observer = test::observeExactly(flight);
-  const SwitchedRun run = fly(1, flight, observer, constraintConfig(), every_2_s);
+  const auto odometry = test::observeExactly(flight);
+  const SwitchedRun run = fly(1, flight, odometry, msckfConfig(), every_2_s);
   for (std::size_t i = 1; i < flight.size(); ++i) {
     const Eigen::Vector3d step =
         run.results[i].T_map_base.translation() - run.results[i - 1].T_map_base.translation();
@@ -158,18 +158,17 @@ TEST(CameraSwitch, TheLeverOfEachCameraIsItsOwn) {
     flight.push_back(pose);
   }
   const auto every_2_s = [](std::size_t frame) { return frame / 20 % 2 == 1; };
-  const SwitchedRun run =
-      fly(1, flight, test::observeExactly(flight), constraintConfig(), every_2_s);
+  const SwitchedRun run = fly(1, flight, test::observeExactly(flight), msckfConfig(), every_2_s);
   EXPECT_LT(rmse_m(flight, run, 0), 0.03);
 }
 
 TEST(CameraSwitch, AnAbsurdMountingIsRefusedAndNothingChanges) {
-  Slam slam(constraintConfig(), frontMounting());
-  EXPECT_THROW(slam.changeCamera(Eigen::Translation3d(1000, 0, 0) * bottomMounting()),
+  Slam slam(msckfConfig(), frontExtrinsics());
+  EXPECT_THROW(slam.changeCamera(Eigen::Translation3d(1000, 0, 0) * bottomExtrinsics()),
                std::invalid_argument);
-  SlamConfig with_mounting = constraintConfig();
-  with_mounting.constraint_filter.observer.mounting_deviation_deg = 0.3;
-  EXPECT_FALSE(Slam(with_mounting, frontMounting()).canChangeCamera());
+  SlamConfig with_mounting = msckfConfig();
+  with_mounting.msckf.odometry.extrinsics_sigma_deg = 0.3;
+  EXPECT_FALSE(Slam(with_mounting, frontExtrinsics()).canChangeCamera());
   EXPECT_TRUE(slam.canChangeCamera());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the constraint filter's covariance is true where the odometry errs exactly as configured.
+// Whether the MSCKF's covariance is true where the odometry errs exactly as configured.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -18,18 +18,18 @@ double radians(double degrees) {
   return degrees * M_PI / 180;
 }
 
-/// Odometry with all errors that ObserverNoiseConfig speaks of, drawn as it says.
-std::vector<ObserverState> observeAs(const ObserverNoiseConfig& config, const Flight& flight,
+/// Odometry with all errors that OdometryNoiseConfig speaks of, drawn as it says.
+std::vector<OdometryState> observeAs(const OdometryNoiseConfig& config, const Flight& flight,
                                      std::uint64_t seed) {
   RandomSource random(seed, 78);
-  const double scale_error = config.scale_deviation * random.normal();
+  const double scale_error = config.scale_sigma * random.normal();
   Eigen::Vector3d bias_m_s = config.velocity_bias_m_s * random.normal3();
-  Eigen::Vector3d odom_turn_rad = radians(config.tilt_deviation_deg) * random.normal3();
+  Eigen::Vector3d odom_turn_rad = radians(config.tilt_sigma_deg) * random.normal3();
   odom_turn_rad.z() = 0;
-  std::vector<ObserverState> states;
+  std::vector<OdometryState> states;
   for (std::size_t i = 0; i < flight.size(); ++i) {
     const Eigen::Isometry3d& T_map_base = flight[i].T_map_base;
-    ObserverState state;
+    OdometryState state;
     state.stamp_ns = flight[i].stamp_ns;
     if (i == 0) {
       state.T_odom_base.translation() = T_map_base.translation();
@@ -54,7 +54,7 @@ std::vector<ObserverState> observeAs(const ObserverNoiseConfig& config, const Fl
           radians(config.yaw_walk_deg_per_sqrt_m) * radians(config.yaw_walk_deg_per_sqrt_m) *
               step_odom.norm();
       const double yaw_rad = odom_turn_rad.z() + std::sqrt(yaw_variance) * random.normal();
-      fade(config.tilt_time_s, radians(config.tilt_deviation_deg), odom_turn_rad);
+      fade(config.tilt_time_s, radians(config.tilt_sigma_deg), odom_turn_rad);
       odom_turn_rad.z() = yaw_rad;
     }
     state.T_odom_base.linear() = rotationOf(-odom_turn_rad) *
@@ -80,9 +80,8 @@ Consistency overTwentySeeds(const SlamConfig& config) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     test::PointWorld world(seed);
     world.addRoom({10, 8, 3}, 1200);
-    const std::vector<ObserverState> observer =
-        observeAs(config.constraint_filter.observer, flight, seed);
-    const FlightRun run = test::fly(world, flight, observer, config);
+    const std::vector<OdometryState> odometry = observeAs(config.msckf.odometry, flight, seed);
+    const FlightRun run = test::fly(world, flight, odometry, config);
     for (std::size_t i = 1; i < flight.size(); ++i) {
       const FrameResult& result = run.results[i];
       const Eigen::Vector3d error =
@@ -104,17 +103,17 @@ void expectHonest(const Consistency& consistency) {
 
 TEST(ConsistencyWorld, TheCovarianceIsTrueOverTwentySeeds) {
   SlamConfig config;
-  config.estimator = Estimator::kConstraint;
+  config.estimator = Estimator::kMsckf;
   // Measured: 0.97 (single seeds 0.27 to 2.1), 99.6 % inside (96 % at least).
   expectHonest(overTwentySeeds(config));
 }
 
 TEST(ConsistencyWorld, SoIsThatOfTheLinearFormWhereTheAttitudeIsExact) {
   SlamConfig config;
-  config.estimator = Estimator::kConstraint;
-  config.constraint_filter.attitude_states = false;
-  ObserverNoiseConfig& noise = config.constraint_filter.observer;
-  noise.tilt_deviation_deg = 0;
+  config.estimator = Estimator::kMsckf;
+  config.msckf.attitude_states = false;
+  OdometryNoiseConfig& noise = config.msckf.odometry;
+  noise.tilt_sigma_deg = 0;
   noise.yaw_walk_deg_per_sqrt_s = 0;
   noise.yaw_walk_deg_per_sqrt_m = 0;
   noise.attitude_noise_deg = 0.001;  // the least that is allowed

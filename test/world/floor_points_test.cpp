@@ -12,7 +12,7 @@ namespace {
 using test::Flight;
 using test::PointWorld;
 
-constexpr double kScaleDeviation = 0.05;
+constexpr double kScaleSigma = 0.05;
 
 /// The floor, and a table of 0.7 m where asked for.
 PointWorld floorWorld(std::uint64_t seed, bool with_table) {
@@ -26,7 +26,7 @@ PointWorld floorWorld(std::uint64_t seed, bool with_table) {
   return world;
 }
 
-Eigen::Isometry3d bottomMounting() {
+Eigen::Isometry3d bottomExtrinsics() {
   Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
   T_base_cam.linear() << 0, -1, 0, -1, 0, 0, 0, 0, -1;
   return Eigen::Translation3d(0, -0.02, 0) * T_base_cam;
@@ -34,7 +34,7 @@ Eigen::Isometry3d bottomMounting() {
 
 struct Outcome {
   double scale_off = 0;
-  double scale_deviation = 0;
+  double scale_sigma = 0;
   double rmse_m = 0;
 };
 
@@ -42,33 +42,33 @@ Outcome fly(std::uint64_t seed, double scale_error, bool floor_points, bool with
   const Flight flight = test::lapsFlight(200, 2, 10, 2.5, 1.4);
   test::DriftConfig drift;
   drift.scale_error = scale_error;
-  std::vector<ObserverState> observer = test::observe(flight, drift, seed);
+  std::vector<OdometryState> odometry = test::observe(flight, drift, seed);
   RandomSource random(seed, 6);
   for (std::size_t i = 0; i < flight.size(); ++i) {
     const Eigen::Vector3d& at = flight[i].T_map_base.translation();
     // The sonar's cone meets the table earlier than the camera's middle does.
     const bool is_above_table = with_table && at.x() > 0.9 && std::abs(at.y()) < 1.6;
-    observer[i].height_m = at.z() - (is_above_table ? 0.7 : 0) + 0.03 * random.normal();
+    odometry[i].height_m = at.z() - (is_above_table ? 0.7 : 0) + 0.03 * random.normal();
   }
   SlamConfig config;
-  config.constraint_filter.observer.walk_m_per_sqrt_s = 0.03;  // what test::observe draws
-  config.constraint_filter.observer.velocity_bias_m_s = 0.01;
-  config.constraint_filter.observer.scale_deviation = kScaleDeviation;
+  config.msckf.odometry.walk_m_per_sqrt_s = 0.03;  // what test::observe draws
+  config.msckf.odometry.velocity_bias_m_s = 0.01;
+  config.msckf.odometry.scale_sigma = kScaleSigma;
   config.height_input.use_range = true;
-  config.constraint_filter.height.floor_points = floor_points;
+  config.msckf.height.floor_points = floor_points;
   PointWorld world = floorWorld(seed, with_table);
-  Slam slam(config, bottomMounting());
+  Slam slam(config, bottomExtrinsics());
   Outcome outcome;
   FrameResult last;
   for (std::size_t i = 0; i < flight.size(); ++i) {
-    last = slam.process(world.look(flight[i].T_map_base * bottomMounting(), flight[i].stamp_ns),
-                        observer[i]);
+    last = slam.process(world.look(flight[i].T_map_base * bottomExtrinsics(), flight[i].stamp_ns),
+                        odometry[i]);
     outcome.rmse_m +=
         (last.T_map_base.translation() - flight[i].T_map_base.translation()).squaredNorm();
   }
   outcome.rmse_m = std::sqrt(outcome.rmse_m / static_cast<double>(flight.size()));
   outcome.scale_off = last.scale_error - scale_error;
-  outcome.scale_deviation = last.scale_deviation;
+  outcome.scale_sigma = last.scale_sigma;
   return outcome;
 }
 
@@ -78,17 +78,17 @@ TEST(FloorPoints, TellTheScaleWithoutAnyClimb) {
   double without_m = 0;
   double with_m = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const double drawn = kScaleDeviation * RandomSource(seed, 9).normal();
+    const double drawn = kScaleSigma * RandomSource(seed, 9).normal();
     const Outcome without = fly(seed, drawn, false, false);
     const Outcome with = fly(seed, drawn, true, false);
-    EXPECT_GT(without.scale_deviation, 0.85 * kScaleDeviation) << seed;
-    EXPECT_LT(with.scale_deviation, 0.2 * kScaleDeviation) << seed;
+    EXPECT_GT(without.scale_sigma, 0.85 * kScaleSigma) << seed;
+    EXPECT_LT(with.scale_sigma, 0.2 * kScaleSigma) << seed;
     EXPECT_LT(std::abs(with.scale_off), 0.04) << seed;
-    nees += std::pow(with.scale_off / with.scale_deviation, 2) / kSeeds;
+    nees += std::pow(with.scale_off / with.scale_sigma, 2) / kSeeds;
     without_m += without.rmse_m / kSeeds;
     with_m += with.rmse_m / kSeeds;
   }
-  // Measured: 3.0; constant velocity errors of the test's observer are partly taken for scale.
+  // Measured: 3.0; constant velocity errors of the test's odometry are partly taken for scale.
   EXPECT_LT(nees, 4);
   EXPECT_LT(with_m, 0.25 * without_m);  // measured: 0.024 m against 0.177 m
 }

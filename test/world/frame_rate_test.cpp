@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "ardrone_vslam/constraint_filter.hpp"
+#include "msckf/msckf.hpp"
 #include "support/point_flight.hpp"
 
 namespace ardrone_vslam {
@@ -40,18 +40,18 @@ PointWorld room(std::uint64_t seed, int hz) {
 
 SlamConfig configOf() {
   SlamConfig config;
-  config.estimator = Estimator::kConstraint;
-  config.constraint_filter.observer.walk_m_per_sqrt_s = 0.03;
+  config.estimator = Estimator::kMsckf;
+  config.msckf.odometry.walk_m_per_sqrt_s = 0.03;
   return config;
 }
 
 /// Keyframes of the whole flight.
 int keyframesOf(const std::vector<ImageFeatures>& frames,
-                const std::vector<ObserverState>& observer) {
-  ConstraintFilter filter(configOf().constraint_filter, test::forwardMounting());
+                const std::vector<OdometryState>& odometry) {
+  Msckf filter(configOf().msckf, test::forwardExtrinsics());
   int count = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    i == 0 ? filter.start(observer[i]) : filter.predict(observer[i]);
+    i == 0 ? filter.start(odometry[i]) : filter.predict(odometry[i]);
     filter.track(frames[i]);
     if (filter.isKeyframe()) ++count;
   }
@@ -60,20 +60,20 @@ int keyframesOf(const std::vector<ImageFeatures>& frames,
 
 TEST(FrameRate, TracksWorkAtEveryRateAndKeyframesFollowTheWay) {
   const Flight flight = test::lapsFlight(static_cast<int>(kLap_s * kMostHz), kLaps, kMostHz);
-  const double way_m = 2 * M_PI * 2.5 * kLaps;
+  const double displacement_m = 2 * M_PI * 2.5 * kLaps;
   std::map<int, double> keyframes_per_m;
   for (const int hz : {3, 10, 30, 60}) {
     const int every = static_cast<int>(kMostHz) / hz;
     const Flight filmed = thinned(flight, every);
     std::vector<double> ratios;
     for (const std::uint64_t seed : {1, 2, 3}) {
-      const std::vector<ObserverState> observer = thinned(test::observe(flight, {}, seed), every);
+      const std::vector<OdometryState> odometry = thinned(test::observe(flight, {}, seed), every);
       PointWorld world = room(seed, hz);
-      const FlightRun run = test::fly(world, filmed, observer, configOf());
-      ratios.push_back(run.fused.rmse_m / run.observer.rmse_m);
+      const FlightRun run = test::fly(world, filmed, odometry, configOf());
+      ratios.push_back(run.fused.rmse_m / run.odometry.rmse_m);
       if (seed > 1) continue;
       PointWorld same = room(seed, hz);
-      keyframes_per_m[hz] = keyframesOf(test::film(same, filmed), observer) / way_m;
+      keyframes_per_m[hz] = keyframesOf(test::film(same, filmed), odometry) / displacement_m;
     }
     std::sort(ratios.begin(), ratios.end());
     EXPECT_LT(ratios[1], 0.3) << hz << " Hz";  // measured: 0.12 to 0.16

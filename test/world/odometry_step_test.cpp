@@ -16,9 +16,9 @@ using test::PointWorld;
 constexpr int kLapFrames = 200;
 constexpr std::size_t kFault = 300;  // frame, in the second of three laps
 
-SlamConfig constraintConfig() {
+SlamConfig msckfConfig() {
   SlamConfig config;
-  config.estimator = Estimator::kConstraint;
+  config.estimator = Estimator::kMsckf;
   return config;
 }
 
@@ -30,9 +30,9 @@ PointWorld room(std::uint64_t seed) {
   return world;
 }
 
-void stepBy(const Eigen::Vector3d& step_m, std::size_t from, std::vector<ObserverState>& observer) {
-  for (std::size_t i = from; i < observer.size(); ++i)
-    observer[i].T_odom_base.translation() += step_m;
+void stepBy(const Eigen::Vector3d& step_m, std::size_t from, std::vector<OdometryState>& odometry) {
+  for (std::size_t i = from; i < odometry.size(); ++i)
+    odometry[i].T_odom_base.translation() += step_m;
 }
 
 double errorAt(const Flight& flight, const FlightRun& run, std::size_t i) {
@@ -70,9 +70,9 @@ TEST(OdometryStepWorld, AStepIsToldAndIsNoWay) {
     PointWorld world = room(seed);
     const auto frames = test::film(world, flight);
     for (const double step_m : {1.0, 2.0, 20.0}) {
-      auto observer = test::observe(flight, {}, seed);
-      stepBy({step_m, 0, 0}, kFault, observer);
-      const FlightRun run = test::run(frames, observer, constraintConfig());
+      auto odometry = test::observe(flight, {}, seed);
+      stepBy({step_m, 0, 0}, kFault, odometry);
+      const FlightRun run = test::run(frames, odometry, msckfConfig());
       EXPECT_EQ(stepsIn(run), 1) << seed << ", " << step_m;
       EXPECT_NEAR(run.results[kFault].odometry_step_m, step_m, 0.3);
       // Measured: at most 0.24; when it is taken for a way 1 to 7 m for a step of 2 m.
@@ -86,9 +86,9 @@ TEST(OdometryStepWorld, AStepBeforeAnythingWasSeenAgainDoesNoHarmEither) {
   const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     PointWorld world = room(seed);
-    auto observer = test::observe(flight, {}, seed);
-    stepBy({0, -3, 1}, 100, observer);
-    const FlightRun run = test::fly(world, flight, observer, constraintConfig());
+    auto odometry = test::observe(flight, {}, seed);
+    stepBy({0, -3, 1}, 100, odometry);
+    const FlightRun run = test::fly(world, flight, odometry, msckfConfig());
     EXPECT_EQ(stepsIn(run), 1) << seed;
     EXPECT_LT(run.fused.max_m, 0.5) << seed;
   }
@@ -98,10 +98,10 @@ TEST(OdometryStepWorld, AStepThatInterpolationSpreadsOverImagesIsOne) {
   const Flight flight = test::lapsFlight(3 * kLapFrames, 2, 30);
   for (const std::uint64_t seed : {1, 2}) {
     PointWorld world = room(seed);
-    auto observer = test::observe(flight, {}, seed);
+    auto odometry = test::observe(flight, {}, seed);
     // Odometry at 10 Hz, images at 30 Hz.
-    for (std::size_t i = 900; i < 903; ++i) stepBy({2.0 / 3, 0, 0}, i, observer);
-    const FlightRun run = test::fly(world, flight, observer, constraintConfig());
+    for (std::size_t i = 900; i < 903; ++i) stepBy({2.0 / 3, 0, 0}, i, odometry);
+    const FlightRun run = test::fly(world, flight, odometry, msckfConfig());
     EXPECT_EQ(stepsIn(run), 3) << seed;
     EXPECT_LT(worstFrom(900, flight, run), 0.4) << seed;
   }
@@ -111,10 +111,10 @@ TEST(OdometryStepWorld, OdometryThatCatchesUpAfterAFreezeIsBelieved) {
   const Flight flight = test::lapsFlight(kLapFrames, 3, 10);
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     PointWorld world = room(seed);
-    auto observer = test::observe(flight, {}, seed);
+    auto odometry = test::observe(flight, {}, seed);
     for (std::size_t i = kFault; i < kFault + 30; ++i)
-      observer[i].T_odom_base = observer[kFault - 1].T_odom_base;
-    const FlightRun run = test::fly(world, flight, observer, constraintConfig());
+      odometry[i].T_odom_base = odometry[kFault - 1].T_odom_base;
+    const FlightRun run = test::fly(world, flight, odometry, msckfConfig());
     EXPECT_LT(worstFrom(kFault + 32, flight, run), 0.4) << seed;
   }
 }
@@ -124,13 +124,13 @@ TEST(OdometryStepWorld, AfterAFreezeThePlaceIsFoundAgain) {
   for (const int frozen : {30, 50}) {
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
       PointWorld world = room(seed);
-      auto observer = test::observe(flight, {}, seed);
+      auto odometry = test::observe(flight, {}, seed);
       const std::size_t again = kFault + static_cast<std::size_t>(frozen);
-      const Eigen::Isometry3d then = observer[kFault].T_odom_base;
-      const Eigen::Vector3d lost_m = observer[again].T_odom_base.translation() - then.translation();
-      for (std::size_t i = kFault; i < again; ++i) observer[i].T_odom_base = then;
-      stepBy(-lost_m, again, observer);
-      const FlightRun run = test::fly(world, flight, observer, constraintConfig());
+      const Eigen::Isometry3d then = odometry[kFault].T_odom_base;
+      const Eigen::Vector3d lost_m = odometry[again].T_odom_base.translation() - then.translation();
+      for (std::size_t i = kFault; i < again; ++i) odometry[i].T_odom_base = then;
+      stepBy(-lost_m, again, odometry);
+      const FlightRun run = test::fly(world, flight, odometry, msckfConfig());
       EXPECT_LT(worstFrom(again + 1, flight, run), 0.4) << seed << ", " << frozen;
     }
   }
@@ -141,19 +141,19 @@ TEST(OdometryStepWorld, TheFirstSearchAfterLostImagesAllowsForTheTimeWithoutThem
   constexpr std::size_t kLost = 100;
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     PointWorld world = room(seed);
-    auto observer = test::observe(flight, {}, seed);
+    auto odometry = test::observe(flight, {}, seed);
     auto frames = test::film(world, flight);
     // An error that the odometry does not claim, as it does after such a time.
-    for (std::size_t i = kFault; i < observer.size(); ++i)
-      observer[i].T_odom_base.translation() +=
+    for (std::size_t i = kFault; i < odometry.size(); ++i)
+      odometry[i].T_odom_base.translation() +=
           Eigen::Vector3d(0.1, -0.1, 0) * 0.1 * static_cast<double>(std::min(i - kFault, kLost));
     const auto cut = [](auto& all) {
       all.erase(all.begin() + static_cast<std::ptrdiff_t>(kFault),
                 all.begin() + static_cast<std::ptrdiff_t>(kFault + kLost));
     };
     cut(frames);
-    cut(observer);
-    const FlightRun run = test::run(frames, observer, constraintConfig());
+    cut(odometry);
+    const FlightRun run = test::run(frames, odometry, msckfConfig());
     EXPECT_EQ(run.results[kFault].state, SlamState::kRelocated) << seed;
     EXPECT_LT((run.results[kFault].T_map_base.translation() -
                flight[kFault + kLost].T_map_base.translation())

@@ -34,9 +34,9 @@ Flight flightWithABlindStretch() {
 }
 
 /// While blind the odometry drifts by 2.1 m and turns by some degrees.
-std::vector<ObserverState> observeDrifting(const Flight& flight, std::uint64_t seed,
+std::vector<OdometryState> observeDrifting(const Flight& flight, std::uint64_t seed,
                                            double yaw_deg) {
-  std::vector<ObserverState> observer = test::observe(flight, {}, seed);
+  std::vector<OdometryState> odometry = test::observe(flight, {}, seed);
   RandomSource random(seed, 5);
   const double heading = random.uniform(0, 2 * M_PI);
   const Eigen::Vector3d drift_m(1.9 * std::cos(heading), 1.9 * std::sin(heading),
@@ -44,17 +44,17 @@ std::vector<ObserverState> observeDrifting(const Flight& flight, std::uint64_t s
   for (std::size_t i = kSeen; i < flight.size(); ++i) {
     const double share =
         std::min(1.0, static_cast<double>(i - kSeen) / static_cast<double>(kBlind));
-    observer[i].T_odom_base.translation() += share * drift_m;
-    observer[i].T_odom_base.linear() =
+    odometry[i].T_odom_base.translation() += share * drift_m;
+    odometry[i].T_odom_base.linear() =
         Eigen::AngleAxisd(share * yaw_deg * M_PI / 180, Eigen::Vector3d::UnitZ()) *
-        observer[i].T_odom_base.linear();
+        odometry[i].T_odom_base.linear();
   }
-  return observer;
+  return odometry;
 }
 
-SlamConfig constraintConfig() {
+SlamConfig msckfConfig() {
   SlamConfig config;
-  config.estimator = Estimator::kConstraint;
+  config.estimator = Estimator::kMsckf;
   return config;
 }
 
@@ -72,14 +72,14 @@ FlightRun flyBlindly(std::uint64_t seed, double yaw_deg, double exchanged_share,
     const bool is_blind = i >= kSeen && i < kAgainFrom;
     const bool is_elsewhere = i >= kAgainFrom && i < kAgainFrom + elsewhere;
     if (i == kAgainFrom) world.exchangeDescriptors(exchanged_share);
-    const Eigen::Isometry3d T_map_cam = flight[i].T_map_base * test::forwardMounting();
+    const Eigen::Isometry3d T_map_cam = flight[i].T_map_base * test::forwardExtrinsics();
     frames.push_back(
         is_blind ? world.emptyView(flight[i].stamp_ns)
                  : (is_elsewhere ? other_world : world).look(T_map_cam, flight[i].stamp_ns));
     if (!is_elsewhere) continue;
     for (auto& track_id : frames.back().track_id) track_id += 1000000;  // the worlds count alike
   }
-  return test::run(frames, observeDrifting(flight, seed, yaw_deg), constraintConfig());
+  return test::run(frames, observeDrifting(flight, seed, yaw_deg), msckfConfig());
 }
 
 double error_m(const FlightRun& run, std::size_t frame) {
@@ -154,7 +154,7 @@ class FailingLandmarks : public ::testing::Test {
     world_.addRoom({10, 8, 3}, 1200);
   }
   ImageFeatures look(std::size_t frame) {
-    return world_.look(flight_[frame].T_map_base * test::forwardMounting(),
+    return world_.look(flight_[frame].T_map_base * test::forwardExtrinsics(),
                        flight_[frame].stamp_ns);
   }
   FlightRun flyThrough() const {
@@ -175,7 +175,7 @@ class FailingLandmarks : public ::testing::Test {
   Flight flight_;
   PointWorld world_;
   std::vector<ImageFeatures> frames_;
-  SlamConfig config_ = constraintConfig();
+  SlamConfig config_ = msckfConfig();
 };
 
 TEST_F(FailingLandmarks, WhatIsNoLongerThereIsDropped) {
@@ -215,7 +215,7 @@ TEST_F(FailingLandmarks, BehindAWallNoneFails) {
   elsewhere.addRoom({10, 8, 3}, 1200);
   for (std::size_t i = 0; i < flight_.size(); ++i) {
     const bool is_behind = i >= kLap && i < 2 * kLap;
-    frames_.push_back(is_behind ? elsewhere.look(flight_[i].T_map_base * test::forwardMounting(),
+    frames_.push_back(is_behind ? elsewhere.look(flight_[i].T_map_base * test::forwardExtrinsics(),
                                                  flight_[i].stamp_ns)
                                 : look(i));
     if (!is_behind) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `estimator: constraint` at rest and turning on the spot, with an observer that drifts.
+// `estimator: constraint` at rest and turning on the spot, with odometry that drifts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,9 +18,9 @@ constexpr double kRate_hz = 15;
 // About 2 m in 15 s, as odometry without a velocity sensor.
 constexpr test::DriftConfig kHover{0.02, 0.13};
 
-SlamConfig constraintConfig() {
+SlamConfig msckfConfig() {
   SlamConfig config;
-  config.estimator = Estimator::kConstraint;
+  config.estimator = Estimator::kMsckf;
   return config;
 }
 
@@ -60,7 +60,7 @@ TEST(RestWorld, AStillImageHoldsThePosition) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     PointWorld world = room(seed);
     const FlightRun run =
-        test::fly(world, flight, test::observe(flight, kHover, seed), constraintConfig());
+        test::fly(world, flight, test::observe(flight, kHover, seed), msckfConfig());
     EXPECT_LT(lastError_m(flight, run), 0.02) << "seed " << seed;
     EXPECT_GT(framesIn(run, SlamState::kResting), 200) << "seed " << seed;
     EXPECT_EQ(run.landmarks.size(), 0U) << "seed " << seed;
@@ -75,8 +75,8 @@ TEST(RestWorld, TurningOnTheSpotHoldsThePosition) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     PointWorld world = room(seed);
     const FlightRun run =
-        test::fly(world, flight, test::observe(flight, kHover, seed), constraintConfig());
-    EXPECT_LT(lastError_m(flight, run), 0.3 * run.observer.max_m) << "seed " << seed;
+        test::fly(world, flight, test::observe(flight, kHover, seed), msckfConfig());
+    EXPECT_LT(lastError_m(flight, run), 0.3 * run.odometry.max_m) << "seed " << seed;
     EXPECT_GT(framesIn(run, SlamState::kRotating), 150) << "seed " << seed;
     // Of the first second, when the odometry's drift still passes for motion; measured: one in all.
     EXPECT_LE(run.landmarks.size(), 1U) << "seed " << seed;
@@ -100,9 +100,9 @@ TEST(RestWorld, HoveringIsHeldWithinWhatTheImageShows) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7}) {
     PointWorld world = room(seed);
     const FlightRun run =
-        test::fly(world, flight, test::observe(flight, kHover, seed), constraintConfig());
+        test::fly(world, flight, test::observe(flight, kHover, seed), msckfConfig());
     errors_m.push_back(lastError_m(flight, run));
-    drifts_m.push_back(run.observer.max_m);
+    drifts_m.push_back(run.odometry.max_m);
   }
   std::sort(errors_m.begin(), errors_m.end());
   std::sort(drifts_m.begin(), drifts_m.end());
@@ -116,8 +116,8 @@ TEST(RestWorld, ASlowFlightBeforeAFarSceneIsNotHeld) {
   const Flight flight = test::straightFlight(150, kRate_hz, 0.3);
   PointWorld world(1);
   world.addRoom({200, 200, 60}, 3000);
-  SlamConfig config = constraintConfig();
-  config.constraint_filter.rest.rest_depth_m = 100;
+  SlamConfig config = msckfConfig();
+  config.msckf.rest.rest_depth_m = 100;
   const FlightRun run = test::fly(world, flight, test::observeExactly(flight), config);
   EXPECT_LT(lastError_m(flight, run), 0.05);
 }
@@ -127,8 +127,8 @@ TEST(RestWorld, AFrozenStreamDoesNotHoldAFlyingDrone) {
   PointWorld world = room(1);
   std::vector<ImageFeatures> frames;
   for (const auto& pose : flight)
-    frames.push_back(world.look(flight[0].T_map_base * test::forwardMounting(), pose.stamp_ns));
-  const FlightRun run = test::run(frames, test::observeExactly(flight), constraintConfig());
+    frames.push_back(world.look(flight[0].T_map_base * test::forwardExtrinsics(), pose.stamp_ns));
+  const FlightRun run = test::run(frames, test::observeExactly(flight), msckfConfig());
   EXPECT_EQ(framesIn(run, SlamState::kResting), 0);
   EXPECT_LT(lastError_m(flight, run), 0.05);
 }

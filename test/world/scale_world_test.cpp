@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The observer's scale error with `estimator: constraint`: one camera does not see it, heights do.
+// The odometry's scale error with `estimator: constraint`: one camera does not see it, heights do.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using test::Flight;
 using test::FlightRun;
 using test::PointWorld;
 
-constexpr double kScaleDeviation = 0.03;
+constexpr double kScaleSigma = 0.03;
 
 PointWorld room(std::uint64_t seed) {
   PointWorld world(seed);
@@ -33,24 +33,24 @@ Flight climbingLaps(double climb_m) {
 
 SlamConfig scaleConfig() {
   SlamConfig config;
-  config.estimator = Estimator::kConstraint;
+  config.estimator = Estimator::kMsckf;
   // What test::observe draws.
-  config.constraint_filter.observer.walk_m_per_sqrt_s = 0.03;
-  config.constraint_filter.observer.velocity_bias_m_s = 0.01;
-  config.constraint_filter.observer.scale_deviation = kScaleDeviation;
+  config.msckf.odometry.walk_m_per_sqrt_s = 0.03;
+  config.msckf.odometry.velocity_bias_m_s = 0.01;
+  config.msckf.odometry.scale_sigma = kScaleSigma;
   return config;
 }
 
 /// Height above the floor z = 0 at every frame.
 void measureHeight(const Flight& flight, double noise_m, std::uint64_t seed,
-                   std::vector<ObserverState>& observer) {
+                   std::vector<OdometryState>& odometry) {
   RandomSource random(seed, 5);
   for (std::size_t i = 0; i < flight.size(); ++i)
-    observer[i].height_m = flight[i].T_map_base.translation().z() + noise_m * random.normal();
+    odometry[i].height_m = flight[i].T_map_base.translation().z() + noise_m * random.normal();
 }
 
 double scaleDrawn(std::uint64_t seed) {
-  return kScaleDeviation * RandomSource(seed, 9).normal();
+  return kScaleSigma * RandomSource(seed, 9).normal();
 }
 
 TEST(ScaleWorld, WithoutAMetricSourceTheScaleStaysAsUnknownAsItWas) {
@@ -63,8 +63,7 @@ TEST(ScaleWorld, WithoutAMetricSourceTheScaleStaysAsUnknownAsItWas) {
       const FlightRun run =
           test::fly(world, flight, test::observe(flight, drift, seed), scaleConfig());
       double least = 1;
-      for (const FrameResult& r : run.results)
-        least = std::min(least, r.scale_deviation / kScaleDeviation);
+      for (const FrameResult& r : run.results) least = std::min(least, r.scale_sigma / kScaleSigma);
       EXPECT_GT(least * least, 0.99) << "climb " << climb_m << " m, seed " << seed;
     }
   }
@@ -80,15 +79,15 @@ TEST(ScaleWorld, HeightsThatChangeTellTheScale) {
     PointWorld world = room(seed);
     test::DriftConfig drift;
     drift.scale_error = scaleDrawn(seed);
-    std::vector<ObserverState> observer = test::observe(flight, drift, seed);
-    measureHeight(flight, 0.03, seed, observer);
-    const FlightRun run = test::fly(world, flight, observer, scaleConfig());
+    std::vector<OdometryState> odometry = test::observe(flight, drift, seed);
+    measureHeight(flight, 0.03, seed, odometry);
+    const FlightRun run = test::fly(world, flight, odometry, scaleConfig());
     const FrameResult& last = run.results.back();
     const double off = last.scale_error - drift.scale_error;
-    nees += off * off / (last.scale_deviation * last.scale_deviation);
+    nees += off * off / (last.scale_sigma * last.scale_sigma);
     before += drift.scale_error * drift.scale_error;
     after += off * off;
-    EXPECT_LT(last.scale_deviation, 0.5 * kScaleDeviation) << "seed " << seed;
+    EXPECT_LT(last.scale_sigma, 0.5 * kScaleSigma) << "seed " << seed;
   }
   EXPECT_GT(nees / kSeeds, 0.5);  // measured: 0.79
   EXPECT_LT(nees / kSeeds, 2);
@@ -101,16 +100,16 @@ TEST(ScaleWorld, ATableUnderTheDroneIsAnotherFloor) {
     PointWorld world = room(seed);
     test::DriftConfig drift;
     drift.scale_error = scaleDrawn(seed);
-    std::vector<ObserverState> observer = test::observe(flight, drift, seed);
-    measureHeight(flight, 0.03, seed, observer);
+    std::vector<OdometryState> odometry = test::observe(flight, drift, seed);
+    measureHeight(flight, 0.03, seed, odometry);
     for (std::size_t i = 0; i < flight.size(); ++i) {
       const Eigen::Vector3d& at = flight[i].T_map_base.translation();
       const bool is_above_table = at.x() > 1 && at.y() > 0;
       const bool is_above_leaf = at.x() < -2.3;
-      if (is_above_table) *observer[i].height_m -= 0.7;
-      if (is_above_leaf && i % 3 == 0) *observer[i].height_m -= 0.4;
+      if (is_above_table) *odometry[i].height_m -= 0.7;
+      if (is_above_leaf && i % 3 == 0) *odometry[i].height_m -= 0.4;
     }
-    const FlightRun run = test::fly(world, flight, observer, scaleConfig());
+    const FlightRun run = test::fly(world, flight, odometry, scaleConfig());
     const auto count = [&](HeightOutcome outcome) {
       return std::count_if(run.results.begin(), run.results.end(),
                            [outcome](const FrameResult& r) { return r.height == outcome; });
@@ -120,8 +119,8 @@ TEST(ScaleWorld, ATableUnderTheDroneIsAnotherFloor) {
     EXPECT_GT(count(HeightOutcome::kRejected), 5);
     EXPECT_GT(count(HeightOutcome::kApplied), 60);
     const FrameResult& last = run.results.back();
-    EXPECT_LT(std::abs(last.scale_error - drift.scale_error), 3 * last.scale_deviation);
-    EXPECT_LT(last.scale_deviation, 0.8 * kScaleDeviation);
+    EXPECT_LT(std::abs(last.scale_error - drift.scale_error), 3 * last.scale_sigma);
+    EXPECT_LT(last.scale_sigma, 0.8 * kScaleSigma);
   }
 }
 
@@ -132,7 +131,7 @@ TEST(ScaleWorld, AConstantHeightHoldsZAndTellsNothingOfTheScale) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     test::DriftConfig drift;
     drift.scale_error = scaleDrawn(seed);
-    std::vector<ObserverState> observer = test::observe(flight, drift, seed);
+    std::vector<OdometryState> odometry = test::observe(flight, drift, seed);
     PointWorld world = room(seed);
     const std::vector<ImageFeatures> frames = test::film(world, flight);
     const auto squaresOfZ = [&](const FlightRun& run) {
@@ -144,11 +143,11 @@ TEST(ScaleWorld, AConstantHeightHoldsZAndTellsNothingOfTheScale) {
       }
       return sum_m2;
     };
-    without_m2 += squaresOfZ(test::run(frames, observer, scaleConfig()));
-    for (ObserverState& state : observer) state.height_m = 0.9;  // above no matter what
-    const FlightRun with = test::run(frames, observer, scaleConfig());
+    without_m2 += squaresOfZ(test::run(frames, odometry, scaleConfig()));
+    for (OdometryState& state : odometry) state.height_m = 0.9;  // above no matter what
+    const FlightRun with = test::run(frames, odometry, scaleConfig());
     with_m2 += squaresOfZ(with);
-    EXPECT_GT(with.results.back().scale_deviation, 0.95 * kScaleDeviation)
+    EXPECT_GT(with.results.back().scale_sigma, 0.95 * kScaleSigma)
         << "seed " << seed;  // measured: 0.973 to 0.983
   }
   EXPECT_LT(with_m2, 0.5 * without_m2);  // measured: 0.018 m against 0.029 m in z

@@ -97,7 +97,7 @@ TEST(SlamWorld, RevisitsTakeTheDriftOutOfTheOdometry) {
       PointWorld world = room(seed, c.wrong_share);
       const FlightRun run =
           test::fly(world, flight, test::observe(flight, {}, seed), withMean(c.mean));
-      ratios.push_back(run.fused.rmse_m / run.observer.rmse_m);
+      ratios.push_back(run.fused.rmse_m / run.odometry.rmse_m);
       EXPECT_LT(ratios.back(), c.worst)
           << "seed " << seed << ", " << nameOf(c.mean) << ", wrong " << c.wrong_share;
     }
@@ -111,7 +111,7 @@ TEST(SlamWorld, FirstPassesDoNoHarm) {
     PointWorld world = corridor(seed);
     const FlightRun run =
         test::fly(world, flight, test::observe(flight, {}, seed), test::thesisConfig());
-    EXPECT_LT(run.fused.rmse_m, 1.1 * run.observer.rmse_m) << "seed " << seed;
+    EXPECT_LT(run.fused.rmse_m, 1.1 * run.odometry.rmse_m) << "seed " << seed;
   }
 }
 
@@ -125,7 +125,7 @@ TEST(SlamWorld, WrongFeaturesOnAFirstPassDoLittleHarm) {
       PointWorld world = corridor(seed, wrong_share);
       const FlightRun run =
           test::fly(world, flight, test::observe(flight, {}, seed), test::thesisConfig());
-      ratios.push_back(run.fused.rmse_m / run.observer.rmse_m);
+      ratios.push_back(run.fused.rmse_m / run.odometry.rmse_m);
       EXPECT_LT(ratios.back(), 1.3) << "seed " << seed << ", wrong " << wrong_share;
     }
     EXPECT_LT(median(ratios), 1.1) << wrong_share << ' ' << ::testing::PrintToString(ratios);
@@ -147,14 +147,14 @@ TEST(SlamWorld, LandmarksStandWhereThePointsAre) {
 TEST(SlamWorld, FirstImageMapEqualsOdometry) {
   Flight flight = test::lapsFlight(kLapFrames, 1, 10);
   PointWorld world = room(1);
-  auto observer = test::observeExactly(flight);
+  auto odometry = test::observeExactly(flight);
   const Eigen::Isometry3d T_odom_map =
       Eigen::Translation3d(5, 6, 7) * Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ());
-  for (ObserverState& state : observer) state.T_odom_base = T_odom_map * state.T_odom_base;
-  Slam slam(test::thesisConfig(), test::forwardMounting());
+  for (OdometryState& state : odometry) state.T_odom_base = T_odom_map * state.T_odom_base;
+  Slam slam(test::thesisConfig(), test::forwardExtrinsics());
   EXPECT_TRUE(slam.T_map_odom().matrix().isIdentity(0));
-  const FrameResult first = slam.process(test::film(world, flight)[0], observer[0]);
-  EXPECT_EQ(first.T_map_base.matrix(), observer[0].T_odom_base.matrix());
+  const FrameResult first = slam.process(test::film(world, flight)[0], odometry[0]);
+  EXPECT_EQ(first.T_map_base.matrix(), odometry[0].T_odom_base.matrix());
   EXPECT_TRUE(slam.T_map_odom().matrix().isIdentity(0));
   EXPECT_EQ(first.state, SlamState::kBuildingMap);
   EXPECT_EQ(first.stamp_ns, flight[0].stamp_ns);
@@ -164,10 +164,10 @@ TEST(SlamWorld, MapToOdomTakesTheOdometryToThePose) {
   const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
   PointWorld world = room(2);
   const auto frames = test::film(world, flight);
-  const auto observer = test::observe(flight, {}, 2);
-  Slam slam(test::thesisConfig(), test::forwardMounting());
+  const auto odometry = test::observe(flight, {}, 2);
+  Slam slam(test::thesisConfig(), test::forwardExtrinsics());
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const FrameResult& r = slam.process(frames[i], observer[i]);
+    const FrameResult& r = slam.process(frames[i], odometry[i]);
     const Eigen::Isometry3d expected = slam.T_map_odom() * r.T_odom_base;
     ASSERT_LT((expected.matrix() - r.T_map_base.matrix()).cwiseAbs().maxCoeff(), 1e-12);
   }
@@ -178,12 +178,12 @@ TEST(SlamWorld, ObserverEstimatorPassesTheOdometryOn) {
   const Flight flight = test::lapsFlight(kLapFrames, 1, 10);
   PointWorld world = room(1);
   SlamConfig config;
-  config.estimator = Estimator::kObserver;
-  const auto observer = test::observe(flight, {}, 3);
-  const FlightRun run = test::fly(world, flight, observer, config);
+  config.estimator = Estimator::kOdometry;
+  const auto odometry = test::observe(flight, {}, 3);
+  const FlightRun run = test::fly(world, flight, odometry, config);
   for (std::size_t i = 0; i < run.results.size(); ++i) {
-    ASSERT_EQ(run.results[i].state, SlamState::kObserverOnly);
-    const Eigen::Isometry3d& odometry = observer[i].T_odom_base;
+    ASSERT_EQ(run.results[i].state, SlamState::kOdometryOnly);
+    const Eigen::Isometry3d& odometry = odometry[i].T_odom_base;
     ASSERT_LT((run.results[i].T_map_base.matrix() - odometry.matrix()).cwiseAbs().maxCoeff(),
               1e-12);
     ASSERT_EQ(run.results[i].landmarks, 0);
@@ -201,8 +201,8 @@ TEST(SlamWorld, PlanarModeAtThreeHertzFindsMoreLandmarksLapByLap) {
     PointWorld world(seed, faults);
     world.addRoom({10, 8, 3}, 1200);
     const Flight flight = test::lapsFlight(kFrames, 3, 3);
-    const auto observer = test::observe(flight, {}, seed);
-    const FlightRun run = test::fly(world, flight, observer, config);
+    const auto odometry = test::observe(flight, {}, seed);
+    const FlightRun run = test::fly(world, flight, odometry, config);
     const double first = test::meanMatches(run, 0, kFrames);
     const double second = test::meanMatches(run, kFrames, 2 * kFrames);
     const double third = test::meanMatches(run, 2 * kFrames, 3 * kFrames);
@@ -211,8 +211,8 @@ TEST(SlamWorld, PlanarModeAtThreeHertzFindsMoreLandmarksLapByLap) {
     for (const Landmark& landmark : run.landmarks) ASSERT_EQ(landmark.position_map.z(), 0);
     for (std::size_t i = 0; i < run.results.size(); ++i) {
       ASSERT_NEAR(run.results[i].T_map_base.translation().z(),
-                  observer[i].T_odom_base.translation().z(), 1e-9)
-          << "height stays the observer's";
+                  odometry[i].T_odom_base.translation().z(), 1e-9)
+          << "height stays the odometry's";
     }
   }
 }
@@ -230,7 +230,7 @@ TEST(SlamWorld, PlanarModeWithTrueOdometry) {
 }
 
 TEST(SlamWorld, PlanarModeDoesNotMindUnknownTilt) {
-  // The camera looks 8 degrees up and the observer does not know.
+  // The camera looks 8 degrees up and the odometry does not know.
   const Eigen::Isometry3d tilt(Eigen::AngleAxisd(-8 * M_PI / 180, Eigen::Vector3d::UnitY()));
   const Flight flight = test::lapsFlight(60, 2, 3);
   Flight tilted = flight;

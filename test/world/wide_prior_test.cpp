@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The observer jumps by metres and says that it may have: windows are of no use then.
+// The odometry jumps by metres and says that it may have: windows are of no use then.
 #include <gtest/gtest.h>
 
 #include "support/point_flight.hpp"
@@ -17,14 +17,14 @@ class WidePrior : public ::testing::Test {
     test::PointWorld world(3);
     world.addRoom({10, 8, 3}, 1500);
     frames_ = test::film(world, flight);
-    observer_ = test::observeExactly(flight);
+    odometry_ = test::observeExactly(flight);
     frames_.resize(kFrames);
-    observer_.resize(kFrames);
-    calm_observer_ = observer_;
+    odometry_.resize(kFrames);
+    calm_observer_ = odometry_;
     for (std::size_t i = kJump; i < kFrames; ++i)
-      observer_[i].T_odom_base.translation() += Eigen::Vector3d(-1.8, 2.2, 0.4);
+      odometry_[i].T_odom_base.translation() += Eigen::Vector3d(-1.8, 2.2, 0.4);
     // 8 cm of way make a deviation of 0.2 m, a jump of 2.9 m one of 1.2 m.
-    config_.thesis_filter.observer_noise_m_per_sqrt_m = 0.7;
+    config_.thesis_filter.odometry_noise_m_per_sqrt_m = 0.7;
     config_.thesis_filter.mean = MeanKind::kExact;
     // Tracks would find most landmarks as they do in every frame.
     for (auto& track_id : frames_[kJump].track_id) track_id += 1000000;
@@ -34,12 +34,12 @@ class WidePrior : public ::testing::Test {
 
   SlamConfig config_ = test::thesisConfig();
   std::vector<ImageFeatures> frames_;
-  std::vector<ObserverState> observer_;
-  std::vector<ObserverState> calm_observer_;  // the same without the jump
+  std::vector<OdometryState> odometry_;
+  std::vector<OdometryState> calm_observer_;  // the same without the jump
 };
 
 TEST_F(WidePrior, AllLandmarksAreComparedAndThePoseIsFoundAgain) {
-  const auto run = test::run(frames_, observer_, config_);
+  const auto run = test::run(frames_, odometry_, config_);
   for (std::size_t i = 5; i < kJump; ++i)
     ASSERT_EQ(run.results[i].match_method, MatchMethod::kGuided) << i;
   const FrameResult& result = atJump(run);
@@ -57,30 +57,30 @@ TEST_F(WidePrior, AllLandmarksAreComparedAndThePoseIsFoundAgain) {
   EXPECT_LT(offset_m(kFrames - 1), 0.05);
 
   config_.association.max_window_share = 1e6;
-  const FrameResult guided = atJump(test::run(frames_, observer_, config_));
+  const FrameResult guided = atJump(test::run(frames_, odometry_, config_));
   EXPECT_EQ(guided.match_method, MatchMethod::kGuided);
   EXPECT_LT(guided.landmark_matches, result.landmark_matches)
       << "the landmarks in the image are not those that the prediction puts there";
 }
 
 TEST_F(WidePrior, LargeMapsAreSearchedByTheIndexWithTheSameAnswer) {
-  const auto exact = test::run(frames_, observer_, config_);
+  const auto exact = test::run(frames_, odometry_, config_);
   config_.association.index_from_landmarks = 300;
   config_.association.index_probes = 1000;  // all lists
-  const auto indexed = test::run(frames_, observer_, config_);
+  const auto indexed = test::run(frames_, odometry_, config_);
   EXPECT_EQ(atJump(indexed).match_method, MatchMethod::kIndexed);
   for (std::size_t i = 0; i < kFrames; ++i) {
     ASSERT_EQ(indexed.results[i].landmark_matches, exact.results[i].landmark_matches) << i;
     ASSERT_EQ(indexed.results[i].T_map_base.matrix(), exact.results[i].T_map_base.matrix()) << i;
   }
   config_.association.index_probes = 4;
-  const FrameResult fewer = atJump(test::run(frames_, observer_, config_));
+  const FrameResult fewer = atJump(test::run(frames_, odometry_, config_));
   EXPECT_EQ(fewer.match_method, MatchMethod::kIndexed);
   EXPECT_GT(fewer.landmark_matches, atJump(exact).landmark_matches / 3);
 }
 
 TEST_F(WidePrior, NoLandmarkIsWornDownByAPriorThatIsWrong) {
-  const auto run = test::run(frames_, observer_, config_);
+  const auto run = test::run(frames_, odometry_, config_);
   EXPECT_LE(atJump(run).removed_landmarks, 2);
 }
 

@@ -11,14 +11,14 @@
 
 #include "../../nodes/node_config.hpp"  // the structs alone: no ROS
 #include "../../onboard/onboard_config.hpp"
-#include "ardrone_vslam/late_fusion.hpp"
+#include "ardrone_vslam/delayed_fusion.hpp"
 #include "ardrone_vslam/parameter_values.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr const char* kListOfAll = " (docs/parameters.md and --list-parameters name all)";
-constexpr const char* kObserverFusion = "observer_fusion";
+constexpr const char* kOdometryFusion = "odometry_fusion";
 constexpr const char* kOnboard = "onboard";
 
 using Section = std::map<std::string, std::string>;  // key -> value as written
@@ -80,7 +80,7 @@ bool hasParameter(Config config, const std::string& key) {
 /// pass over them, but for `rectified`, `rescale_calibration` and `base_frame`.
 bool isNodeKey(const std::string& section, const std::string& key) {
   if (section == "tracker") return hasParameter(TrackerNodeConfig{}, key);
-  if (section == kObserverFusion) return hasParameter(ObserverFusionNodeConfig{}, key);
+  if (section == kOdometryFusion) return hasParameter(OdometryFusionNodeConfig{}, key);
   if (section == kOnboard) return false;
   return hasParameter(MapperNodeConfig{}, key);
 }
@@ -111,11 +111,11 @@ void writeDefault(Config config, const std::string& key, std::ostringstream& out
   visitParameters(config, ValueWriter{key, &out});
 }
 
-/// Over tracker and mapper, whose keys are often put into the wrong one; observer_fusion's own.
+/// Over tracker and mapper, whose keys are often put into the wrong one; odometry_fusion's own.
 std::string hintFor(const std::string& section, const std::string& written) {
   std::set<std::string> names;
-  if (section == kObserverFusion || section == kOnboard) {
-    section == kOnboard ? addNames(OnboardConfig{}, names) : addNames(LateFusionConfig{}, names);
+  if (section == kOdometryFusion || section == kOnboard) {
+    section == kOnboard ? addNames(OnboardConfig{}, names) : addNames(DelayedFusionConfig{}, names);
     const std::string nearest = nearestName(written, names);
     return nearest.empty() ? nearest : "; did you mean " + section + "/" + nearest;
   }
@@ -187,9 +187,9 @@ PipelineConfig loadConfig(const std::string& path, const std::vector<std::string
   SectionReader{"mapper", &sections["mapper"], &faults}(base_frame, config.base_frame);
   readSection("tracker", sections, config.tracker, faults);
   readSection("mapper", sections, config.mapper, faults);
-  if (sections.count(kObserverFusion) > 0) {
-    LateFusionConfig late_fusion;  // of no use offline, but its keys are checked all the same
-    readSection(kObserverFusion, sections, late_fusion, faults);
+  if (sections.count(kOdometryFusion) > 0) {
+    DelayedFusionConfig delayed_fusion;  // of no use offline, but its keys are checked all the same
+    readSection(kOdometryFusion, sections, delayed_fusion, faults);
   }
   if (sections.count(kOnboard) > 0) {
     OnboardConfig onboard;  // likewise
@@ -197,7 +197,7 @@ PipelineConfig loadConfig(const std::string& path, const std::vector<std::string
   }
   for (const auto& section : sections) {
     faults.push_back("unknown section '" + section.first +
-                     "'; known are tracker, mapper, observer_fusion and onboard");
+                     "'; known are tracker, mapper, odometry_fusion and onboard");
   }
   if (!faults.empty()) throw ConfigError(faults);
   return config;

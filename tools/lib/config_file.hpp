@@ -10,7 +10,7 @@
 namespace ardrone_vslam {
 
 /// What config/*.yaml holds: sections `tracker` and `mapper`, the same files that roslaunch loads
-/// for the nodelets. The sections `observer_fusion` and
+/// for the nodelets. The sections `odometry_fusion` and
 /// `onboard` are checked and not used.
 struct PipelineConfig {
   TrackerConfig tracker;

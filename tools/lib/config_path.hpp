@@ -5,7 +5,7 @@
 
 namespace ardrone_vslam {
 
-/// Path of a file of config/ (for example "observer_profiles.yaml"), looked for in the installed
+/// Path of a file of config/ (for example "odometry_profiles.yaml"), looked for in the installed
 /// package beside the running program, then in the source folder that it was built from.
 /// @throws std::runtime_error naming the file and the places
 std::string findConfigFile(const std::string& name);

@@ -44,17 +44,18 @@ void removeRepeated(std::vector<SuggestedParameter>& parameters) {
   parameters = std::move(kept);
 }
 
-double meanSpeed_m_s(const std::vector<ObserverState>& odometry) {
-  double way_m = 0;
+double meanSpeed_m_s(const std::vector<OdometryState>& odometry) {
+  double displacement_m = 0;
   for (std::size_t i = 1; i < odometry.size(); ++i) {
-    way_m +=
+    displacement_m +=
         (odometry[i].T_odom_base.translation() - odometry[i - 1].T_odom_base.translation()).norm();
   }
   if (odometry.size() < 2) return 0;
-  return way_m / (static_cast<double>(odometry.back().stamp_ns - odometry.front().stamp_ns) * 1e-9);
+  return displacement_m /
+         (static_cast<double>(odometry.back().stamp_ns - odometry.front().stamp_ns) * 1e-9);
 }
 
-void nameVehicle(const DoctorRecording& recording, const std::vector<ObserverState>& odometry,
+void nameVehicle(const DoctorRecording& recording, const std::vector<OdometryState>& odometry,
                  DoctorReport& report) {
   if (!recording.navdata_topic.empty() ||
       recording.base_frame.find("ardrone_base_link") != std::string::npos) {
@@ -186,20 +187,20 @@ DoctorReport examine(const DoctorRecording& recording,
   append(findings, checkHeight(recording, parameters));
   append(findings, checkNavdataValues(recording));
   suggestHeights(recording, findings, parameters);
-  if (isNavdataTheObserver(recording)) {
+  if (isNavdataTheOdometry(recording)) {
     parameters.push_back(
-        {"mapper", "observer_mode", "navdata", "there is no odometry; navdata and IMU make one"});
+        {"mapper", "odometry_mode", "navdata", "there is no odometry; navdata and IMU make one"});
   }
 
   const Tracks tracks = trackImages(recording, progress);
   findings.push_back(aboutTracks(recording, tracks));
   // Whole metres are no motion to hold against the images.
-  const ObserverHeight height =
-      isFound(findings, "height_metres") ? ObserverHeight::kTwist : ObserverHeight::kPose;
+  const OdometryHeight height =
+      isFound(findings, "height_metres") ? OdometryHeight::kTwist : OdometryHeight::kPose;
   const AdaptedOdometry odometry =
-      isNavdataTheObserver(recording)
+      isNavdataTheOdometry(recording)
           ? observeNavdata(recording)
-          : adapt(recording, is_mirrored ? ObserverMode::kTwist : ObserverMode::kPose, height);
+          : adapt(recording, is_mirrored ? OdometryMode::kTwist : OdometryMode::kPose, height);
   findings.push_back(checkMoves(recording, tracks, odometry.states));
   const auto mountings = estimateMountings(recording, tracks, odometry.states);
   append(findings, checkDirections(mountings, recording.base_frame, report.static_transform));

@@ -149,7 +149,7 @@ Findings checkCameraTf(const DoctorRecording& recording, std::string& static_tra
     const Eigen::Vector3d& t = T_base_cam->translation();
     finding.text =
         text("'", base, "' -> '", camera, "': (", t.x(), ", ", t.y(), ", ", t.z(), ") m");
-    const std::string fault = mountingFault(*T_base_cam);
+    const std::string fault = extrinsicsFault(*T_base_cam);
     if (!fault.empty()) {
       finding.verdict = Verdict::kFault;
       finding.text += ": " + fault;

@@ -29,11 +29,11 @@ struct HeightSample {
 
 std::vector<HeightSample> samplesOf(const DoctorRecording& recording) {
   std::vector<HeightSample> samples;
-  const ObserverState* before = nullptr;
+  const OdometryState* before = nullptr;
   auto navdata = recording.navdata.begin();
   for (const DoctorOdometry& odometry : recording.odometry) {
     if (!odometry.state || odometry.state->stamp_ns <= 0) continue;
-    const ObserverState& state = *odometry.state;
+    const OdometryState& state = *odometry.state;
     if (before && state.stamp_ns < before->stamp_ns) continue;
     HeightSample sample;
     sample.z_m = state.T_odom_base.translation().z();
@@ -150,7 +150,7 @@ Finding checkGround(const std::vector<HeightSample>& samples, bool whole) {
                                          centimetres(steps.largest_m), ", by a table or the like")
                                   : ": it will step over a table (here it never does)";
   finding.remedy =
-      "with observer_mode twist set observer_height to twist when you fly over furniture; z then "
+      "with odometry_mode twist set odometry_height to twist when you fly over furniture; z then "
       "drifts as x and y do";
   return finding;
 }
@@ -170,22 +170,22 @@ Findings checkHeight(const DoctorRecording& recording,
   if (whole) {
     metres.verdict = Verdict::kWarning;
     metres.text = "z comes in whole metres (ardrone_autonomy before 1.4.1)";
-    metres.remedy = "update the driver; observer_mode twist smooths the steps until then";
-    parameters.push_back({"mapper", "observer_mode", "twist", "heights are cut to metres"});
+    metres.remedy = "update the driver; odometry_mode twist smooths the steps until then";
+    parameters.push_back({"mapper", "odometry_mode", "twist", "heights are cut to metres"});
   } else if (share(samples, [](const auto& s) { return s.z_m == std::round(s.z_m); }) >= kMost) {
     return notChecked("because the height does not change");
   }
   const bool climbs =
       std::any_of(samples.begin(), samples.end(), [](const auto& s) { return s.climbed_m != 0; });
   if (!climbs) {
-    parameters.push_back({"mapper", "observer_height", "pose", "there is no vertical velocity"});
+    parameters.push_back({"mapper", "odometry_height", "pose", "there is no vertical velocity"});
     return {metres,
             {"height_ground", Verdict::kNotChecked, "because there is no vertical velocity", {}}};
   }
   const Finding ground = checkGround(samples, whole);
   if (ground.verdict == Verdict::kWarning && ground.text.find("steps of") != std::string::npos) {
-    parameters.push_back({"mapper", "observer_mode", "twist", "z steps over furniture"});
-    parameters.push_back({"mapper", "observer_height", "twist", "so, too"});
+    parameters.push_back({"mapper", "odometry_mode", "twist", "z steps over furniture"});
+    parameters.push_back({"mapper", "odometry_height", "twist", "so, too"});
   }
   return {metres, ground};
 }

@@ -17,7 +17,7 @@ constexpr double kGravity_m_s2 = 9.81;
 std::string forceFault(std::vector<double> forces_m_s2, double unit_m_s2, const char* unit);
 
 /// Numbers that are none, all zero or in another unit (`imu_values`).
-/// @param refused  how many the observer did not take
+/// @param refused  how many the odometry did not take
 Finding checkImuValues(const DoctorRecording& recording, std::size_t refused);
 
 /// Turn rates against the turning of navdata's attitude (`imu_turn_rate`).

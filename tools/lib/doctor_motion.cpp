@@ -41,34 +41,34 @@ std::string directionOf(const Eigen::Matrix3d& R_base_cam) {
   return "looks along base's " + axis(2) + ", its right is base's " + axis(0);
 }
 
-std::string explain(MountingState state, const MountingEstimate& estimate) {
+std::string explain(ExtrinsicsState state, const ExtrinsicsEstimate& estimate) {
   switch (state) {
-    case MountingState::kTooLittleMotion:
+    case ExtrinsicsState::kTooLittleMotion:
       return text("because only ", estimate.motions,
                   " pairs of images with tracks moved: turn and fly about");
-    case MountingState::kAmbiguous:
+    case ExtrinsicsState::kAmbiguous:
       return text("because another mounting explains the images nearly as well (",
                   rounded(estimate.misfit_px, 1), " and ", rounded(estimate.misfit_rival_px, 1),
                   " px): turn more, and fly in all directions");
-    case MountingState::kNoAgreement:
+    case ExtrinsicsState::kNoAgreement:
       return text("because the images move by no mounting as the odometry does (",
                   rounded(estimate.misfit_px, 1), " px at best)");
-    case MountingState::kFound:
+    case ExtrinsicsState::kFound:
       break;
   }
   return {};
 }
 
-Finding judge(const std::string& camera, const MountingEstimate& estimate) {
+Finding judge(const std::string& camera, const ExtrinsicsEstimate& estimate) {
   Finding finding{"camera_direction", Verdict::kOk, {}, {}};
   const std::string told = text("'", camera, "' ");
-  if (estimate.state == MountingState::kNoAgreement) {
+  if (estimate.state == ExtrinsicsState::kNoAgreement) {
     finding.verdict = Verdict::kWarning;
     finding.text = told + "not told, " + explain(estimate.state, estimate);
     finding.remedy = "check stamps, calibration and odometry";
     return finding;
   }
-  if (estimate.state != MountingState::kFound) {
+  if (estimate.state != ExtrinsicsState::kFound) {
     return {"camera_direction",
             Verdict::kNotChecked,
             told + "not told, " + explain(estimate.state, estimate),
@@ -94,7 +94,7 @@ Finding judge(const std::string& camera, const MountingEstimate& estimate) {
 }
 
 /// As near to axes as it is told: a turn within what is not sure of an axis is the axis.
-Eigen::Matrix3d tidied(const MountingEstimate& estimate, const Eigen::Matrix3d& R_told) {
+Eigen::Matrix3d tidied(const ExtrinsicsEstimate& estimate, const Eigen::Matrix3d& R_told) {
   const Eigen::Matrix3d turn = R_told.transpose() * estimate.R_base_cam;
   const Eigen::Matrix3d whole = turn.array().round().matrix();
   const bool is_turn = std::abs(whole.determinant() - 1) < 1e-9 &&
@@ -106,12 +106,12 @@ Eigen::Matrix3d tidied(const MountingEstimate& estimate, const Eigen::Matrix3d& 
 }
 
 TimeOffset estimateOffset(const std::vector<ImageFeatures>& images,
-                          const std::vector<ObserverState>& odometry,
-                          const CameraMounting& mounting) {
-  ObserverBufferConfig all;
+                          const std::vector<OdometryState>& odometry,
+                          const CameraExtrinsics& mounting) {
+  OdometryBufferConfig all;
   all.buffer_s = kLongest_s;
-  ObserverBuffer buffer(all);
-  for (const ObserverState& state : odometry) buffer.push(state);
+  OdometryBuffer buffer(all);
+  for (const OdometryState& state : odometry) buffer.push(state);
   Eigen::Isometry3d T_base_cam = mounting.T_base_cam;
   T_base_cam.linear() = mounting.estimate.R_base_cam;
   TimeOffsetEstimator estimator(T_base_cam, mounting.estimate.offset_s);
@@ -122,12 +122,12 @@ TimeOffset estimateOffset(const std::vector<ImageFeatures>& images,
 }  // namespace
 
 Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
-                   const std::vector<ObserverState>& odometry) {
+                   const std::vector<OdometryState>& odometry) {
   Finding finding{"odometry_moves", Verdict::kOk, {}, {}};
   if (odometry.size() < 2) return {"odometry_moves", Verdict::kNotChecked, "needs odometry", {}};
   const Eigen::Vector3d first = odometry.front().T_odom_base.translation();
   double farthest_m = 0;
-  for (const ObserverState& state : odometry) {
+  for (const OdometryState& state : odometry) {
     farthest_m = std::max(farthest_m, (state.T_odom_base.translation() - first).norm());
   }
   bool is_stuck = false;
@@ -138,7 +138,7 @@ Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
     for (const ImageFeatures& features : camera.images) {
       while (next < odometry.size() && odometry[next].stamp_ns < features.stamp_ns) ++next;
       if (next == 0 || next == odometry.size()) continue;
-      const ObserverState state =
+      const OdometryState state =
           interpolate(odometry[next - 1], odometry[next], features.stamp_ns);
       watch.see(features, state.T_odom_base * T_base_cam.value_or(Eigen::Isometry3d::Identity()));
     }
@@ -147,7 +147,7 @@ Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
   finding.text = text("up to ", rounded(farthest_m, 2), " m from where it began");
   if (is_stuck) {
     finding.verdict = Verdict::kFault;
-    finding.text = explainStandstill(observerTopic(recording));
+    finding.text = explainStandstill(odometryTopic(recording));
   } else if (farthest_m == 0) {
     finding.verdict = Verdict::kWarning;
     finding.text = text("all ", odometry.size(), " positions are equal");
@@ -156,18 +156,18 @@ Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
   return finding;
 }
 
-std::vector<CameraMounting> estimateMountings(const DoctorRecording& recording,
-                                              const Tracks& tracks,
-                                              const std::vector<ObserverState>& odometry) {
-  std::vector<CameraMounting> mountings;
+std::vector<CameraExtrinsics> estimateMountings(const DoctorRecording& recording,
+                                                const Tracks& tracks,
+                                                const std::vector<OdometryState>& odometry) {
+  std::vector<CameraExtrinsics> mountings;
   for (const CameraTracks& camera : tracks.cameras) {
     const auto T_base_cam = lookUp(recording, recording.base_frame, camera.frame);
     if (!T_base_cam) continue;
     const std::vector<ImagePair> pairs = movingPairs(camera.images);
     const OdometryWitness witness{odometry, T_base_cam->translation()};
-    CameraMounting mounting{
+    CameraExtrinsics mounting{
         camera.frame, *T_base_cam, estimateMounting(pairs, witness, T_base_cam->linear()), {}};
-    if (mounting.estimate.state == MountingState::kFound) {
+    if (mounting.estimate.state == ExtrinsicsState::kFound) {
       mounting.offset = estimateOffset(camera.images, odometry, mounting);
     }
     mountings.push_back(mounting);
@@ -175,12 +175,12 @@ std::vector<CameraMounting> estimateMountings(const DoctorRecording& recording,
   return mountings;
 }
 
-Findings checkDirections(const std::vector<CameraMounting>& mountings,
+Findings checkDirections(const std::vector<CameraExtrinsics>& mountings,
                          const std::string& base_frame, std::string& static_transform) {
   Findings findings;
-  for (const CameraMounting& mounting : mountings) {
+  for (const CameraExtrinsics& mounting : mountings) {
     Finding finding = judge(mounting.frame, mounting.estimate);
-    if (mounting.estimate.state == MountingState::kFound && finding.verdict != Verdict::kOk) {
+    if (mounting.estimate.state == ExtrinsicsState::kFound && finding.verdict != Verdict::kOk) {
       Eigen::Isometry3d T_corrected = mounting.T_base_cam;
       T_corrected.linear() = tidied(mounting.estimate, mounting.T_base_cam.linear());
       const std::string line = staticTransformLine(T_corrected, base_frame, mounting.frame);
@@ -198,15 +198,15 @@ Findings checkDirections(const std::vector<CameraMounting>& mountings,
   return findings;
 }
 
-Finding checkTimeOffset(const std::vector<CameraMounting>& mountings,
+Finding checkTimeOffset(const std::vector<CameraExtrinsics>& mountings,
                         std::vector<SuggestedParameter>& parameters) {
   Finding finding{"image_time_offset", Verdict::kNotChecked, "needs camera_direction", {}};
-  const CameraMounting* best = nullptr;
-  const auto isKnown = [](const CameraMounting& m) {
+  const CameraExtrinsics* best = nullptr;
+  const auto isKnown = [](const CameraExtrinsics& m) {
     return m.offset.state == TimeOffsetState::kKnown;
   };
-  for (const CameraMounting& mounting : mountings) {
-    if (mounting.estimate.state != MountingState::kFound) continue;
+  for (const CameraExtrinsics& mounting : mountings) {
+    if (mounting.estimate.state != ExtrinsicsState::kFound) continue;
     const bool is_better =
         best == nullptr || (isKnown(mounting) && (!isKnown(*best) || mounting.offset.deviation_s <
                                                                          best->offset.deviation_s));

@@ -14,26 +14,26 @@ namespace ardrone_vslam {
 
 /// Whether the odometry moves, at least where the images do (`odometry_moves`).
 Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
-                   const std::vector<ObserverState>& odometry);
+                   const std::vector<OdometryState>& odometry);
 
 /// Of each camera whose place tf tells.
-struct CameraMounting {
+struct CameraExtrinsics {
   std::string frame;
   Eigen::Isometry3d T_base_cam;  ///< by tf
-  MountingEstimate estimate;
+  ExtrinsicsEstimate estimate;
   TimeOffset offset;  ///< unless the mounting is found: not known
 };
-std::vector<CameraMounting> estimateMountings(const DoctorRecording& recording,
-                                              const Tracks& tracks,
-                                              const std::vector<ObserverState>& odometry);
+std::vector<CameraExtrinsics> estimateMountings(const DoctorRecording& recording,
+                                                const Tracks& tracks,
+                                                const std::vector<OdometryState>& odometry);
 
 /// Whether each camera looks where tf says (`camera_direction`).
 /// @param static_transform  gets the command line that corrects it
-Findings checkDirections(const std::vector<CameraMounting>& mountings,
+Findings checkDirections(const std::vector<CameraExtrinsics>& mountings,
                          const std::string& base_frame, std::string& static_transform);
 
 /// Whether images and odometry move at the same time (`image_time_offset`).
-Finding checkTimeOffset(const std::vector<CameraMounting>& mountings,
+Finding checkTimeOffset(const std::vector<CameraExtrinsics>& mountings,
                         std::vector<SuggestedParameter>& parameters);
 
 }  // namespace ardrone_vslam

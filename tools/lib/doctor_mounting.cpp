@@ -150,10 +150,10 @@ std::vector<Candidate> refinedCandidates(const std::vector<ImagePair>& pairs,
 
 }  // namespace
 
-MountingEstimate estimateMounting(const std::vector<ImagePair>& pairs,
-                                  const OdometryWitness& odometry,
-                                  const Eigen::Matrix3d& R_base_cam_told) {
-  MountingEstimate estimate;
+ExtrinsicsEstimate estimateMounting(const std::vector<ImagePair>& pairs,
+                                    const OdometryWitness& odometry,
+                                    const Eigen::Matrix3d& R_base_cam_told) {
+  ExtrinsicsEstimate estimate;
   estimate.R_base_cam = R_base_cam_told;
   estimate.motions = odometry.motions(pairs, 0).size();
   if (estimate.motions < kFewestMotions) return estimate;
@@ -177,9 +177,9 @@ MountingEstimate estimateMounting(const std::vector<ImagePair>& pairs,
   estimate.unsure_rad = angleBetween(even.R_base_cam, odd.R_base_cam);
   const bool is_clear = estimate.misfit_rival_px > kClearly * estimate.misfit_px &&
                         estimate.misfit_rival_px > estimate.misfit_px + kClearly_px;
-  estimate.state = estimate.misfit_px > kAgrees * kFine_px ? MountingState::kNoAgreement
-                   : !is_clear                             ? MountingState::kAmbiguous
-                                                           : MountingState::kFound;
+  estimate.state = estimate.misfit_px > kAgrees * kFine_px ? ExtrinsicsState::kNoAgreement
+                   : !is_clear                             ? ExtrinsicsState::kAmbiguous
+                                                           : ExtrinsicsState::kFound;
   return estimate;
 }
 

@@ -9,15 +9,15 @@
 
 namespace ardrone_vslam {
 
-enum class MountingState {
+enum class ExtrinsicsState {
   kTooLittleMotion,  ///< too few pairs of images that move
   kAmbiguous,        ///< other mountings explain the images nearly as well
   kNoAgreement,      ///< none does
   kFound
 };
 
-struct MountingEstimate {
-  MountingState state = MountingState::kTooLittleMotion;
+struct ExtrinsicsEstimate {
+  ExtrinsicsState state = ExtrinsicsState::kTooLittleMotion;
   Eigen::Matrix3d R_base_cam = Eigen::Matrix3d::Identity();  ///< the best one
   double misfit_px = 0;                                      ///< of that
   double misfit_told_px = 0;                                 ///< of what tf says
@@ -34,8 +34,8 @@ struct MountingEstimate {
 
 /// Looks among the 24 turns of what tf says by quarter turns and offsets of up to 0.3 s, and finer
 /// about the best of them.
-MountingEstimate estimateMounting(const std::vector<ImagePair>& pairs,
-                                  const OdometryWitness& odometry,
-                                  const Eigen::Matrix3d& R_base_cam_told);
+ExtrinsicsEstimate estimateMounting(const std::vector<ImagePair>& pairs,
+                                    const OdometryWitness& odometry,
+                                    const Eigen::Matrix3d& R_base_cam_told);
 
 }  // namespace ardrone_vslam

@@ -18,7 +18,7 @@ constexpr double kHighest_m = 100;     // the drone's own limit
 constexpr double kSlowest_m_s = 0.01;  // optical flow is noisier than that
 constexpr double kFastest_m_s = 20;
 
-using Push = ObserverBuffer::Push;
+using Push = OdometryBuffer::Push;
 
 bool isRefused(Push answer) {
   return answer == Push::kNotFinite || answer == Push::kOutOfRange;
@@ -45,7 +45,7 @@ Finding checkValues(const DoctorRecording& recording, const AdaptedOdometry& obs
     is_zero = is_zero && m.R_odom_base.isIdentity(0) && m.flow_base_m_s.isZero(0) &&
               m.force_base_m_s2.isZero(0) && m.height_m == 0;
   }
-  const bool is_needed = isNavdataTheObserver(recording);
+  const bool is_needed = isNavdataTheOdometry(recording);
   const std::string force = forceFault(forces_m_s2, kGravity_m_s2, "g");
   if (is_zero) {
     finding.verdict = is_needed ? Verdict::kFault : Verdict::kWarning;
@@ -151,7 +151,7 @@ AdaptedOdometry observeNavdata(const DoctorRecording& recording) {
   observer.flush(observed.states);
   observed.faults = observer.faults();
   // Begun anew, they would go back.
-  const auto rises = [last_ns = std::int64_t{0}](const ObserverState& state) mutable {
+  const auto rises = [last_ns = std::int64_t{0}](const OdometryState& state) mutable {
     const bool is_later = state.stamp_ns > last_ns;
     last_ns = std::max(last_ns, state.stamp_ns);
     return !is_later;
@@ -163,7 +163,7 @@ AdaptedOdometry observeNavdata(const DoctorRecording& recording) {
 
 Findings checkNavdataStreams(const DoctorRecording& recording) {
   if (recording.navdata_topic.empty()) return {};
-  const bool is_needed = isNavdataTheObserver(recording);
+  const bool is_needed = isNavdataTheOdometry(recording);
   Findings findings;
   append(findings, is_needed,
          checkStream({"navdata", "packets"}, recording.navdata_topic, timesOf(recording.navdata),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The AR.Drone's navdata and IMU, of which observer_mode navdata makes an observer.
+// The AR.Drone's navdata and IMU, of which odometry_mode navdata makes an observer.
 #pragma once
 
 #include "doctor_odometry.hpp"

@@ -7,7 +7,7 @@
 
 #include "../../nodes/checked.hpp"      // no ROS
 #include "../../nodes/speed_watch.hpp"  // no ROS
-#include "ardrone_vslam/observer_noise.hpp"
+#include "ardrone_vslam/msckf_config.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -20,7 +20,7 @@ constexpr double kTelling_m = 0.5;   // way by which hypotheses must differ to b
 constexpr double kAgrees = 0.3;      // of that way
 constexpr double kDisagrees = 0.5;   // of the way flown
 
-double secondsBetween(const ObserverState& a, const ObserverState& b) {
+double secondsBetween(const OdometryState& a, const OdometryState& b) {
   return static_cast<double>(b.stamp_ns - a.stamp_ns) * 1e-9;
 }
 
@@ -30,8 +30,8 @@ std::string metres(double value_m) {
   return stream.str();
 }
 
-std::vector<const ObserverState*> usableStates(const DoctorRecording& recording) {
-  std::vector<const ObserverState*> states;
+std::vector<const OdometryState*> usableStates(const DoctorRecording& recording) {
+  std::vector<const OdometryState*> states;
   for (const DoctorOdometry& odometry : recording.odometry) {
     if (!odometry.state || odometry.state->stamp_ns <= 0) continue;
     states.push_back(&*odometry.state);
@@ -52,12 +52,12 @@ struct Ways {
   Eigen::Vector2d unturned_m = Eigen::Vector2d::Zero();  // the twist is in odom's axes
 };
 
-std::vector<Ways> waysOf(const std::vector<const ObserverState*>& states) {
+std::vector<Ways> waysOf(const std::vector<const OdometryState*>& states) {
   std::vector<Ways> windows;
   Ways window;
   double window_s = 0;
   for (std::size_t i = 1; i < states.size(); ++i) {
-    const ObserverState &a = *states[i - 1], &b = *states[i];
+    const OdometryState &a = *states[i - 1], &b = *states[i];
     const double dt_s = secondsBetween(a, b);
     const Eigen::Vector3d told_m = b.T_odom_base.translation() - a.T_odom_base.translation();
     if (dt_s < 0 || dt_s > kWindow_s || told_m.norm() > kJump_m + kJump_m_s * dt_s) {
@@ -65,12 +65,12 @@ std::vector<Ways> waysOf(const std::vector<const ObserverState*>& states) {
       window_s = 0;
       continue;
     }
-    const Eigen::Vector3d way_m = dt_s * b.twist_base.head<3>();
+    const Eigen::Vector3d displacement_m = dt_s * b.twist_base.head<3>();
     const Eigen::Matrix3d& R = b.T_odom_base.linear();
     window.told_m += told_m.head<2>();
-    window.turned_m += (R * way_m).head<2>();
-    window.mirrored_m += (mirroredYaw(R) * way_m).head<2>();
-    window.unturned_m += way_m.head<2>();
+    window.turned_m += (R * displacement_m).head<2>();
+    window.mirrored_m += (mirroredYaw(R) * displacement_m).head<2>();
+    window.unturned_m += displacement_m.head<2>();
     window_s += dt_s;
     if (window_s < kWindow_s) continue;
     windows.push_back(window);
@@ -106,13 +106,13 @@ Finding checkJumps(const DoctorRecording& recording, const AdaptedOdometry& adap
   const auto states = usableStates(recording);
   for (std::size_t i = 1; i < states.size(); ++i) {
     const double dt_s = secondsBetween(*states[i - 1], *states[i]);
-    const double way_m =
+    const double displacement_m =
         (states[i]->T_odom_base.translation() - states[i - 1]->T_odom_base.translation())
             .head<2>()  // heights have checks of their own
             .norm();
-    if (dt_s < 0 || way_m <= kJump_m + kJump_m_s * dt_s) continue;
+    if (dt_s < 0 || displacement_m <= kJump_m + kJump_m_s * dt_s) continue;
     ++steps;
-    longest_m = std::max(longest_m, way_m);
+    longest_m = std::max(longest_m, displacement_m);
   }
   if (finding.text.empty() && steps > 0) {
     finding.text = text(steps, " steps of up to ", metres(longest_m), " between two messages");
@@ -131,7 +131,7 @@ Finding checkJumps(const DoctorRecording& recording, const AdaptedOdometry& adap
 Finding checkUnit(const DoctorRecording& recording) {
   SpeedWatch watch;
   Eigen::AlignedBox3d positions;
-  for (const ObserverState* state : usableStates(recording)) {
+  for (const OdometryState* state : usableStates(recording)) {
     watch.see(*state);
     positions.extend(state->T_odom_base.translation());
   }
@@ -147,15 +147,15 @@ Finding checkUnit(const DoctorRecording& recording) {
 
 }  // namespace
 
-AdaptedOdometry adapt(const DoctorRecording& recording, ObserverMode mode, ObserverHeight height) {
-  ObserverAdapterConfig config;
+AdaptedOdometry adapt(const DoctorRecording& recording, OdometryMode mode, OdometryHeight height) {
+  OdometryAdapterConfig config;
   config.mode = mode;
   config.height = height;
-  ObserverAdapter adapter(config);
+  OdometryAdapter adapter(config);
   AdaptedOdometry adapted;
-  std::vector<ObserverState> ready;
+  std::vector<OdometryState> ready;
   const auto collect = [&] {
-    for (ObserverState& state : ready) {
+    for (OdometryState& state : ready) {
       const bool ascends =
           adapted.states.empty() || state.stamp_ns > adapted.states.back().stamp_ns;
       if (ascends) adapted.states.push_back(std::move(state));
@@ -168,7 +168,7 @@ AdaptedOdometry adapt(const DoctorRecording& recording, ObserverMode mode, Obser
       continue;
     }
     const auto answer = adapter.push(*odometry.state, ready);
-    if (answer == ObserverBuffer::Push::kNotFinite || answer == ObserverBuffer::Push::kOutOfRange) {
+    if (answer == OdometryBuffer::Push::kNotFinite || answer == OdometryBuffer::Push::kOutOfRange) {
       ++adapted.refused;
     }
     collect();
@@ -181,7 +181,7 @@ AdaptedOdometry adapt(const DoctorRecording& recording, ObserverMode mode, Obser
 
 Findings checkOdometryValues(const DoctorRecording& recording) {
   if (recording.odometry.empty()) return {};
-  const AdaptedOdometry adapted = adapt(recording, ObserverMode::kPose);
+  const AdaptedOdometry adapted = adapt(recording, OdometryMode::kPose);
   Finding values{"odometry_values", Verdict::kOk, "all finite and within bounds", {}};
   if (adapted.states.empty()) {
     values.verdict = Verdict::kFault;
@@ -202,17 +202,17 @@ Findings checkOdometryFields(const DoctorRecording& recording,
   if (states.empty()) return {};
   Finding covariance{"odometry_covariance", Verdict::kOk, "given", {}};
   Finding turn_rate{"odometry_turn_rate", Verdict::kOk, "given", {}};
-  const bool has_none = std::all_of(states.begin(), states.end(), [](const ObserverState* state) {
+  const bool has_none = std::all_of(states.begin(), states.end(), [](const OdometryState* state) {
     return state->covariance.diagonal().head<3>().isZero(0);
   });
   std::string fault;
-  for (const ObserverState* state : states) {
+  for (const OdometryState* state : states) {
     if (fault.empty()) fault = covarianceFault(*state);
   }
   if (has_none || !fault.empty()) {
     covariance.verdict = Verdict::kWarning;
     covariance.text = has_none ? "all zero" : fault;
-    const ObserverNoiseConfig noise;
+    const OdometryNoiseConfig noise;
     covariance.remedy =
         text("set walk_m_per_sqrt_m and walk_m_per_sqrt_s to how well it is known; the defaults, ",
              noise.walk_m_per_sqrt_m, " and ", noise.walk_m_per_sqrt_s, ", are a drone's");
@@ -226,7 +226,7 @@ Findings checkOdometryFields(const DoctorRecording& recording,
     turned_rad = std::max(turned_rad,
                           Eigen::Quaterniond(states[0]->T_odom_base.linear()).angularDistance(a));
   }
-  const bool has_rate = std::any_of(states.begin(), states.end(), [](const ObserverState* state) {
+  const bool has_rate = std::any_of(states.begin(), states.end(), [](const OdometryState* state) {
     return !state->twist_base.tail<3>().isZero(0);
   });
   if (!has_rate && turned_rad > kTurned_rad) {
@@ -244,11 +244,11 @@ Finding checkOdometryYaw(const DoctorRecording& recording,
   Finding finding{"odometry_yaw", Verdict::kOk, {}, {}};
   const auto states = usableStates(recording);
   if (states.empty()) return {"odometry_yaw", Verdict::kNotChecked, "needs odometry", {}};
-  const bool has_twist = std::any_of(states.begin(), states.end(), [](const ObserverState* state) {
+  const bool has_twist = std::any_of(states.begin(), states.end(), [](const OdometryState* state) {
     return !state->twist_base.head<3>().isZero(0);
   });
   if (!has_twist) {
-    parameters.push_back({"mapper", "observer_mode", "pose", "there is no twist"});
+    parameters.push_back({"mapper", "odometry_mode", "pose", "there is no twist"});
     return {"odometry_yaw", Verdict::kNotChecked, "because there is no twist", {}};
   }
   const std::vector<Ways> windows = waysOf(states);
@@ -270,15 +270,15 @@ Finding checkOdometryYaw(const DoctorRecording& recording,
         "x and y are integrated with the yaw mirrored (ardrone_autonomy does): off "
         "by ",
         metres(wrong_m), " in ", metres(flown_m), " of way");
-    finding.remedy = "set observer_mode to twist";
-    parameters.push_back({"mapper", "observer_mode", "twist", "the pose's yaw is mirrored"});
+    finding.remedy = "set odometry_mode to twist";
+    parameters.push_back({"mapper", "odometry_mode", "twist", "the pose's yaw is mirrored"});
   } else if (wrong_m > kDisagrees * flown_m) {
     finding.verdict = Verdict::kWarning;
     finding.text = text("pose and twist disagree: ", metres(wrong_m), " apart in ", metres(flown_m),
                         " of way");
     if (unturned_m < kAgrees * wrong_m) finding.text += ", as the twist is in the axes of odom";
-    finding.remedy = "keep observer_mode at pose; the twist must be in axes of base";
-    parameters.push_back({"mapper", "observer_mode", "pose", "the twist is not the pose's"});
+    finding.remedy = "keep odometry_mode at pose; the twist must be in axes of base";
+    parameters.push_back({"mapper", "odometry_mode", "pose", "the twist is not the pose's"});
   } else if (telling_m < kTelling_m) {
     return {"odometry_yaw",
             Verdict::kNotChecked,

@@ -24,11 +24,11 @@ std::vector<Ancestor> ancestorsOf(const DoctorRecording& recording, const std::s
 
 }  // namespace
 
-bool isNavdataTheObserver(const DoctorRecording& recording) {
+bool isNavdataTheOdometry(const DoctorRecording& recording) {
   return recording.odometry_topic.empty() && !recording.navdata_topic.empty();
 }
 
-const std::string& observerTopic(const DoctorRecording& recording) {
+const std::string& odometryTopic(const DoctorRecording& recording) {
   return recording.odometry_topic.empty() ? recording.navdata_topic : recording.odometry_topic;
 }
 

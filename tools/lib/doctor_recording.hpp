@@ -14,7 +14,7 @@
 
 #include "ardrone_vslam/camera_model.hpp"
 #include "ardrone_vslam/drone_observer.hpp"
-#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 
 namespace ardrone_vslam {
 
@@ -50,7 +50,7 @@ struct DoctorCameraInfo {
 
 struct DoctorOdometry {
   DoctorTime time;
-  std::optional<ObserverState> state;  ///< nothing: a number is not finite or no rotation
+  std::optional<OdometryState> state;  ///< nothing: a number is not finite or no rotation
 };
 
 /// A packet of the drone; nothing without a stamp.
@@ -101,10 +101,10 @@ struct DoctorRecording {
   std::function<cv::Mat(std::size_t image)> grey;
 };
 
-/// Whether navdata stands in for odometry, which there is none of (observer_mode navdata).
-bool isNavdataTheObserver(const DoctorRecording& recording);
+/// Whether navdata stands in for odometry, which there is none of (odometry_mode navdata).
+bool isNavdataTheOdometry(const DoctorRecording& recording);
 /// Of odometry, else of navdata; empty: there is neither.
-const std::string& observerTopic(const DoctorRecording& recording);
+const std::string& odometryTopic(const DoctorRecording& recording);
 
 /// T_from_to: takes coordinates of `to` to `from`, wherever in the tree the two
 /// are. @return nothing when they are not connected

@@ -16,20 +16,20 @@ constexpr std::size_t kFewestTracks = 15;
 constexpr double kFewestMoving_px = 3;  // median of the tracks: less tells nothing
 constexpr double kNearest_m = 0.3;
 
-const ObserverState* firstFrom(const std::vector<ObserverState>& odometry, std::int64_t stamp_ns) {
+const OdometryState* firstFrom(const std::vector<OdometryState>& odometry, std::int64_t stamp_ns) {
   const auto at = std::lower_bound(
       odometry.begin(), odometry.end(), stamp_ns,
-      [](const ObserverState& state, std::int64_t ns) { return state.stamp_ns < ns; });
+      [](const OdometryState& state, std::int64_t ns) { return state.stamp_ns < ns; });
   return at == odometry.end() ? nullptr : &*at;
 }
 
-std::optional<Eigen::Isometry3d> poseAt(const std::vector<ObserverState>& odometry,
+std::optional<Eigen::Isometry3d> poseAt(const std::vector<OdometryState>& odometry,
                                         std::int64_t stamp_ns) {
-  const ObserverState* after = firstFrom(odometry, stamp_ns);
+  const OdometryState* after = firstFrom(odometry, stamp_ns);
   if (after == nullptr) return std::nullopt;
   if (after->stamp_ns == stamp_ns) return after->T_odom_base;
   if (after == odometry.data()) return std::nullopt;
-  const ObserverState* before = after - 1;
+  const OdometryState* before = after - 1;
   if (after->stamp_ns - before->stamp_ns > kLongestGap_ns) return std::nullopt;
   return interpolate(*before, *after, stamp_ns).T_odom_base;
 }

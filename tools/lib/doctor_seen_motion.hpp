@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 
 namespace ardrone_vslam {
 
@@ -35,7 +35,7 @@ struct SeenMotion {
 
 /// The odometry that the images are compared with.
 struct OdometryWitness {
-  const std::vector<ObserverState>& states;  ///< stamps ascending
+  const std::vector<OdometryState>& states;  ///< stamps ascending
   Eigen::Vector3d lever_base_m;              ///< the camera's place on base
 
   /// Of the pairs around which there is odometry; they must outlive the answer.

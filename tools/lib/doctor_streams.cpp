@@ -64,7 +64,7 @@ Finding checkTopics(const DoctorRecording& recording) {
   };
   need(recording.image_topic, "images (sensor_msgs/Image or CompressedImage)");
   need(recording.camera_info_topic, "the calibration (sensor_msgs/CameraInfo)");
-  need(observerTopic(recording), "odometry (nav_msgs/Odometry)");
+  need(odometryTopic(recording), "odometry (nav_msgs/Odometry)");
   if (!missing.empty()) {
     finding.verdict = Verdict::kFault;
     finding.text = "no topic for " + missing + "; there are: " + (all.empty() ? "none" : all);
@@ -72,12 +72,12 @@ Finding checkTopics(const DoctorRecording& recording) {
     return finding;
   }
   finding.text =
-      recording.image_topic + ", " + recording.camera_info_topic + ", " + observerTopic(recording);
-  if (isNavdataTheObserver(recording)) {
+      recording.image_topic + ", " + recording.camera_info_topic + ", " + odometryTopic(recording);
+  if (isNavdataTheOdometry(recording)) {
     finding.verdict = Verdict::kWarning;
     finding.text += recording.imu_topic.empty() ? std::string() : ", " + recording.imu_topic;
     finding.text += "; no odometry (nav_msgs/Odometry), but the drone's navdata takes its place";
-    finding.remedy = "observer_mode: navdata (replay --set mapper/observer_mode=navdata; live: " +
+    finding.remedy = "odometry_mode: navdata (replay --set mapper/odometry_mode=navdata; live: " +
                      text("ardrone.launch navdata:=", recording.navdata_topic) + ")";
   }
   for (const std::string& choice : recording.choices) finding.text += "; " + choice;
@@ -112,16 +112,16 @@ Findings checkOdometryStream(const DoctorRecording& recording) {
 Finding checkClock(const DoctorRecording& recording) {
   Finding finding{"clock", Verdict::kOk, {}, {}};
   const auto images_s = medianLatency_s(timesOf(recording.images));
-  const std::vector<DoctorTime> observer =
-      isNavdataTheObserver(recording) ? timesOf(recording.navdata) : timesOf(recording.odometry);
-  const std::string what = isNavdataTheObserver(recording) ? "navdata" : "odometry";
-  const auto odometry_s = medianLatency_s(observer);
+  const std::vector<DoctorTime> odometry =
+      isNavdataTheOdometry(recording) ? timesOf(recording.navdata) : timesOf(recording.odometry);
+  const std::string what = isNavdataTheOdometry(recording) ? "navdata" : "odometry";
+  const auto odometry_s = medianLatency_s(odometry);
   if (!images_s || !odometry_s) {
     return {"clock", Verdict::kNotChecked, "needs images and odometry with stamps", {}};
   }
   const double apart_s = *images_s - *odometry_s;
   std::int64_t begin_ns = 0, end_ns = 0;
-  for (const DoctorTime& time : observer) {
+  for (const DoctorTime& time : odometry) {
     const std::int64_t stamp_ns = time.stamp_ns;
     if (stamp_ns <= 0) continue;
     if (begin_ns == 0 || stamp_ns < begin_ns) begin_ns = stamp_ns;

@@ -91,7 +91,7 @@ std::string best(DoctorRecording& recording, const Role& role, const std::string
   return best_name;
 }
 
-/// What the mapper publishes is no observer, nor is the truth.
+/// What the mapper publishes is no odometry, nor is the truth.
 bool isObserver(const std::string& topic) {
   return topic.find("truth") == std::string::npos && !endsWith(topic, "odometry_fused") &&
          !endsWith(topic, "odometry_live") && !endsWith(topic, "observer_odometry");
@@ -121,7 +121,7 @@ void chooseTopics(const DoctorTopicNames& names, DoctorRecording& recording) {
   }
   recording.odometry_topic =
       best(recording, {"--odometry-topic", {kOdometry}}, names.odometry, isObserver);
-  // Without odometry they are the observer, else replay looks at navdata's height only.
+  // Without odometry they are the odometry, else replay looks at navdata's height only.
   const bool is_observer = recording.odometry_topic.empty();
   const auto option = [is_observer](const char* name) {
     return is_observer ? std::string(name) : std::string();

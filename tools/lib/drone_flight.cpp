@@ -8,7 +8,7 @@
 namespace ardrone_vslam {
 
 DroneFlight flyDrone(const Flight& flight, const World& world, double duration_s,
-                     std::int64_t first_ns, const ObserverProfile& profile, std::uint64_t seed) {
+                     std::int64_t first_ns, const OdometryProfile& profile, std::uint64_t seed) {
   DroneFlight result;
   DroneSensors sensors(profile, seed);
   result.scale_error = sensors.scaleError();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "drone_packet.hpp"
-#include "observer_model.hpp"
+#include "odometry_model.hpp"
 #include "trajectory.hpp"
 #include "world.hpp"
 #include "world_flight.hpp"
@@ -22,6 +22,6 @@ struct DroneFlight {
 /// A whole flight by DroneSensors. @param first_ns  the stamp at the flight's beginning
 /// Equal arguments give equal results.
 DroneFlight flyDrone(const Flight& flight, const World& world, double duration_s,
-                     std::int64_t first_ns, const ObserverProfile& profile, std::uint64_t seed);
+                     std::int64_t first_ns, const OdometryProfile& profile, std::uint64_t seed);
 
 }  // namespace ardrone_vslam

@@ -27,7 +27,8 @@ double square(double x) {
 }
 
 /// What the profile's first part says about its errors; never zero, which would mean "unknown".
-void setVariances(const ObserverProfile& profile, double t_s, double way_m, DronePacket& packet) {
+void setVariances(const OdometryProfile& profile, double t_s, double displacement_m,
+                  DronePacket& packet) {
   constexpr double kLeast_m2 = 1e-6, kLeast_rad2 = 1e-6;
   constexpr double kNoiseRate_hz = 15;  // at which velocity_noise_m_s is meant
   const double velocity = square(profile.velocity_bias_m_s) +
@@ -35,10 +36,10 @@ void setVariances(const ObserverProfile& profile, double t_s, double way_m, Dron
   const double position =
       integratedVariance(profile.velocity_bias_m_s, profile.velocity_bias_time_s, t_s) +
       square(profile.velocity_noise_m_s) * t_s / kNoiseRate_hz +
-      square(profile.scale_deviation * way_m);
+      square(profile.scale_sigma * displacement_m);
   const double noise = square(profile.attitude_noise_rad);
   const double yaw = noise + square(profile.yaw_walk_rad_per_sqrt_s) * t_s +
-                     square(profile.yaw_walk_rad_per_sqrt_m) * way_m;
+                     square(profile.yaw_walk_rad_per_sqrt_m) * displacement_m;
   packet.pose_variances.head<3>().setConstant(kLeast_m2 + position);
   packet.pose_variances.segment<2>(3).setConstant(kLeast_rad2 + noise +
                                                   square(profile.attitude_bias_rad));
@@ -48,7 +49,7 @@ void setVariances(const ObserverProfile& profile, double t_s, double way_m, Dron
 }
 
 /// At the rate of the packets, and without the link, which is the drone's here.
-ObserverProfile atTheDrone(ObserverProfile profile) {
+OdometryProfile atTheDrone(OdometryProfile profile) {
   profile.rate_hz = kPacketRate_hz;
   profile.delay_s = profile.loss = 0;
   profile.bursts = false;
@@ -67,7 +68,7 @@ Eigen::Vector3d magneticField(const Eigen::Matrix3d& R_world_base) {
 
 }  // namespace
 
-DroneSensors::DroneSensors(const ObserverProfile& profile, std::uint64_t seed)
+DroneSensors::DroneSensors(const OdometryProfile& profile, std::uint64_t seed)
     : profile_(atTheDrone(profile)), drift_(profile_, seed), noise_(seed, kSensorStream) {}
 
 double DroneSensors::fuseAltitude(const std::optional<double>& range_m, const DronePacket& packet) {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "drone_packet.hpp"
-#include "observer_drift.hpp"
+#include "odometry_drift.hpp"
 #include "random_source.hpp"
 #include "world_flight.hpp"
 
@@ -16,7 +16,7 @@ namespace ardrone_vslam {
 /// odometry. Accelerometer and gyroscope have white noise, unless the profile is `truth`.
 class DroneSensors {
  public:
-  DroneSensors(const ObserverProfile& profile, std::uint64_t seed);
+  DroneSensors(const OdometryProfile& profile, std::uint64_t seed);
 
   /// To be called kPacketRate_hz times a second. The packet's state is flying or hovering, by its
   /// speed. @param range_m  of the sonar, down along the body's -z; nothing: no echo
@@ -28,8 +28,8 @@ class DroneSensors {
   /// Height above what is below: the sonar, and between its echoes the vertical velocity.
   double fuseAltitude(const std::optional<double>& range_m, const DronePacket& packet);
 
-  ObserverProfile profile_;
-  ObserverDrift drift_;
+  OdometryProfile profile_;
+  OdometryDrift drift_;
   RandomSource noise_;
   std::int64_t count_ = 0;
   Eigen::Vector3d last_odom_m_ = Eigen::Vector3d::Zero();

@@ -78,7 +78,7 @@ FakeDroneOptions droneOf(const FakeDriverConfig& config) {
   if (hasAutopilot(config)) options.autopilot = config.autopilot;
   if (!config.start.empty()) options.start = parseStart("start", config.start);
   options.profile =
-      loadObserverProfile(config.observer_profile, findConfigFile("observer_profiles.yaml"));
+      loadOdometryProfile(config.odometry_profile, findConfigFile("odometry_profiles.yaml"));
   options.wind_m_s = config.wind;
   options.seed = static_cast<std::uint64_t>(config.seed);
   return options;

@@ -19,7 +19,7 @@ struct FakeDriverConfig {
   std::string start;
   std::string camera = "front";
   std::string faults = "none";
-  std::string observer_profile = "drone";
+  std::string odometry_profile = "drone";
   std::string tf_prefix;
   double rate = 20;
   double wind = 0.2;
@@ -56,9 +56,9 @@ void visitParameters(FakeDriverConfig& c, Visitor&& visit) {
                     "of the driver, with commas between them: docs/make_world.md lists them; none; "
                     "released: those of every flight with ardrone_autonomy 1.4.1"},
       c.faults);
-  visit(ParameterInfo{"observer_profile", "name", 0, 0,
-                      "how the drone's measurements drift (config/observer_profiles.yaml)"},
-        c.observer_profile);
+  visit(ParameterInfo{"odometry_profile", "name", 0, 0,
+                      "how the drone's measurements drift (config/odometry_profiles.yaml)"},
+        c.odometry_profile);
   visit(ParameterInfo{"tf_prefix", "name", 0, 0,
                       "before all frames; empty: none, with the fault unprefixed_frame drone1"},
         c.tf_prefix);

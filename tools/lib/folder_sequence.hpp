@@ -17,7 +17,7 @@ struct FolderContents {
   std::string calibration_path;  ///< for messages
   Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
   Trajectory truth;
-  std::vector<ObserverState> observer;
+  std::vector<OdometryState> odometry;
   std::vector<RangeReading> ranges;
 };
 
@@ -33,7 +33,7 @@ class FolderSequence : public Sequence {
   const CameraIntrinsics& camera() const override { return contents_.camera; }
   Eigen::Isometry3d T_base_cam() const override { return contents_.T_base_cam; }
   const Trajectory& truth() const override { return contents_.truth; }
-  const std::vector<ObserverState>& observer() const override { return contents_.observer; }
+  const std::vector<OdometryState>& odometry() const override { return contents_.odometry; }
   std::vector<RangeReading> ranges() const override { return contents_.ranges; }
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 /// Recorded states and ranges this long before the first and after the last image stay, so that the
 /// stamps of images (and of late states) are covered.
-constexpr std::int64_t kObserverMargin_ns = 1'000'000'000;
+constexpr std::int64_t kOdometryMargin_ns = 1'000'000'000;
 
 std::optional<std::size_t> parsePart(const std::string& part, const std::string& text) {
   if (part.empty()) return std::nullopt;
@@ -46,7 +46,7 @@ std::int64_t medianInterval_ns(const Sequence& sequence, const std::vector<std::
 }
 
 /// The part of the truth that the images cover, from the very first to the very last image: a
-/// simulated observer starts without error where the images start.
+/// simulated odometry starts without error where the images start.
 Trajectory cut(const Trajectory& truth, std::int64_t first_ns, std::int64_t last_ns) {
   if (truth.empty() || truth.poses().back().stamp_ns < first_ns ||
       truth.poses().front().stamp_ns > last_ns) {
@@ -90,10 +90,12 @@ class SelectedSequence : public Sequence {
   }
   SequenceCamera cameraAt(std::size_t which) const override { return sequence_->cameraAt(which); }
   const Trajectory& truth() const override { return truth_; }
-  const std::vector<ObserverState>& observer() const override { return observer_; }
+  const std::vector<OdometryState>& odometry() const override { return odometry_; }
   std::vector<RangeReading> ranges() const override { return ranges_; }
-  ObserverNote observerNote() const override { return sequence_->observerNote(); }
-  OdometryFaultCounts observerFaults() const override { return sequence_->observerFaults(); }
+  OdometryNote odometryNote() const override { return sequence_->odometryNote(); }
+  OdometryFaultCounts odometryInputFaults() const override {
+    return sequence_->odometryInputFaults();
+  }
 
  private:
   void restamp(const std::vector<std::size_t>& frames) {
@@ -111,11 +113,11 @@ class SelectedSequence : public Sequence {
     for (const std::size_t frame : order_) stamps_ns_.push_back(sequence_->stamp_ns(frame));
     truth_ = cut(sequence_->truth(), stamps_ns_.front(), stamps_ns_.back());
     const auto isCovered = [this](std::int64_t stamp_ns) {
-      return stamp_ns >= stamps_ns_.front() - kObserverMargin_ns &&
-             stamp_ns <= stamps_ns_.back() + kObserverMargin_ns;
+      return stamp_ns >= stamps_ns_.front() - kOdometryMargin_ns &&
+             stamp_ns <= stamps_ns_.back() + kOdometryMargin_ns;
     };
-    for (const ObserverState& state : sequence_->observer()) {
-      if (isCovered(state.stamp_ns)) observer_.push_back(state);
+    for (const OdometryState& state : sequence_->odometry()) {
+      if (isCovered(state.stamp_ns)) odometry_.push_back(state);
     }
     for (const RangeReading& reading : sequence_->ranges()) {
       if (isCovered(reading.stamp_ns)) ranges_.push_back(reading);
@@ -127,7 +129,7 @@ class SelectedSequence : public Sequence {
   SequenceCamera camera_;           // of the first image
   std::vector<std::int64_t> stamps_ns_;
   Trajectory truth_;
-  std::vector<ObserverState> observer_;
+  std::vector<OdometryState> odometry_;
   std::vector<RangeReading> ranges_;
 };
 

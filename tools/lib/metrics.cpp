@@ -65,21 +65,21 @@ Trajectory scaled(const Trajectory& truth, double scale_error) {
 std::optional<double> translationError_percent(const Trajectory& estimate,
                                                const Trajectory& truth) {
   assert(estimate.size() == truth.size() && "trajectories must have equal stamps");
-  std::vector<double> way_m{0};
+  std::vector<double> displacement_m{0};
   for (std::size_t i = 1; i < truth.size(); ++i) {
-    way_m.push_back(way_m.back() + (truth.poses()[i].T_map_base.translation() -
-                                    truth.poses()[i - 1].T_map_base.translation())
-                                       .norm());
+    displacement_m.push_back(displacement_m.back() + (truth.poses()[i].T_map_base.translation() -
+                                                      truth.poses()[i - 1].T_map_base.translation())
+                                                         .norm());
   }
   constexpr std::size_t kStartStep = 10;
   double sum = 0;
   int count = 0;
   for (std::size_t first = 0; first < truth.size(); first += kStartStep) {
     for (double length_m = 100; length_m <= 800; length_m += 100) {
-      const auto end = std::upper_bound(way_m.begin() + static_cast<std::ptrdiff_t>(first),
-                                        way_m.end(), way_m[first] + length_m);
-      if (end == way_m.end()) break;
-      const auto last = static_cast<std::size_t>(end - way_m.begin());
+      const auto end = std::upper_bound(displacement_m.begin() + static_cast<std::ptrdiff_t>(first),
+                                        displacement_m.end(), displacement_m[first] + length_m);
+      if (end == displacement_m.end()) break;
+      const auto last = static_cast<std::size_t>(end - displacement_m.begin());
       const Eigen::Isometry3d true_motion =
           truth.poses()[first].T_map_base.inverse() * truth.poses()[last].T_map_base;
       const Eigen::Isometry3d motion =

@@ -24,7 +24,7 @@ ErrorSummary summarise(const std::vector<double>& errors_m);
 /// @pre both have the same stamps
 double alignedRmse_m(const Trajectory& estimate, const Trajectory& truth);
 
-/// Truth as an observer with this scale error would report it without any other error: positions
+/// Truth as odometry with this scale error would report it without any other error: positions
 /// about the first one times (1 + scale_error).
 Trajectory scaled(const Trajectory& truth, double scale_error);
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "ardrone_vslam/scene_turn.hpp"
+#include "ardrone_vslam/image_roll.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -25,9 +25,9 @@ ImageView viewOf(const cv::Mat& image) {
 }
 
 /// The image's turn at ascending stamps, from odometry.
-class SceneTurns {
+class ImageRolls {
  public:
-  explicit SceneTurns(const FrontEndAttitude& attitude)
+  explicit ImageRolls(const FrontEndAttitude& attitude)
       : attitude_(attitude.states != nullptr ? *attitude.states : kNone),
         image_time_offset_ns_(std::llround(attitude.image_time_offset_s * 1e9)) {}
 
@@ -35,18 +35,18 @@ class SceneTurns {
     const std::int64_t exposed_ns = stamp_ns + image_time_offset_ns_;
     while (next_ < attitude_.size() && attitude_[next_].stamp_ns < exposed_ns) ++next_;
     if (next_ == attitude_.size()) return std::nullopt;
-    const ObserverState& after = attitude_[next_];
+    const OdometryState& after = attitude_[next_];
     if (next_ == 0 && after.stamp_ns > exposed_ns) return std::nullopt;
-    const ObserverState& before = attitude_[next_ == 0 ? 0 : next_ - 1];
-    const ObserverState state =
+    const OdometryState& before = attitude_[next_ == 0 ? 0 : next_ - 1];
+    const OdometryState state =
         after.stamp_ns == exposed_ns ? after : interpolate(before, after, exposed_ns);
-    return sceneTurn_rad(state.T_odom_base.linear() * R_base_cam);
+    return imageRoll_rad(state.T_odom_base.linear() * R_base_cam);
   }
 
  private:
-  inline static const std::vector<ObserverState> kNone;
+  inline static const std::vector<OdometryState> kNone;
 
-  const std::vector<ObserverState>& attitude_;
+  const std::vector<OdometryState>& attitude_;
   std::int64_t image_time_offset_ns_;
   std::size_t next_ = 0;
 };
@@ -81,7 +81,7 @@ void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEnd
   const auto load = [&sequence, policy](std::size_t index) {
     return std::async(policy, [&sequence, index] { return sequence.image(index); });
   };
-  SceneTurns turns(attitude);
+  ImageRolls turns(attitude);
   TrackedFrame frame;
   std::future<cv::Mat> next;
   if (sequence.size() > 0) next = load(0);
@@ -111,45 +111,45 @@ void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEnd
 }
 
 BackEnd::BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
-                 const std::vector<ObserverState>& observer, std::vector<RangeReading> ranges)
+                 const std::vector<OdometryState>& odometry, std::vector<RangeReading> ranges)
     : slam_(config, T_base_cam),
       T_base_cam_(T_base_cam),
       image_time_offset_ns_(std::llround(config.image_time_offset_s * 1e9)),
       time_offset_(T_base_cam, config.image_time_offset_s),
-      adapter_(config.observer_adapter),
-      buffer_(config.observer),
-      observer_(observer),
-      heights_(config.height_input, config.observer.buffer_s),
+      adapter_(config.odometry_adapter),
+      buffer_(config.odometry),
+      odometry_(odometry),
+      heights_(config.height_input, config.odometry.buffer_s),
       ranges_(std::move(ranges)) {
   run_.image_time_offset_s = config.image_time_offset_s;
 }
 
-bool BackEnd::observerAt(std::int64_t stamp_ns, ObserverState& state) {
+bool BackEnd::odometryAt(std::int64_t stamp_ns, OdometryState& state) {
   auto lookup = buffer_.at(stamp_ns, state);
-  while ((lookup == ObserverBuffer::Lookup::kEmpty || lookup == ObserverBuffer::Lookup::kNotYet) &&
-         next_ < observer_.size()) {
+  while ((lookup == OdometryBuffer::Lookup::kEmpty || lookup == OdometryBuffer::Lookup::kNotYet) &&
+         next_ < odometry_.size()) {
     takeNextObserver();
     lookup = buffer_.at(stamp_ns, state);
   }
-  return lookup == ObserverBuffer::Lookup::kFound;
+  return lookup == OdometryBuffer::Lookup::kFound;
 }
 
 void BackEnd::takeNextObserver() {
-  using Push = ObserverBuffer::Push;
+  using Push = OdometryBuffer::Push;
   ready_.clear();
-  if (adapter_.push(observer_[next_++], ready_) != Push::kAccepted) ++run_.observer_states_refused;
-  const bool is_last = next_ == observer_.size();
-  if (is_last && adapter_.flush(ready_) != Push::kAccepted) ++run_.observer_states_refused;
-  for (const ObserverState& state : ready_) {
+  if (adapter_.push(odometry_[next_++], ready_) != Push::kAccepted) ++run_.odometry_states_refused;
+  const bool is_last = next_ == odometry_.size();
+  if (is_last && adapter_.flush(ready_) != Push::kAccepted) ++run_.odometry_states_refused;
+  for (const OdometryState& state : ready_) {
     if (buffer_.push(state) == Push::kAccepted) {
       speed_.see(state);
     } else {
-      ++run_.observer_states_refused;
+      ++run_.odometry_states_refused;
     }
   }
 }
 
-std::optional<double> BackEnd::heightAt(const ObserverState& state) {
+std::optional<double> BackEnd::heightAt(const OdometryState& state) {
   const auto isWanted = [&](const RangeReading& next) {  // all of a burst
     const std::int64_t newest_ns = heights_.newestStamp_ns();
     return newest_ns < state.stamp_ns || next.stamp_ns == newest_ns;
@@ -162,7 +162,7 @@ std::optional<double> BackEnd::heightAt(const ObserverState& state) {
 void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   if (!slam_.canChangeCamera())
     throw std::runtime_error(
-        "the images are of several cameras, and mounting_deviation_deg is of one: set it to 0");
+        "the images are of several cameras, and extrinsics_sigma_deg is of one: set it to 0");
   slam_.changeCamera(T_base_cam);
   T_base_cam_ = T_base_cam;
   time_offset_.useCamera(T_base_cam);
@@ -173,9 +173,9 @@ void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 
 double BackEnd::process(const TrackedFrame& frame) {
   if (frame.other_camera) changeCamera(*frame.other_camera);
-  ObserverState state;
-  if (!observerAt(frame.features.stamp_ns + image_time_offset_ns_, state)) {
-    ++run_.frames_without_observer;
+  OdometryState state;
+  if (!odometryAt(frame.features.stamp_ns + image_time_offset_ns_, state)) {
+    ++run_.frames_without_odometry;
     return total_ms(frame.times_ms);
   }
   watch_.see(frame.features, Eigen::Isometry3d((state.T_odom_base * T_base_cam_).linear()));
@@ -200,7 +200,7 @@ RunResult BackEnd::finish() {
   run_.ranges_refused = heights_.refused();
   run_.heights_missing = heights_.missing();
   run_.heights_tilted = heights_.tilted();
-  run_.landmarks = slam_.landmarks().all();
+  run_.landmarks = slam_.landmarks();
   return std::move(run_);
 }
 

@@ -12,12 +12,12 @@
 #include "../../nodes/standstill_watch.hpp"
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/height_input.hpp"
-#include "ardrone_vslam/observer_adapter.hpp"
+#include "ardrone_vslam/odometry_adapter.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/stages.hpp"
 #include "ardrone_vslam/time_offset.hpp"
 #include "config_file.hpp"
-#include "observer_model.hpp"
+#include "odometry_model.hpp"
 #include "sequence.hpp"
 
 namespace ardrone_vslam {
@@ -40,26 +40,26 @@ struct RunFrame {
   StageTimes_ms times_ms{};
 };
 
-/// One pass over a sequence with one observer.
+/// One pass over a sequence with one odometry.
 struct RunResult {
   std::vector<RunFrame> frames;
   std::vector<Landmark> landmarks;
-  int frames_without_observer =
+  int frames_without_odometry =
       0;  ///< no odometry at the image's stamp: before the first state, in a gap, or after the last
   int frames_dropped_slow = 0;      ///< that the emulated slower computer had no time for
-  int observer_states_refused = 0;  ///< not finite, out of bounds, duplicate or backward stamps
+  int odometry_states_refused = 0;  ///< not finite, out of bounds, duplicate or backward stamps
   OdometryFaultCounts odometry_faults{};
   std::uint64_t ranges_refused = 0;
   std::uint64_t heights_missing = 0;  ///< images without a range near their stamp
   std::uint64_t heights_tilted = 0;   ///< images without a height as base was tilted
-  /// The tracks moved for seconds on end by more than the observer's turning explains.
+  /// The tracks moved for seconds on end by more than the odometry's turning explains.
   bool images_travel = false;
   bool odometry_froze = false;  ///< for a while, although the images travelled
-  double absurd_speed_m_s = 0;  ///< of the observer, when it is too fast to be in metres
+  double absurd_speed_m_s = 0;  ///< of the odometry, when it is too fast to be in metres
   int camera_changes = 0;
   double image_time_offset_s = 0;  ///< the parameter
   TimeOffset time_offset;          ///< what it seems to be
-  double scale_error = 0;          ///< the one drawn for the observer
+  double scale_error = 0;          ///< the one drawn for the odometry
 };
 
 /// Images at which the watchdog left the camera out.
@@ -71,7 +71,7 @@ using Progress = std::function<void(std::size_t)>;
 /// With `use_attitude`: poses whose orientation turns the descriptors' pattern, for images exposed
 /// at their stamps plus the offset.
 struct FrontEndAttitude {
-  const std::vector<ObserverState>* states = nullptr;
+  const std::vector<OdometryState>* states = nullptr;
   double image_time_offset_s = 0;
 };
 
@@ -86,35 +86,35 @@ void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEnd
                  int threads, const std::function<void(const TrackedFrame& frame)>& consume,
                  const NextImage& next_image = {});
 
-/// Features + observer -> poses and map, as the nodelets do it: odometry through an
-/// ObserverAdapter, interpolated at the image's stamp by an ObserverBuffer, ranges by a
+/// Features + odometry -> poses and map, as the nodelets do it: odometry through an
+/// OdometryAdapter, interpolated at the image's stamp by an OdometryBuffer, ranges by a
 /// HeightInput.
 class BackEnd {
  public:
   BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
-          const std::vector<ObserverState>& observer, std::vector<RangeReading> ranges = {});
-  /// @throws std::runtime_error when the camera changes and mounting_deviation_deg forbids it
+          const std::vector<OdometryState>& odometry, std::vector<RangeReading> ranges = {});
+  /// @throws std::runtime_error when the camera changes and extrinsics_sigma_deg forbids it
   /// @return what the image has cost, front end included [ms]
   double process(const TrackedFrame& frame);
   RunResult finish();
 
  private:
   void changeCamera(const Eigen::Isometry3d& T_base_cam);
-  bool observerAt(std::int64_t stamp_ns, ObserverState& state);
+  bool odometryAt(std::int64_t stamp_ns, OdometryState& state);
   void takeNextObserver();
-  std::optional<double> heightAt(const ObserverState& state);
+  std::optional<double> heightAt(const OdometryState& state);
 
   Slam slam_;
   Eigen::Isometry3d T_base_cam_;
   std::int64_t image_time_offset_ns_;
   TimeOffsetEstimator time_offset_;
-  StandstillWatch watch_;       ///< sees an observer that only turns: what moves then is the images
+  StandstillWatch watch_;       ///< sees odometry that only turns: what moves then is the images
   StandstillWatch standstill_;  ///< the same with its positions
   SpeedWatch speed_;
-  ObserverAdapter adapter_;
-  ObserverBuffer buffer_;
-  std::vector<ObserverState> ready_;  ///< kept for its memory
-  const std::vector<ObserverState>& observer_;
+  OdometryAdapter adapter_;
+  OdometryBuffer buffer_;
+  std::vector<OdometryState> ready_;  ///< kept for its memory
+  const std::vector<OdometryState>& odometry_;
   std::size_t next_ = 0;
   HeightInput heights_;
   std::vector<RangeReading> ranges_;

@@ -7,7 +7,7 @@
 
 #include "../../nodes/node_config.hpp"  // the structs alone: no ROS
 #include "../../onboard/onboard_config.hpp"
-#include "ardrone_vslam/late_fusion.hpp"
+#include "ardrone_vslam/delayed_fusion.hpp"
 #include "config_file.hpp"
 #include "fake_driver_config.hpp"
 
@@ -21,7 +21,7 @@ constexpr const char* kHead =
     "*Config structs, not this page.\n"
     "\n"
     "A configuration file (`config/*.yaml`) has two sections, `tracker:` and `mapper:`, and may "
-    "have `observer_fusion:` and `onboard:`, too. The launch "
+    "have `odometry_fusion:` and `onboard:`, too. The launch "
     "files load each into the private namespace of its nodelet; the offline programs read the same "
     "file by `--config FILE` and single values by `--set name=value`. What is not given keeps its "
     "default. A value outside its range, of the wrong type or of an unknown name is refused with "
@@ -84,8 +84,9 @@ std::string parameterTable() {
       "(bags)",
       out);
   writeTable<MapperNodeConfig>("mapper, read by its nodelet only", out);
-  writeTable<ObserverFusionNodeConfig>("observer_fusion, read by its nodelet only", out);
-  writeTable<LateFusionConfig>("observer_fusion: odometry and corrections to odometry in map", out);
+  writeTable<OdometryFusionNodeConfig>("odometry_fusion, read by its nodelet only", out);
+  writeTable<DelayedFusionConfig>("odometry_fusion: odometry and corrections to odometry in map",
+                                  out);
   writeTable<PathNodeConfig>("path nodelet", out);
   writeTable<FakeDriverConfig>("fake_driver", out);
   writeTable<OnboardConfig>("onboard, read by vslam_onboard only (docs/onboard.md)", out);

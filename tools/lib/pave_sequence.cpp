@@ -149,7 +149,7 @@ class PaveFile : public PaveSequence {
   }
   SequenceCamera cameraAt(std::size_t which) const override { return cameras_.at(which); }
   const Trajectory& truth() const override { return truth_; }
-  const std::vector<ObserverState>& observer() const override { return observer_; }
+  const std::vector<OdometryState>& odometry() const override { return odometry_; }
   const std::vector<std::string>& warnings() const override { return warnings_; }
 
  private:
@@ -215,7 +215,7 @@ class PaveFile : public PaveSequence {
   PaveDecoder decoder_;
   PaveStamps stamps_;
   Trajectory truth_;
-  std::vector<ObserverState> observer_;  // always empty
+  std::vector<OdometryState> odometry_;  // always empty
 };
 
 }  // namespace

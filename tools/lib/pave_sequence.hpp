@@ -25,7 +25,7 @@ class PaveSequence : public Sequence {
 /// The raw stream of the drone's TCP port (PaVE headers and H.264). Stamps are the drone's clock
 /// (stampsOf). Pictures of the size of a calibration are that camera's, mounted as the driver's tf
 /// says; others of the front camera's aspect ratio are the front camera's; the rest is left out.
-/// The stream does not tell cameras of one size apart. There is no observer in it.
+/// The stream does not tell cameras of one size apart. There is no odometry in it.
 /// @throws std::runtime_error naming the file, the fault and the remedy
 std::unique_ptr<PaveSequence> openPave(const std::string& path, const PaveOptions& options);
 

@@ -10,20 +10,20 @@
 
 namespace ardrone_vslam {
 
-ObserverProfile profileOfOption(const std::string& name) {
-  const std::string profiles = findConfigFile("observer_profiles.yaml");
-  const auto names = observerProfileNames(profiles);
+OdometryProfile profileOfOption(const std::string& name) {
+  const std::string profiles = findConfigFile("odometry_profiles.yaml");
+  const auto names = odometryProfileNames(profiles);
   const std::string first = name.substr(0, name.find(','));
   if (std::find(names.begin(), names.end(), first) == names.end()) {
     std::string known;
     for (const auto& other : names) known += (known.empty() ? "" : ", ") + other;
-    throw UsageError("--observer-profile: there is no profile '" + first + "'; known are " + known);
+    throw UsageError("--odometry-profile: there is no profile '" + first + "'; known are " + known);
   }
-  if (first == name) return loadObserverProfile(name, profiles);
+  if (first == name) return loadOdometryProfile(name, profiles);
   try {
-    return loadObserverProfile(name, profiles);
+    return loadOdometryProfile(name, profiles);
   } catch (const std::runtime_error& e) {
-    throw UsageError(std::string("--observer-profile: ") + e.what());
+    throw UsageError(std::string("--odometry-profile: ") + e.what());
   }
 }
 

@@ -3,15 +3,15 @@
 
 #include <string>
 
-#include "observer_model.hpp"
+#include "odometry_model.hpp"
 
 namespace ardrone_vslam {
 
-/// The profile that --observer-profile names, of config/observer_profiles.yaml.
-/// @throws UsageError when there is none of this name; std::runtime_error as loadObserverProfile
-ObserverProfile profileOfOption(const std::string& name);
+/// The profile that --odometry-profile names, of config/odometry_profiles.yaml.
+/// @throws UsageError when there is none of this name; std::runtime_error as loadOdometryProfile
+OdometryProfile profileOfOption(const std::string& name);
 
-/// Which observer to simulate when none is named: wheel on KITTI's car, else drone.
+/// Which odometry to simulate when none is named: wheel on KITTI's car, else drone.
 /// @param input  folder or file of images
 std::string defaultProfile(const std::string& input);
 

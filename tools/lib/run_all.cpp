@@ -25,9 +25,9 @@ void forEach(std::size_t count, int threads, const Work& work) {
 }  // namespace
 
 void BackEnds::add(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
-                   const RunObserver& observer, const std::vector<RangeReading>& ranges) {
-  back_ends_.push_back(std::make_unique<BackEnd>(config, T_base_cam, observer.run.states, ranges));
-  scale_errors_.push_back(observer.run.scale_error);
+                   const RunOdometry& odometry, const std::vector<RangeReading>& ranges) {
+  back_ends_.push_back(std::make_unique<BackEnd>(config, T_base_cam, odometry.run.states, ranges));
+  scale_errors_.push_back(odometry.run.scale_error);
 }
 
 double BackEnds::process(const TrackedFrame& frame) {
@@ -47,11 +47,11 @@ std::vector<RunResult> BackEnds::finish() {
 }
 
 std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
-                              const std::vector<RunObserver>& observers, int threads,
+                              const std::vector<RunOdometry>& odometries, int threads,
                               const Progress& progress, const std::optional<ComputerSpeed>& speed) {
   BackEnds back_ends(threads);
-  for (const RunObserver& observer : observers)
-    back_ends.add(config.mapper, sequence.T_base_cam(), observer, sequence.ranges());
+  for (const RunOdometry& odometry : odometries)
+    back_ends.add(config.mapper, sequence.T_base_cam(), odometry, sequence.ranges());
   SlowComputer computer(speed.value_or(ComputerSpeed{}));
   NextImage next_image;
   double cost_ms = 0;
@@ -59,7 +59,8 @@ std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
   std::size_t done = 0;
   // The front end runs once for all seeds. With `use_attitude` it takes the first seed's: attitudes
   // of one profile differ by no more than the pattern's steps of 1.4 degrees.
-  const FrontEndAttitude attitude{&observers.front().run.states, config.mapper.image_time_offset_s};
+  const FrontEndAttitude attitude{&odometries.front().run.states,
+                                  config.mapper.image_time_offset_s};
   const auto consume = [&](const TrackedFrame& frame) {
     cost_ms = back_ends.process(frame);
     ++done;
@@ -68,7 +69,7 @@ std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
   runFrontEnd(sequence, config.tracker, attitude, threads, consume, next_image);
   std::vector<RunResult> results = back_ends.finish();
   for (RunResult& result : results) {
-    add(sequence.observerFaults(), result.odometry_faults);
+    add(sequence.odometryInputFaults(), result.odometry_faults);
     result.frames_dropped_slow = computer.dropped();
   }
   return results;

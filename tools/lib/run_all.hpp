@@ -7,7 +7,7 @@
 
 #include "config_file.hpp"
 #include "offline_run.hpp"
-#include "run_observers.hpp"
+#include "run_odometry.hpp"
 #include "sequence.hpp"
 #include "slow_computer.hpp"
 
@@ -18,9 +18,9 @@ class BackEnds {
  public:
   /// @param threads  over which they are spread; the results do not depend on it
   explicit BackEnds(int threads) : threads_(threads) {}
-  /// @param observer  must outlive this
+  /// @param odometry  must outlive this
   void add(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
-           const RunObserver& observer, const std::vector<RangeReading>& ranges = {});
+           const RunOdometry& odometry, const std::vector<RangeReading>& ranges = {});
   /// @return what the image has cost where it cost most [ms]
   double process(const TrackedFrame& frame);
   /// In the order of add().
@@ -32,11 +32,11 @@ class BackEnds {
   std::vector<double> scale_errors_;
 };
 
-/// The sequence with each of the observers; the front end runs once for all.
-/// @param threads  for decoding and for the observers; the results do not depend on it
+/// The sequence with each of the odometries; the front end runs once for all.
+/// @param threads  for decoding and for the odometries; the results do not depend on it
 /// @param speed  of the computer that is emulated; nothing: it has time for all images
 std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
-                              const std::vector<RunObserver>& observers, int threads,
+                              const std::vector<RunOdometry>& odometries, int threads,
                               const Progress& progress,
                               const std::optional<ComputerSpeed>& speed = {});
 

@@ -20,8 +20,8 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
          "landmark_mismatches,"
          "feature_candidates,feature_matches,feature_mismatches,new_landmarks,removed_landmarks,"
          "landmarks,map_features,"
-         "deviation_m,fix_nis,camera_x_m,camera_y_m,camera_z_m,camera_deviation_m,fused_error_m,"
-         "observer_"
+         "sigma_m,fix_nis,camera_x_m,camera_y_m,camera_z_m,camera_sigma_m,fused_error_m,"
+         "odometry_"
          "error_m,camera_error_m,nees";
   for (const char* name : kStageNames) out << ",ms_" << name;
   out << ",ms_total\n" << std::setprecision(9);
@@ -43,13 +43,13 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
           r.landmarks, r.map_features}) {
       out << ',' << count;
     }
-    cell(r.deviation_m);
+    cell(r.sigma_m);
     cell(r.fix_nis > 0 ? r.fix_nis : kNone);
     for (int axis = 0; axis < 3; ++axis)
       cell(r.camera_position_map ? (*r.camera_position_map)[axis] : kNone);
-    cell(r.camera_position_map ? r.camera_deviation_m : kNone);
+    cell(r.camera_position_map ? r.camera_sigma_m : kNone);
     cell(valueAt(e.fused_error_m, i));
-    cell(valueAt(e.observer_error_m, i));
+    cell(valueAt(e.odometry_error_m, i));
     cell(valueAt(e.camera_error_m, i));
     cell(valueAt(e.nees, i));
     for (const double ms : run.frames[i].times_ms) cell(ms);
@@ -59,12 +59,12 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
 }
 
 void writeLandmarks(std::ostream& out, const RunResult& run) {
-  out << "id,x_m,y_m,z_m,deviation_m,depth_deviation_m,times_seen\n" << std::setprecision(9);
+  out << "id,x_m,y_m,z_m,sigma_m,depth_sigma_m,times_seen\n" << std::setprecision(9);
   for (const Landmark& l : run.landmarks) {
     if (isNotFinite(l)) continue;
     out << l.id << ',' << l.position_map.x() << ',' << l.position_map.y() << ','
-        << l.position_map.z() << ',' << l.deviation_m << ',' << l.depth_deviation_m << ','
-        << l.times_seen << '\n';
+        << l.position_map.z() << ',' << l.sigma_m << ',' << l.depth_sigma_m << ',' << l.times_seen
+        << '\n';
   }
 }
 
@@ -90,7 +90,7 @@ void writeRun(const std::string& folder, const RunResult& run, const RunEvaluati
   if (error)
     throw std::runtime_error(folder + ": cannot be made (" + error.message() +
                              "); choose another --out");
-  writeTum(folder + "/observer.tum", evaluation.observer);
+  writeTum(folder + "/odometry.tum", evaluation.odometry);
   writeTum(folder + "/fused.tum", evaluation.fused);
   if (!evaluation.truth.empty()) writeTum(folder + "/truth.tum", evaluation.truth);
   std::ostringstream frames;

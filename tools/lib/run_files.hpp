@@ -11,7 +11,7 @@
 namespace ardrone_vslam {
 
 /// All that a run writes.
-constexpr std::array<const char*, 6> kRunFiles{"observer.tum", "fused.tum",     "truth.tum",
+constexpr std::array<const char*, 6> kRunFiles{"odometry.tum", "fused.tum",     "truth.tum",
                                                "frames.csv",   "landmarks.csv", "summary.json"};
 
 /// What scripts/evaluate writes beside them when it is asked for a report of the folder.

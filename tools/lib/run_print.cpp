@@ -27,7 +27,7 @@ void printRow(const std::string& name, const Json& numbers, std::ostream& out) {
     }
     out << std::setw(width) << text.str();
   };
-  cell("observer_ate_rmse_m", 19, 4);
+  cell("odometry_ate_rmse_m", 19, 4);
   cell("fused_ate_rmse_m", 16, 4);
   cell("ratio", 7, 3);
   cell("ratio_scale_removed", 21, 3);
@@ -47,7 +47,7 @@ void printSummary(const Json& summary) {
 }
 
 void printSeeds(const Json& summary, std::ostream& out) {
-  out << "  seed  observer RMSE [m]  fused RMSE [m]  ratio  ratio_scale_removed\n";
+  out << "  seed  odometry RMSE [m]  fused RMSE [m]  ratio  ratio_scale_removed\n";
   for (const Json& run : summary["runs"]) printRow(run["seed"].dump(), run, out);
   for (const char* kind : {"median", "worst"})
     printRow(kind, summary.value(kind, Json::object()), out);

@@ -45,36 +45,36 @@ std::vector<double> finite(const std::vector<double>& values) {
 
 void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& label, Json& summary) {
   const ErrorSummary fused = summarise(finite(e.fused_error_m));
-  const ErrorSummary observer = summarise(finite(e.observer_error_m));
+  const ErrorSummary odometry = summarise(finite(e.odometry_error_m));
   const bool known = !e.truth.empty();
   const auto ifKnown = [known](double value) { return known ? orNull(value) : Json(nullptr); };
-  const bool drifts = label.profile != "truth" && observer.rmse_m > 0;
-  summary["observer_ate_rmse_m"] = ifKnown(observer.rmse_m);
+  const bool drifts = label.profile != "truth" && odometry.rmse_m > 0;
+  summary["odometry_ate_rmse_m"] = ifKnown(odometry.rmse_m);
   summary["fused_ate_rmse_m"] = ifKnown(fused.rmse_m);
   summary["fused_error_mean_m"] = ifKnown(fused.mean_m);
   summary["fused_error_max_m"] = ifKnown(fused.max_m);
-  summary["ratio"] = drifts ? ifKnown(fused.rmse_m / observer.rmse_m) : Json(nullptr);
+  summary["ratio"] = drifts ? ifKnown(fused.rmse_m / odometry.rmse_m) : Json(nullptr);
 
   const Trajectory truth = scaled(e.truth, run.scale_error);
   const double fused_scaled =
       known ? summarise(positionErrors_m(e.fused_at_truth, truth)).rmse_m : 0;
-  const double observer_scaled =
-      known ? summarise(positionErrors_m(e.observer_at_truth, truth)).rmse_m : 0;
-  summary["observer_ate_rmse_scale_removed_m"] = ifKnown(observer_scaled);
+  const double odometry_scaled =
+      known ? summarise(positionErrors_m(e.odometry_at_truth, truth)).rmse_m : 0;
+  summary["odometry_ate_rmse_scale_removed_m"] = ifKnown(odometry_scaled);
   summary["fused_ate_rmse_scale_removed_m"] = ifKnown(fused_scaled);
-  summary["ratio_scale_removed"] = drifts ? ifKnown(fused_scaled / observer_scaled) : Json(nullptr);
+  summary["ratio_scale_removed"] = drifts ? ifKnown(fused_scaled / odometry_scaled) : Json(nullptr);
   summary["fused_ate_rmse_aligned_m"] = ifKnown(alignedRmse_m(e.fused_at_truth, e.truth));
-  summary["observer_scale_error"] = run.scale_error;
+  summary["odometry_scale_error"] = run.scale_error;
 
   summary["fused_error_last_m"] =
       known && !e.fused_error_m.empty() ? orNull(e.fused_error_m.back()) : Json(nullptr);
-  summary["observer_error_last_m"] =
-      known && !e.observer_error_m.empty() ? orNull(e.observer_error_m.back()) : Json(nullptr);
+  summary["odometry_error_last_m"] =
+      known && !e.odometry_error_m.empty() ? orNull(e.odometry_error_m.back()) : Json(nullptr);
   const auto t_rel = known ? translationError_percent(e.fused_at_truth, e.truth) : std::nullopt;
-  const auto observer_t_rel =
-      known ? translationError_percent(e.observer_at_truth, e.truth) : std::nullopt;
+  const auto odometry_t_rel =
+      known ? translationError_percent(e.odometry_at_truth, e.truth) : std::nullopt;
   summary["t_rel_percent"] = t_rel ? Json(*t_rel) : Json(nullptr);
-  summary["observer_t_rel_percent"] = observer_t_rel ? Json(*observer_t_rel) : Json(nullptr);
+  summary["odometry_t_rel_percent"] = odometry_t_rel ? Json(*odometry_t_rel) : Json(nullptr);
 
   const std::vector<double> camera = finite(e.camera_error_m);
   const ErrorSummary camera_summary = summarise(camera);
@@ -97,14 +97,14 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
 
 void addScale(const RunResult& run, Json& summary) {
   const FrameResult last = run.frames.empty() ? FrameResult{} : run.frames.back().result;
-  const bool is_estimated = last.scale_deviation > 0;
+  const bool is_estimated = last.scale_sigma > 0;
   const auto count = [&run](HeightOutcome outcome) {
     return std::count_if(run.frames.begin(), run.frames.end(), [outcome](const RunFrame& frame) {
       return frame.result.height == outcome;
     });
   };
   summary["fused_scale_error"] = is_estimated ? orNull(last.scale_error) : Json(nullptr);
-  summary["fused_scale_deviation"] = is_estimated ? orNull(last.scale_deviation) : Json(nullptr);
+  summary["fused_scale_deviation"] = is_estimated ? orNull(last.scale_sigma) : Json(nullptr);
   summary["heights_used"] = count(HeightOutcome::kApplied);
   summary["heights_rejected"] = count(HeightOutcome::kRejected);
   summary["floors"] = count(HeightOutcome::kNewFloor);
@@ -137,7 +137,7 @@ void addCost(const RunResult& run, Json& summary) {
 
 bool isNotFinite(const Landmark& landmark) {
   return !landmark.position_map.allFinite() ||
-         !std::isfinite(landmark.deviation_m + landmark.depth_deviation_m);
+         !std::isfinite(landmark.sigma_m + landmark.depth_sigma_m);
 }
 
 RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
@@ -147,30 +147,30 @@ RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
     const FrameResult& r = frame.result;
     const std::int64_t exposed_ns = r.stamp_ns + std::llround(run.image_time_offset_s * 1e9);
     const StampedPose fused{exposed_ns, r.T_map_base};
-    const StampedPose observer{exposed_ns, r.T_odom_base};
+    const StampedPose odometry{exposed_ns, r.T_odom_base};
     e.fused.append(fused);
-    e.observer.append(observer);
+    e.odometry.append(odometry);
     double camera_error = kNone;
     double fused_nees = kNone;
     double fused_error = kNone;
-    double observer_error = kNone;
+    double odometry_error = kNone;
     if (truth.covers(exposed_ns, kLongestTruthGap_ns)) {
       const Eigen::Isometry3d T_map_base = truth.at(exposed_ns);
       e.truth.append({exposed_ns, T_map_base});
       e.fused_at_truth.append(fused);
-      e.observer_at_truth.append(observer);
+      e.odometry_at_truth.append(odometry);
       const Eigen::Vector3d position = T_map_base.translation();
       const Eigen::Vector3d error = r.T_map_base.translation() - position;
       fused_error = error.norm();
-      observer_error = (r.T_odom_base.translation() - position).norm();
+      odometry_error = (r.T_odom_base.translation() - position).norm();
       fused_nees = nees(error, r.covariance.topLeftCorner<3, 3>());
-      if (!std::isfinite(fused_error + observer_error)) ++e.frames_error_not_finite;
+      if (!std::isfinite(fused_error + odometry_error)) ++e.frames_error_not_finite;
       if (r.camera_position_map) camera_error = (*r.camera_position_map - position).norm();
     } else {
       ++e.frames_without_truth;
     }
     e.fused_error_m.push_back(fused_error);
-    e.observer_error_m.push_back(observer_error);
+    e.odometry_error_m.push_back(odometry_error);
     e.camera_error_m.push_back(camera_error);
     e.nees.push_back(fused_nees);
   }
@@ -183,8 +183,8 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["frames"] = run.frames.size();
   summary["frames_dropped_slow"] = run.frames_dropped_slow;
   summary["camera_changes"] = run.camera_changes;
-  summary["frames_without_observer"] = run.frames_without_observer;
-  summary["observer_states_refused"] = run.observer_states_refused;
+  summary["frames_without_odometry"] = run.frames_without_odometry;
+  summary["odometry_states_refused"] = run.odometry_states_refused;
   const bool is_offset_known = run.time_offset.state == TimeOffsetState::kKnown;
   summary["image_time_offset_s"] = run.image_time_offset_s;
   summary["image_time_offset_estimate_s"] =
@@ -219,7 +219,7 @@ namespace {
 bool isWorseWhenLarger(const std::string& key) {
   for (const char* name :
        {"seed", "landmark_matches_median", "landmarks", "camera_frames", "frames_per_second",
-        "observer_scale_error", "image_time_offset_s", "image_time_offset_estimate_s"}) {
+        "odometry_scale_error", "image_time_offset_s", "image_time_offset_estimate_s"}) {
     if (key == name) return false;
   }
   return true;

@@ -16,7 +16,7 @@ namespace ardrone_vslam {
 struct RunLabel {
   std::string sequence;
   std::string profile;                ///< "recorded": the bag's or folder's own odometry
-  std::optional<std::uint64_t> seed;  ///< nothing for a real observer
+  std::optional<std::uint64_t> seed;  ///< nothing for a real odometry
   std::string estimator;
 };
 
@@ -24,15 +24,15 @@ struct RunLabel {
 /// these have an entry for each frame, NaN where there is no truth.
 struct RunEvaluation {
   Trajectory fused;
-  Trajectory observer;        ///< T_odom_base; map equals odom at the start
+  Trajectory odometry;        ///< T_odom_base; map equals odom at the start
   Trajectory truth;           ///< at the frames that it covers
   Trajectory fused_at_truth;  ///< at the same frames
-  Trajectory observer_at_truth;
+  Trajectory odometry_at_truth;
   int frames_without_truth = 0;  ///< before, after, or in gaps of the truth of more than a second
-  /// The truth is known, but fused or observer error is not finite; left out of all means.
+  /// The truth is known, but fused or odometry error is not finite; left out of all means.
   int frames_error_not_finite = 0;
   std::vector<double> fused_error_m;
-  std::vector<double> observer_error_m;
+  std::vector<double> odometry_error_m;
   std::vector<double> camera_error_m;  ///< of camera_position_map; NaN where there was none
   std::vector<double> nees;
 };

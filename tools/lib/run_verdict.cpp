@@ -14,7 +14,7 @@ void throwIfNothingCame(const std::string& name, const RunResult& run) {
     throw std::runtime_error(name +
                              ": no image has odometry at its stamp; the stamps of images and "
                              "odometry do not overlap, or the "
-                             "odometry's gaps are longer than observer_max_gap_s");
+                             "odometry's gaps are longer than odometry_max_gap_s");
   }
   const auto isEmpty = [](const RunFrame& frame) { return frame.result.features == 0; };
   if (std::all_of(run.frames.begin(), run.frames.end(), isEmpty)) {
@@ -52,7 +52,7 @@ std::string standstillFault(const std::string& name, const RunResult& run,
   if (neverMoves(run.frames, observed)) {
     return name + ": the odometry never moves" + end +
            "no landmark can be made: check what publishes it, or corrupt the truth by "
-           "--observer-profile";
+           "--odometry-profile";
   }
   return {};
 }
@@ -62,7 +62,7 @@ std::vector<std::string> faultsOf(const std::string& name, const RunResult& run,
   std::vector<std::string> faults;
   const std::string standstill = standstillFault(name, run, evaluation.truth);
   if (!standstill.empty()) faults.push_back(standstill);
-  const auto left_out = static_cast<std::size_t>(run.frames_without_observer);
+  const auto left_out = static_cast<std::size_t>(run.frames_without_odometry);
   if (left_out > run.frames.size()) {
     faults.push_back(name + ": " + std::to_string(left_out) + " of " +
                      std::to_string(left_out + run.frames.size()) +
@@ -125,8 +125,8 @@ RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEval
   throwIfNothingCame(name, run);
   RunVerdict verdict;
   verdict.faults = faultsOf(name, run, evaluation);
-  if (run.frames_without_observer > 0) {
-    verdict.warnings.push_back(std::to_string(run.frames_without_observer) +
+  if (run.frames_without_odometry > 0) {
+    verdict.warnings.push_back(std::to_string(run.frames_without_odometry) +
                                " images have no odometry at their stamp and are left out");
   }
   if (run.absurd_speed_m_s > 0) {
@@ -174,8 +174,8 @@ RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEval
   }
   if (truth_moved) {
     verdict.warnings.push_back(
-        "truth and observer start at different poses; the truth was moved as a whole to the "
-        "observer's start");
+        "truth and odometry start at different poses; the truth was moved as a whole to the "
+        "odometry's start");
   }
   if (evaluation.frames_without_truth > 0) {
     verdict.warnings.push_back(std::to_string(evaluation.frames_without_truth) +

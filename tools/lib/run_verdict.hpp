@@ -14,7 +14,7 @@ struct RunVerdict {
   std::vector<std::string> faults;  ///< the results are not to be used: exit code 1
 };
 
-/// @param truth_moved  of truthFromObserversStart
+/// @param truth_moved  of truthFromOdometryStart
 /// @throws std::runtime_error naming the sequence when nothing came out at all
 RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEvaluation& evaluation,
                     bool truth_moved);

@@ -11,14 +11,14 @@
 
 #include "ardrone_vslam/camera_model.hpp"
 #include "ardrone_vslam/height_input.hpp"
-#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 #include "ardrone_vslam/odometry_faults.hpp"
 #include "trajectory.hpp"
 
 namespace ardrone_vslam {
 
-/// How a simulated observer was made.
-struct ObserverNote {
+/// How a simulated odometry was made.
+struct OdometryNote {
   std::string profile;
   std::optional<std::uint64_t> seed;
   double scale_error = 0;  ///< the one that was drawn
@@ -51,14 +51,14 @@ class Sequence {
   virtual SequenceCamera cameraAt(std::size_t /*which*/) const { return {camera(), T_base_cam()}; }
   /// True poses of base, world = map of the first frame's convention; empty when unknown.
   virtual const Trajectory& truth() const = 0;
-  /// The recorded observer; empty when there is none.
-  virtual const std::vector<ObserverState>& observer() const = 0;
-  /// What was found of it already, beside what an ObserverAdapter will find.
-  virtual OdometryFaultCounts observerFaults() const { return {}; }
+  /// The recorded odometry; empty when there is none.
+  virtual const std::vector<OdometryState>& odometry() const = 0;
+  /// What was found of it already, beside what an OdometryAdapter will find.
+  virtual OdometryFaultCounts odometryInputFaults() const { return {}; }
   /// What a range sensor under base read; empty when there is none.
   virtual std::vector<RangeReading> ranges() const { return {}; }
-  /// How the recorded observer came about; empty when it is a real one or unknown.
-  virtual ObserverNote observerNote() const { return {}; }
+  /// How the recorded odometry came about; empty when it is a real one or unknown.
+  virtual OdometryNote odometryNote() const { return {}; }
 };
 
 /// T_base_cam of a forward camera with optical axes (x right, y down, z forward) at the base:
@@ -79,12 +79,12 @@ struct FrameSelection {
 };
 
 /// View of a sequence through a selection. With ping-pong truth is re-stamped; a recorded
-/// observer and ranges are dropped.
+/// odometry and ranges are dropped.
 std::unique_ptr<Sequence> select(std::unique_ptr<Sequence> sequence,
                                  const FrameSelection& selection);
 
 /// KITTI folder (image_0/, calib.txt, times.txt, poses.txt) or TUM-like folder (image/,
-/// camera.yaml, times.txt, poses_tum.txt, observer_tum.txt, range.txt). @throws std::runtime_error
+/// camera.yaml, times.txt, poses_tum.txt, odometry_tum.txt, range.txt). @throws std::runtime_error
 /// naming the missing or wrong file and the remedy
 std::unique_ptr<Sequence> openFolder(const std::string& path);
 

@@ -40,19 +40,19 @@ FirstLook lookInto(const std::string& path) {
 void addStreet(PointWorld& world, const Trajectory& path, const StreetConfig& config,
                std::uint64_t seed) {
   assert(path.size() >= 2 && "a street needs a path");
-  std::vector<double> way_m{0};
+  std::vector<double> displacement_m{0};
   const auto& poses = path.poses();
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    way_m.push_back(
-        way_m.back() +
+    displacement_m.push_back(
+        displacement_m.back() +
         (poses[i].T_map_base.translation() - poses[i - 1].T_map_base.translation()).norm());
   }
   RandomSource random(seed);
   for (int k = 0; k < config.landmarks; ++k) {
-    const double along_m = random.uniform(0, way_m.back());
-    const auto after = std::upper_bound(way_m.begin(), way_m.end() - 1, along_m);
+    const double along_m = random.uniform(0, displacement_m.back());
+    const auto after = std::upper_bound(displacement_m.begin(), displacement_m.end() - 1, along_m);
     const Eigen::Isometry3d& near =
-        poses[static_cast<std::size_t>(after - way_m.begin())].T_map_base;
+        poses[static_cast<std::size_t>(after - displacement_m.begin())].T_map_base;
     const double side = random.chance(0.5) ? 1 : -1;
     const double away_m = random.uniform(config.nearest_m, config.farthest_m);
     const double up_m = random.uniform(config.lowest_m, config.highest_m);

@@ -47,7 +47,7 @@ class Trajectory {
 /// TUM format, a line each: stamp[s] tx ty tz[m] qx qy qz qw. '#' begins a comment.
 /// @throws std::runtime_error naming file, line and fault
 Trajectory readTum(const std::string& path);
-/// The same, but stamps may repeat or go back, as a faulty observer's do.
+/// The same, but stamps may repeat or go back, as a faulty odometry's do.
 std::vector<StampedPose> readTumPoses(const std::string& path);
 /// Nine decimals for stamps and positions. @throws std::runtime_error when the file cannot be
 /// written

@@ -55,10 +55,10 @@ std::unique_ptr<Sequence> openTumFolder(const std::string& path) {
   for (const auto& pose : readOptional(path + "/poses_tum.txt", true, contents.stamps_ns)) {
     contents.truth.append({pose.stamp_ns, pose.T_map_base * T_cam_base});
   }
-  // A recorded observer keeps its repeated and backward stamps: to stand them is the pipeline's
+  // A recorded odometry keeps its repeated and backward stamps: to stand them is the pipeline's
   // job.
-  for (const auto& pose : readOptional(path + "/observer_tum.txt", false, contents.stamps_ns)) {
-    contents.observer.push_back({pose.stamp_ns, pose.T_map_base, Matrix6d::Zero()});
+  for (const auto& pose : readOptional(path + "/odometry_tum.txt", false, contents.stamps_ns)) {
+    contents.odometry.push_back({pose.stamp_ns, pose.T_map_base, Matrix6d::Zero()});
   }
   contents.ranges = readRanges(path + "/range.txt");
   return std::make_unique<FolderSequence>(std::move(contents));

@@ -85,13 +85,13 @@ void writePoses(const Sequence& sequence, const fs::path& folder, const TumFolde
     writeTumPoses((folder / "poses_tum.txt").string(), T_world_cam,
                   "T_world_cam, cam = optical frame");
   }
-  if (!sequence.observer().empty()) {
+  if (!sequence.odometry().empty()) {
     const Eigen::Isometry3d T_base_folder = T_base_cam * forwardCamera().inverse();
     std::vector<StampedPose> T_odom_folder;
-    for (const auto& state : sequence.observer()) {
+    for (const auto& state : sequence.odometry()) {
       T_odom_folder.push_back({state.stamp_ns, state.T_odom_base * T_base_folder});
     }
-    writeTumPoses((folder / "observer_tum.txt").string(), T_odom_folder,
+    writeTumPoses((folder / "odometry_tum.txt").string(), T_odom_folder,
                   "T_odom_base, base = the camera's position, x forward, y left, z up\n" +
                       options.observer_comment);
   }

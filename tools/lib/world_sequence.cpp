@@ -44,7 +44,7 @@ WorldSequence::WorldSequence(const WorldOptions& options)
       world_(makeWorldFor(options)),
       camera_(options.camera, options.effects) {
   flyTruth();
-  if (options.observer) observer_ = simulateObserver(truth_, *options.observer, options.seed);
+  if (options.odometry) odometry_ = simulateOdometry(truth_, *options.odometry, options.seed);
   if (options.range_noise_m) {
     const auto range_m = [this](const Eigen::Isometry3d& T_map_base, std::int64_t stamp_ns) {
       return world_.rangeBelow_m(T_map_base, static_cast<double>(stamp_ns - kFirstStamp_ns) * 1e-9);

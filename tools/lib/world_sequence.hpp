@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "observer_model.hpp"
+#include "odometry_model.hpp"
 #include "sequence.hpp"
 #include "world.hpp"
 #include "world_camera.hpp"
@@ -20,10 +20,10 @@ struct WorldOptions {
   std::string flight = "laps";
   double duration_s = 60;
   double rate_hz = 30;  ///< of the images
-  /// The observer's profile; nothing: the sequence has no observer.
-  std::optional<ObserverProfile> observer;
+  /// The odometry's profile; nothing: the sequence has no odometry.
+  std::optional<OdometryProfile> odometry;
   std::optional<double> range_noise_m;  ///< nothing: the sequence has no ranges
-  std::uint64_t seed = 0;               ///< noise of the observer, the ranges and the images
+  std::uint64_t seed = 0;               ///< noise of the odometry, the ranges and the images
   std::uint64_t world_seed = 0;         ///< the world
   std::optional<FlightStart> start;
   std::optional<std::string> world;  ///< nothing: the flight's own
@@ -40,7 +40,7 @@ struct WorldOptions {
 /// @throws std::invalid_argument when the flight does not fit into it
 World makeWorldFor(const WorldOptions& options);
 
-/// A synthetic flight: rendered images, exact truth at each image, simulated observer. Stamps begin
+/// A synthetic flight: rendered images, exact truth at each image, simulated odometry. Stamps begin
 /// at 1 s (ROS takes 0 for "none"). Images may be asked for in any order and often.
 class WorldSequence : public Sequence {
  public:
@@ -57,13 +57,13 @@ class WorldSequence : public Sequence {
   const CameraIntrinsics& camera() const override { return options_.camera; }
   Eigen::Isometry3d T_base_cam() const override { return options_.T_base_cam; }
   const Trajectory& truth() const override { return truth_; }
-  const std::vector<ObserverState>& observer() const override { return observer_.states; }
+  const std::vector<OdometryState>& odometry() const override { return odometry_.states; }
   std::vector<RangeReading> ranges() const override { return ranges_; }
 
-  /// That the observer drew; 0 without one.
-  ObserverNote observerNote() const override {
-    if (!options_.observer) return {};
-    return {options_.observer->name, options_.seed, observer_.scale_error};
+  /// That the odometry drew; 0 without one.
+  OdometryNote odometryNote() const override {
+    if (!options_.odometry) return {};
+    return {options_.odometry->name, options_.seed, odometry_.scale_error};
   }
   const WorldOptions& options() const { return options_; }
   /// What the drone does and what is around it; seconds count from the first image.
@@ -80,7 +80,7 @@ class WorldSequence : public Sequence {
   World world_;
   WorldCamera camera_;
   Trajectory truth_;
-  ObserverRun observer_;
+  OdometryRun odometry_;
   std::vector<RangeReading> ranges_;
 };
 

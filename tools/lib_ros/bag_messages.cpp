@@ -25,7 +25,7 @@ bool isFinite(const geometry_msgs::TwistWithCovariance& message) {
          ConstCovarianceMap(message.covariance.data()).allFinite();
 }
 
-geometry_msgs::Twist twistBetween(const ObserverState& before, const ObserverState& after) {
+geometry_msgs::Twist twistBetween(const OdometryState& before, const OdometryState& after) {
   const double dt_s = static_cast<double>(after.stamp_ns - before.stamp_ns) * 1e-9;
   const Eigen::Isometry3d T_before_after = before.T_odom_base.inverse() * after.T_odom_base;
   const Eigen::AngleAxisd turn(T_before_after.linear());
@@ -83,14 +83,14 @@ geometry_msgs::TransformStamped toTransformMessage(const Eigen::Isometry3d& T_pa
   return message;
 }
 
-std::vector<nav_msgs::Odometry> toOdometryMessages(const std::vector<ObserverState>& states,
+std::vector<nav_msgs::Odometry> toOdometryMessages(const std::vector<OdometryState>& states,
                                                    const std::string& odom_frame,
                                                    const std::string& base_frame) {
   std::vector<nav_msgs::Odometry> messages;
   messages.reserve(states.size());
   geometry_msgs::Twist twist;
-  const ObserverState* before = states.empty() ? nullptr : &states.front();
-  for (const ObserverState& state : states) {
+  const OdometryState* before = states.empty() ? nullptr : &states.front();
+  for (const OdometryState& state : states) {
     if (state.stamp_ns > before->stamp_ns) {
       twist = twistBetween(*before, state);
       before = &state;
@@ -107,11 +107,11 @@ std::vector<nav_msgs::Odometry> toOdometryMessages(const std::vector<ObserverSta
   return messages;
 }
 
-std::optional<ObserverState> fromOdometryMessage(const nav_msgs::Odometry& message) {
+std::optional<OdometryState> fromOdometryMessage(const nav_msgs::Odometry& message) {
   const auto pose = fromPoseMessage(message.pose.pose);
   const ConstCovarianceMap covariance(message.pose.covariance.data());
   if (!pose || !covariance.allFinite() || !isFinite(message.twist)) return std::nullopt;
-  ObserverState state;
+  OdometryState state;
   state.stamp_ns = toNanoseconds(message.header.stamp);
   state.T_odom_base = *pose;
   state.covariance = covariance;

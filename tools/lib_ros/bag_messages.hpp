@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "ardrone_vslam/observer_buffer.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 
 namespace ardrone_vslam {
 
@@ -31,10 +31,10 @@ geometry_msgs::TransformStamped toTransformMessage(const Eigen::Isometry3d& T_pa
 
 /// One message a state. The twist, in base, is what leads from the state before to this one; states
 /// that share a stamp share the twist.
-std::vector<nav_msgs::Odometry> toOdometryMessages(const std::vector<ObserverState>& states,
+std::vector<nav_msgs::Odometry> toOdometryMessages(const std::vector<OdometryState>& states,
                                                    const std::string& odom_frame,
                                                    const std::string& base_frame);
 /// @return nothing when pose, twist or their covariances are not finite, as the nodelets
-std::optional<ObserverState> fromOdometryMessage(const nav_msgs::Odometry& message);
+std::optional<OdometryState> fromOdometryMessage(const nav_msgs::Odometry& message);
 
 }  // namespace ardrone_vslam

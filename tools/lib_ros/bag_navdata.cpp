@@ -15,8 +15,8 @@ namespace {
 /// A message into the observer. @return whether it was used
 template <class Reading>
 bool push(const Checked<Reading>& reading, DroneObserver& observer,
-          std::vector<ObserverState>& states) {
-  return reading.value && observer.push(*reading.value, states) == ObserverBuffer::Push::kAccepted;
+          std::vector<OdometryState>& states) {
+  return reading.value && observer.push(*reading.value, states) == OdometryBuffer::Push::kAccepted;
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
       if (!push(toDroneImu(*imu), observer, odometry.states)) ++refused;
     } else if (const auto command = readMessage<geometry_msgs::Twist>(instance)) {
       const auto read = toDroneCommand(*command, toNanoseconds(instance.getTime()));
-      if (observer.push(read) != ObserverBuffer::Push::kAccepted) ++refused;
+      if (observer.push(read) != OdometryBuffer::Push::kAccepted) ++refused;
     }
   }
   observer.flush(odometry.states);

@@ -15,11 +15,11 @@ void BagOptions::addTo(CLI::App& app) {
   add("--camera-info-topic", bag_.camera_info_topic, "of a bag; default: beside the images");
   add("--odometry-topic", bag_.odometry_topic, "of a bag; default: the only one there is");
   add("--navdata-topic", bag_.navdata_topic,
-      "of a bag, with observer_mode navdata or use_navdata_height; default: the only one there is");
+      "of a bag, with odometry_mode navdata or use_navdata_height; default: the only one there is");
   add("--imu-topic", bag_.imu_topic,
-      "of a bag, with observer_mode navdata; default: the only one there is, if any");
+      "of a bag, with odometry_mode navdata; default: the only one there is, if any");
   add("--command-topic", bag_.command_topic,
-      "cmd_vel in a bag, with observer_mode navdata; default: the only Twist there is, if any");
+      "cmd_vel in a bag, with odometry_mode navdata; default: the only Twist there is, if any");
   add("--truth-topic", bag_.truth_topic, "of a bag; default: the one called truth");
   add("--range-topic", bag_.range_topic,
       "of a bag, with use_range; default: the only one there is");
@@ -46,7 +46,7 @@ BagReadOptions BagOptions::read(const PipelineConfig& config) const {
   options.rescale_calibration = config.rescale_calibration;
   options.use_range = config.mapper.height_input.use_range;
   options.use_navdata_height = config.mapper.height_input.use_navdata_height;
-  if (config.mapper.observer_adapter.mode == ObserverMode::kNavdata)
+  if (config.mapper.odometry_adapter.mode == OdometryMode::kNavdata)
     options.drone_filter = config.mapper.drone_filter;
   if (options.base_frame.empty()) options.base_frame = config.base_frame;
   if (!camera_yaml_.empty()) options.camera = readCameraYaml(camera_yaml_);

@@ -13,7 +13,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "ardrone_vslam/observer_adapter.hpp"
+#include "ardrone_vslam/odometry_adapter.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "bag_messages.hpp"
 #include "bag_read_message.hpp"
@@ -48,9 +48,9 @@ std::optional<TruthPose> toTruthPose(const rosbag::MessageInstance& instance) {
 
 /// Says once that the odometry's covariance counts as not given, and why, as the mapper nodelet
 /// does.
-void warnOfCovariance(const std::vector<ObserverState>& states, const std::string& topic,
+void warnOfCovariance(const std::vector<OdometryState>& states, const std::string& topic,
                       std::vector<std::string>& warnings) {
-  for (const ObserverState& state : states) {
+  for (const OdometryState& state : states) {
     const std::string fault = covarianceFault(state);
     if (fault.empty()) continue;
     warnings.push_back(topic + ": " + fault);
@@ -58,8 +58,8 @@ void warnOfCovariance(const std::vector<ObserverState>& states, const std::strin
   }
 }
 
-bool standsStill(const std::vector<ObserverState>& states) {
-  for (const ObserverState& state : states) {
+bool standsStill(const std::vector<OdometryState>& states) {
+  for (const OdometryState& state : states) {
     if (state.T_odom_base.matrix() != states.front().T_odom_base.matrix()) return false;
   }
   return states.size() > 1;
@@ -86,7 +86,7 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
     const auto state = fromOdometryMessage(*message);
     if (!state) {
       ++not_finite;
-    } else if (ObserverAdapter::isBeyondAllJumps(*state)) {
+    } else if (OdometryAdapter::isBeyondAllJumps(*state)) {
       ++too_far;
     } else if (!odometry.states.empty() && state->stamp_ns < odometry.states.back().stamp_ns) {
       ++backward;
@@ -103,11 +103,11 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
   warnOfDropped(backward, topic, "the stamp goes back; correct the clock of its source", warnings);
   warnOfCovariance(odometry.states, topic, warnings);
   if (odometry.states.empty()) {
-    warnings.push_back(topic + ": holds no usable odometry; record a working observer");
+    warnings.push_back(topic + ": holds no usable odometry; record a working odometry");
   }
   if (standsStill(odometry.states)) {
     warnings.push_back(topic + ": all " + std::to_string(odometry.states.size()) +
-                       " poses are equal (zero odometry); check that the observer runs");
+                       " poses are equal (zero odometry); check that the odometry runs");
   }
   return odometry;
 }
@@ -178,7 +178,7 @@ Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base
     pose.position.z = message.transform.translation.z;
     pose.orientation = message.transform.rotation;
     if (const auto T_base_cam = fromPoseMessage(pose)) {
-      const std::string fault = mountingFault(*T_base_cam);
+      const std::string fault = extrinsicsFault(*T_base_cam);
       if (fault.empty()) return *T_base_cam;
       throw std::runtime_error(bag.getFileName() + ": tf from the base frame '" + base +
                                "' to the camera frame '" + camera_frame + "': " + fault);

@@ -9,12 +9,12 @@
 #include "ardrone_vslam/drone_observer.hpp"
 #include "ardrone_vslam/height_input.hpp"
 #include "bag_topics.hpp"
-#include "observer_model.hpp"
+#include "odometry_model.hpp"
 
 namespace ardrone_vslam {
 
 struct BagOdometry {
-  std::vector<ObserverState> states;  ///< stamps may repeat, they do not go back
+  std::vector<OdometryState> states;  ///< stamps may repeat, they do not go back
   std::string base_frame;             ///< child_frame_id without a leading slash
   OdometryFaultCounts faults{};       ///< of the package's own observer
 };

@@ -22,15 +22,15 @@ namespace ardrone_vslam {
 namespace {
 
 /// From the note that make_bag and make_world leave; empty without one.
-ObserverNote readObserverNote(const rosbag::Bag& bag) {
-  ObserverNote note;
+OdometryNote readOdometryNote(const rosbag::Bag& bag) {
+  OdometryNote note;
   rosbag::View view(bag, rosbag::TopicQuery(BagTopicNames().info));
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = readMessage<std_msgs::String>(instance);
     if (!message) continue;
     const YAML::Node yaml = YAML::Load(message->data);
     if (!yaml.IsMap()) continue;
-    if (yaml["observer_profile"]) note.profile = yaml["observer_profile"].as<std::string>();
+    if (yaml["odometry_profile"]) note.profile = yaml["odometry_profile"].as<std::string>();
     if (yaml["seed"]) note.seed = yaml["seed"].as<std::uint64_t>();
     if (yaml["scale_error"]) note.scale_error = yaml["scale_error"].as<double>();
   }
@@ -64,9 +64,9 @@ class BagFile : public BagSequence {
                                                  : is_used ? readExtrinsics(bag_, base, frame)
                                                            : Eigen::Isometry3d::Identity()});
     }
-    observer_ = std::move(odometry.states);
-    observer_faults_ = odometry.faults;
-    note_ = readObserverNote(bag_);
+    odometry_ = std::move(odometry.states);
+    odometry_faults_ = odometry.faults;
+    note_ = readOdometryNote(bag_);
   }
 
   std::string name() const override { return name_; }
@@ -82,10 +82,10 @@ class BagFile : public BagSequence {
   std::size_t cameraOf(std::size_t index) const override { return images_->cameraOf(index); }
   SequenceCamera cameraAt(std::size_t which) const override { return cameras_.at(which); }
   const Trajectory& truth() const override { return truth_; }
-  const std::vector<ObserverState>& observer() const override { return observer_; }
-  OdometryFaultCounts observerFaults() const override { return observer_faults_; }
+  const std::vector<OdometryState>& odometry() const override { return odometry_; }
+  OdometryFaultCounts odometryInputFaults() const override { return odometry_faults_; }
   std::vector<RangeReading> ranges() const override { return ranges_; }
-  ObserverNote observerNote() const override { return note_; }
+  OdometryNote odometryNote() const override { return note_; }
   const std::vector<std::string>& warnings() const override { return warnings_; }
 
  private:
@@ -96,10 +96,10 @@ class BagFile : public BagSequence {
   std::vector<SequenceCamera> cameras_;
   std::unique_ptr<BagImages> images_;
   Trajectory truth_;
-  std::vector<ObserverState> observer_;
-  OdometryFaultCounts observer_faults_{};
+  std::vector<OdometryState> odometry_;
+  OdometryFaultCounts odometry_faults_{};
   std::vector<RangeReading> ranges_;
-  ObserverNote note_;
+  OdometryNote note_;
   std::vector<std::string> warnings_;
 };
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ardrone_vslam/drone_filter.hpp"
+#include "ardrone_vslam/odometry_config.hpp"
 #include "sequence.hpp"
 
 namespace ardrone_vslam {
@@ -16,7 +16,7 @@ struct BagReadOptions {
   std::string image_topic;  ///< sensor_msgs/Image or CompressedImage
   std::string camera_info_topic;
   std::string odometry_topic;  ///< nav_msgs/Odometry
-  /// observer_mode navdata: instead of odometry, the package's own observer of these.
+  /// odometry_mode navdata: instead of odometry, the package's own observer of these.
   std::optional<DroneFilterConfig> drone_filter;
   std::string navdata_topic;  ///< ardrone_autonomy/Navdata; read with drone_filter or for heights
   std::string imu_topic;      ///< sensor_msgs/Imu; there may be none

@@ -145,7 +145,7 @@ void chooseNavdata(const TopicChooser& chooser, const BagReadOptions& options,
   topics.navdata = chooser.choose(navdata, options.navdata_topic, any);
   if (!options.drone_filter) return;  // only for heights, without which it goes on
   if (topics.navdata.empty()) {
-    chooser.refuseMissing(navdata, "record the driver's, or set observer_mode to twist or pose");
+    chooser.refuseMissing(navdata, "record the driver's, or set odometry_mode to twist or pose");
   }
   topics.imu = chooser.choose({"IMU", "--imu-topic", {kImu}}, options.imu_topic, any);
   topics.command =
@@ -189,7 +189,7 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
   if (!options.drone_filter)
     topics.odometry =
         chooser.choose(odometry, options.odometry_topic, [&topics](const std::string& topic) {
-          // What the mapper publishes is no observer.
+          // What the mapper publishes is no odometry.
           return topic != topics.truth && !endsWith(topic, "odometry_fused") &&
                  !endsWith(topic, "odometry_live") && !endsWith(topic, "observer_odometry");
         });

@@ -32,7 +32,7 @@ constexpr std::int64_t kMaxStamp_ns = std::int64_t{0xffffffff} * 1'000'000'000;
 /// What is written, in ROS's time.
 struct BagContents {
   std::vector<std::int64_t> image_stamps_ns;
-  std::vector<ObserverState> observer;
+  std::vector<OdometryState> odometry;
   std::vector<StampedPose> truth;
   std::vector<RangeReading> ranges;
 };
@@ -45,15 +45,15 @@ BagContents collect(const Sequence& sequence, const BagWriteOptions& options,
   }
   contents.truth = sequence.truth().poses();
   contents.ranges = sequence.ranges();
-  contents.observer = sequence.observer();
-  if (options.observer_profile) {
+  contents.odometry = sequence.odometry();
+  if (options.odometry_profile) {
     if (sequence.truth().empty()) {
-      throw std::runtime_error(sequence.name() + ": has no true poses that the observer profile '" +
-                               options.observer_profile->name +
+      throw std::runtime_error(sequence.name() + ": has no true poses that the odometry profile '" +
+                               options.odometry_profile->name +
                                "' could corrupt; give the truth, or no profile");
     }
-    ObserverRun run = simulateObserver(sequence.truth(), *options.observer_profile, options.seed);
-    contents.observer = std::move(run.states);
+    OdometryRun run = simulateOdometry(sequence.truth(), *options.odometry_profile, options.seed);
+    contents.odometry = std::move(run.states);
     report.scale_error = run.scale_error;
   }
   return contents;
@@ -65,7 +65,7 @@ std::int64_t shiftStamps(BagContents& contents, const std::string& name) {
   std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
   const auto forEachStamp = [&contents](auto&& action) {
     for (auto& stamp_ns : contents.image_stamps_ns) action(stamp_ns);
-    for (auto& state : contents.observer) action(state.stamp_ns);
+    for (auto& state : contents.odometry) action(state.stamp_ns);
     for (auto& pose : contents.truth) action(pose.stamp_ns);
     for (auto& reading : contents.ranges) action(reading.stamp_ns);
   };
@@ -94,13 +94,13 @@ std::string infoText(const Sequence& sequence, const BagWriteOptions& options,
   YAML::Emitter yaml;
   yaml << YAML::BeginMap << YAML::Key << "tool" << YAML::Value << options.tool;
   yaml << YAML::Key << "source" << YAML::Value << sourceName(sequence);
-  if (options.observer_profile) {
-    yaml << YAML::Key << "observer_profile" << YAML::Value << options.observer_profile->name;
+  if (options.odometry_profile) {
+    yaml << YAML::Key << "odometry_profile" << YAML::Value << options.odometry_profile->name;
     yaml << YAML::Key << "seed" << YAML::Value << options.seed;
     yaml << YAML::Key << "scale_error" << YAML::Value << report.scale_error;
   } else {
-    yaml << YAML::Key << "observer_profile" << YAML::Value
-         << (sequence.observer().empty() ? "none" : "recorded");
+    yaml << YAML::Key << "odometry_profile" << YAML::Value
+         << (sequence.odometry().empty() ? "none" : "recorded");
   }
   yaml << YAML::Key << "stamp_offset_s" << YAML::Value
        << static_cast<double>(report.stamp_offset_ns) * 1e-9;
@@ -116,7 +116,7 @@ class BagWriter {
     for (std::size_t i = 0; i < sequence.size(); ++i) cameras_[sequence.cameraOf(i)] = {};
     for (auto& camera : cameras_)
       camera.second = cameraInfoFromIntrinsics(sequence.cameraAt(camera.first).intrinsics);
-    odometry_ = toOdometryMessages(contents_.observer, options.frames.odom, options.frames.base);
+    odometry_ = toOdometryMessages(contents_.odometry, options.frames.odom, options.frames.base);
   }
 
   /// All messages by stamp; of equal stamps what an image needs comes before it.
@@ -128,7 +128,7 @@ class BagWriter {
       return i < list.size() ? list[i].stamp_ns : kNever_ns;
     };
     while (true) {
-      const std::int64_t odometry_ns = stampOr(contents_.observer, odometry);
+      const std::int64_t odometry_ns = stampOr(contents_.odometry, odometry);
       const std::int64_t truth_ns = stampOr(contents_.truth, truth);
       const std::int64_t range_ns = stampOr(contents_.ranges, range);
       const std::int64_t image_ns =
@@ -150,8 +150,8 @@ class BagWriter {
  private:
   std::int64_t firstStamp_ns() const {
     std::int64_t first_ns = contents_.image_stamps_ns.front();
-    if (!contents_.observer.empty()) {
-      first_ns = std::min(first_ns, contents_.observer.front().stamp_ns);
+    if (!contents_.odometry.empty()) {
+      first_ns = std::min(first_ns, contents_.odometry.front().stamp_ns);
     }
     if (!contents_.truth.empty()) first_ns = std::min(first_ns, contents_.truth.front().stamp_ns);
     if (!contents_.ranges.empty()) {
@@ -185,7 +185,7 @@ class BagWriter {
     // tf refuses a second transform of the same stamp.
     if (index > 0 && stamp == odometry_[index - 1].header.stamp) return;
     tf2_msgs::TFMessage tf;
-    tf.transforms = {toTransformMessage(contents_.observer[index].T_odom_base, stamp,
+    tf.transforms = {toTransformMessage(contents_.odometry[index].T_odom_base, stamp,
                                         options_.frames.odom, options_.frames.base)};
     bag_.write("/tf", stamp, tf);
   }
@@ -247,7 +247,7 @@ BagWriteReport writeBag(Sequence& sequence, const BagWriteOptions& options,
   BagContents contents = collect(sequence, options, report);
   report.stamp_offset_ns = shiftStamps(contents, sequence.name());
   report.images = contents.image_stamps_ns.size();
-  report.odometry = contents.observer.size();
+  report.odometry = contents.odometry.size();
   report.truth = contents.truth.size();
   writeBagFile(path, options.compression, [&](rosbag::Bag& bag) {
     BagWriter(sequence, options, std::move(contents), bag)

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bag_file.hpp"
-#include "observer_model.hpp"
+#include "odometry_model.hpp"
 #include "sequence.hpp"
 
 namespace ardrone_vslam {
@@ -37,7 +37,7 @@ struct BagWriteOptions {
   ImageFormat image_format = ImageFormat::kRaw;
   Compression compression = Compression::kNone;  ///< of the bag's chunks
   /// Corrupts the truth to odometry; nothing: the sequence's own observer, if it has one.
-  std::optional<ObserverProfile> observer_profile;
+  std::optional<OdometryProfile> odometry_profile;
   std::uint64_t seed = 0;
   std::string tool;  ///< name and version of the program, for the info topic
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< images; may be empty
@@ -47,7 +47,7 @@ struct BagWriteReport {
   std::size_t images = 0;
   std::size_t odometry = 0;
   std::size_t truth = 0;
-  double scale_error = 0;            ///< drawn by the observer's profile
+  double scale_error = 0;            ///< drawn by the odometry's profile
   std::int64_t stamp_offset_ns = 0;  ///< added to all stamps, as ROS has no time 0
 };
 

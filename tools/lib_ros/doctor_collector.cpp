@@ -76,7 +76,7 @@ void DoctorCollector::see(const nav_msgs::Odometry& message, std::int64_t receiv
 }
 
 void DoctorCollector::see(const Navdata& message, std::int64_t received_ns) {
-  if (isNavdataTheObserver(recording_) && recording_.navdata.empty())
+  if (isNavdataTheOdometry(recording_) && recording_.navdata.empty())
     recording_.base_frame = withoutSlash(message.header.frame_id);
   recording_.navdata.push_back(
       {{toNanoseconds(message.header.stamp), received_ns}, toNavdataReading(message).value});

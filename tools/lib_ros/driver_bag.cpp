@@ -104,7 +104,7 @@ class DriverBagWriter {
     YAML::Emitter yaml;
     yaml << YAML::BeginMap << YAML::Key << "tool" << YAML::Value << options_.tool;
     yaml << YAML::Key << "source" << YAML::Value << world_.name();
-    yaml << YAML::Key << "observer_profile" << YAML::Value << options_.profile.name;
+    yaml << YAML::Key << "odometry_profile" << YAML::Value << options_.profile.name;
     yaml << YAML::Key << "seed" << YAML::Value << world_.options().seed;
     yaml << YAML::Key << "scale_error" << YAML::Value << drone_.scale_error;
     yaml << YAML::Key << "driver_faults" << YAML::Value << nameList(options_.faults);

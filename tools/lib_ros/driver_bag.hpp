@@ -15,7 +15,7 @@ struct DriverBagOptions {
   DriverFaults faults;
   std::string tf_prefix;         ///< empty: none, but `drone1` for the fault that needs one
   std::string camera = "front";  ///< a name of cameras(); what streams (first)
-  ObserverProfile profile;       ///< how the drone's measurements drift
+  OdometryProfile profile;       ///< how the drone's measurements drift
   BagWriteOptions::ImageFormat image_format = BagWriteOptions::ImageFormat::kRaw;
   BagCompression compression = BagCompression::kNone;
   std::string tool;  ///< name and version of the program, for the info topic

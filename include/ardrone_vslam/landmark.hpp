@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "ardrone_vslam/features.hpp"
+
+namespace ardrone_vslam {
+
+/// A half line in the map frame: camera position and unit direction.
+struct Ray {
+  Eigen::Vector3d origin_map = Eigen::Vector3d::Zero();      ///< where the camera was
+  Eigen::Vector3d direction_map = Eigen::Vector3d::UnitX();  ///< unit length
+};
+
+/// A point of the world with known position.
+struct Landmark {
+  std::uint32_t id = 0;                                    ///< never used again in one run
+  std::uint32_t track_id = 0;                              ///< of the feature that saw it last
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();  ///< of the point; z is 0 in 2-D mode
+  Eigen::Vector3d view_direction_map =
+      Eigen::Vector3d::Zero();  ///< unit ray camera -> landmark when last described
+  double seen_distance_m = 0;   ///< from the camera that saw it last; 0: not known
+  double sigma_m = 0;           ///< sigma_l (5.19, 5.34)
+  double depth_sigma_m = 0;     ///< along the ray of its last triangulation
+  Ray first_ray;                ///< of the first view, by which it was triangulated
+  double parallax_rad = 0;      ///< between the first view and the one of its last triangulation
+  double position_variance_m2 = 0;  ///< of the base position, per axis, when the landmark was made
+                                    ///< (common drift, docs/data_path.md)
+  std::uint32_t anchor_id = 0;      ///< MSCKF: the frame whose error it shares
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< MSCKF: beside that error
+  Descriptor descriptor;                                    ///< as seen last
+  double height_m =
+      0;  ///< above the camera that saw it last; used in 2-D mode, where positions have no height
+  int times_seen = 0;              ///< matches since it was made, that included
+  int times_missed = 0;            ///< in view but not matched, since the last match
+  int times_failed = 0;            ///< MSCKF: missed where others were found, or matched wrongly
+  std::int64_t first_seen_ns = 0;  ///< stamp of the image that made it
+  std::int64_t last_seen_ns = 0;   ///< stamp of the last image it was matched in
+};
+
+}  // namespace ardrone_vslam

@@ -1,7 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "standalone.hpp"
-
-int main(int argc, char** argv) {
-  return ardrone_vslam::runStandalone(argc, argv, "observer_fusion",
-                                      "ardrone_vslam/ObserverFusionNodelet");
-}

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "standalone.hpp"
+
+int main(int argc, char** argv) {
+  return ardrone_vslam::runStandalone(argc, argv, "odometry_fusion",
+                                      "ardrone_vslam/OdometryFusionNodelet");
+}

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone/drone_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ardrone_vslam/rotation.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr double kGravity_m_s2 = 9.81;
+constexpr double kRadPerDeg = M_PI / 180;
+// Of accelerations that nobody measured [m/s^2/sqrt(Hz)].
+constexpr double kInterpolatedNoise = 0.5;
+constexpr double kCommandedNoise = 0.2;
+constexpr double kForceBiasTime_s = 600;   // in which the accelerometer's bias may become another
+constexpr double kEchoes_hz = 25;          // of the sonar; heights in between are no new ones
+constexpr double kLongestSample_s = 0.07;  // of a packet: 15 Hz
+constexpr double kStartVelocity_m_s = 0.3;
+constexpr double kRestVelocity_m_s = 0.01;
+constexpr double kSameFloor_m = 0.1;
+constexpr double kAttitudeNoise_rad = 2e-3;  // white, of what is reported
+constexpr double kLeastVariance = 1e-12;
+
+using Row = Eigen::Matrix<double, 1, DroneFilter::kSize>;
+
+double square(double x) {
+  return x * x;
+}
+
+/// Base's true attitude but for yaw: the reported one, its tilt put right to first order.
+Eigen::Matrix3d corrected(const Eigen::Matrix3d& R_reported, const DroneFilter::State& x) {
+  const Eigen::Vector3d tilt(x[DroneFilter::kTilt], x[DroneFilter::kTilt + 1], 0);
+  return R_reported * (Eigen::Matrix3d::Identity() + skew(tilt));
+}
+
+/// Derivative of the former by one axis of the tilt.
+Eigen::Matrix3d correctedBy(const Eigen::Matrix3d& R_reported, int axis) {
+  return R_reported * skew(Eigen::Vector3d::Unit(axis));
+}
+
+/// Acceleration by thrust and drag, axes of base.
+Eigen::Vector3d push(const DroneFilter::State& x, const Eigen::Vector3d& velocity_base,
+                     const Eigen::Vector3d& force_base) {
+  return {-x[DroneFilter::kDrag] * velocity_base.x(), -x[DroneFilter::kDrag] * velocity_base.y(),
+          force_base.z() - x[DroneFilter::kForceBias + 2]};
+}
+
+const Eigen::Matrix3d kAcross = Eigen::Vector3d(1, 1, 0).asDiagonal();
+
+}  // namespace
+
+DroneFilter::DroneFilter(const DroneFilterConfig& config) : config_(config) {
+  validate(config);
+}
+
+void DroneFilter::begin(const DroneMeasurement& measured) {
+  x_.setZero();
+  x_[kPosition + 2] = std::max(measured.height_m, 0.0);
+  x_.segment<3>(kVelocity) = measured.R_odom_base * Eigen::Vector3d(measured.flow_base_m_s.x(),
+                                                                    measured.flow_base_m_s.y(), 0);
+  x_[kDrag] = config_.drag_per_s;
+  State deviation = State::Zero();
+  deviation[kPosition + 2] = config_.height_noise_m;
+  deviation.segment<3>(kVelocity).setConstant(kStartVelocity_m_s);
+  deviation.segment<2>(kTilt).setConstant(config_.tilt_sigma_deg * kRadPerDeg);
+  deviation.segment<2>(kFlowBias).setConstant(config_.flow_bias_m_s);
+  deviation[kFlowScale] = config_.flow_scale_sigma;
+  deviation.segment<3>(kForceBias).setConstant(config_.force_bias_m_s2);
+  deviation[kDrag] = config_.drag_sigma_per_s;
+  P_ = deviation.cwiseAbs2().cwiseMax(kLeastVariance).asDiagonal();
+}
+
+DroneFilter::State DroneFilter::motion(const State& x, const DroneMeasurement& measured,
+                                       double dt_s) {
+  const Eigen::Matrix3d R = corrected(measured.R_odom_base, x);
+  const Eigen::Vector3d velocity = x.segment<3>(kVelocity);
+  const Eigen::Vector3d acceleration =
+      R * push(x, R.transpose() * velocity, measured.force_base_m_s2) -
+      kGravity_m_s2 * Eigen::Vector3d::UnitZ();
+  State next = x;
+  next.segment<3>(kPosition) += Eigen::AngleAxisd(x[kYaw], Eigen::Vector3d::UnitZ()) *
+                                (velocity * dt_s + 0.5 * dt_s * dt_s * acceleration);
+  next.segment<3>(kVelocity) += dt_s * acceleration;
+  return next;
+}
+
+DroneFilter::Covariance DroneFilter::motionJacobian(const State& x,
+                                                    const DroneMeasurement& measured, double dt_s) {
+  const Eigen::Matrix3d R = corrected(measured.R_odom_base, x);
+  const Eigen::Vector3d velocity = x.segment<3>(kVelocity);
+  const Eigen::Vector3d velocity_base = R.transpose() * velocity;
+  const Eigen::Vector3d push_base = push(x, velocity_base, measured.force_base_m_s2);
+  // Of the acceleration.
+  Eigen::Matrix<double, 3, kSize> A = Eigen::Matrix<double, 3, kSize>::Zero();
+  A.middleCols<3>(kVelocity) = -x[kDrag] * R * kAcross * R.transpose();
+  for (int axis = 0; axis < 2; ++axis) {
+    const Eigen::Matrix3d R_by = correctedBy(measured.R_odom_base, axis);
+    A.col(kTilt + axis) = R_by * push_base - x[kDrag] * R * kAcross * R_by.transpose() * velocity;
+  }
+  A.col(kForceBias + 2) = -R.col(2);
+  A.col(kDrag) = -R * kAcross * velocity_base;
+
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(x[kYaw], Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Vector3d acceleration = R * push_base - kGravity_m_s2 * Eigen::Vector3d::UnitZ();
+  Covariance F = Covariance::Identity();
+  F.middleRows<3>(kPosition) += 0.5 * dt_s * dt_s * turn * A;
+  F.block<3, 3>(kPosition, kVelocity) += dt_s * turn;
+  F.block<3, 1>(kPosition, kYaw) +=
+      skew(Eigen::Vector3d::UnitZ()) * turn * (velocity * dt_s + 0.5 * dt_s * dt_s * acceleration);
+  F.middleRows<3>(kVelocity) += dt_s * A;
+  return F;
+}
+
+DroneFilter::Foreseen DroneFilter::flow(const State& x, const Eigen::Matrix3d& R_reported) {
+  const Eigen::Matrix3d R = corrected(R_reported, x);
+  const Eigen::Vector3d velocity = x.segment<3>(kVelocity);
+  const Eigen::Vector2d velocity_base = (R.transpose() * velocity).head<2>();
+  const double scale = 1 + x[kFlowScale];
+  Foreseen flow;
+  flow.value = scale * velocity_base + x.segment<2>(kFlowBias);
+  flow.jacobian.middleCols<3>(kVelocity) = scale * R.transpose().topRows<2>();
+  for (int axis = 0; axis < 2; ++axis) {
+    flow.jacobian.col(kTilt + axis) =
+        scale * (correctedBy(R_reported, axis).transpose() * velocity).head<2>();
+  }
+  flow.jacobian.middleCols<2>(kFlowBias).setIdentity();
+  flow.jacobian.col(kFlowScale) = velocity_base;
+  return flow;
+}
+
+DroneFilter::Foreseen DroneFilter::drag(const State& x, const Eigen::Matrix3d& R_reported) {
+  const Eigen::Matrix3d R = corrected(R_reported, x);
+  const Eigen::Vector3d velocity = x.segment<3>(kVelocity);
+  const Eigen::Vector2d velocity_base = (R.transpose() * velocity).head<2>();
+  Foreseen drag;
+  drag.value = -x[kDrag] * velocity_base + x.segment<2>(kForceBias);
+  drag.jacobian.middleCols<3>(kVelocity) = -x[kDrag] * R.transpose().topRows<2>();
+  for (int axis = 0; axis < 2; ++axis) {
+    drag.jacobian.col(kTilt + axis) =
+        -x[kDrag] * (correctedBy(R_reported, axis).transpose() * velocity).head<2>();
+  }
+  drag.jacobian.middleCols<2>(kForceBias).setIdentity();
+  drag.jacobian.col(kDrag) = -velocity_base;
+  return drag;
+}
+
+void DroneFilter::predict(const DroneMeasurement& measured, double dt_s, Known known) {
+  const Covariance F = motionJacobian(x_, measured, dt_s);
+  x_ = motion(x_, measured, dt_s);
+  P_ = F * P_ * F.transpose();
+  const double guessed = known == Known::kMeasured    ? 0
+                         : known == Known::kCommanded ? kCommandedNoise
+                                                      : kInterpolatedNoise;
+  const double measured_noise =
+      std::hypot(config_.gust_m_s2_per_sqrt_hz, config_.force_noise_m_s2_per_sqrt_hz);
+  addNoise(dt_s, std::max(measured_noise, guessed));
+}
+
+void DroneFilter::rest(double dt_s) {
+  x_.segment<3>(kVelocity).setZero();
+  P_.middleRows<3>(kVelocity).setZero();
+  P_.middleCols<3>(kVelocity).setZero();
+  P_.diagonal().segment<3>(kVelocity).setConstant(square(kRestVelocity_m_s));
+  addNoise(dt_s, 0);
+}
+
+/// White accelerations, and what the slow errors forget and gain in this time.
+void DroneFilter::addNoise(double dt_s, double acceleration_noise) {
+  State keep = State::Ones();
+  keep.segment<2>(kTilt).setConstant(std::exp(-dt_s / config_.tilt_time_s));
+  keep.segment<2>(kFlowBias).setConstant(std::exp(-dt_s / config_.flow_bias_time_s));
+  x_ = keep.cwiseProduct(x_);
+  P_ = keep.asDiagonal() * P_ * keep.asDiagonal();
+  const double tilt = square(config_.tilt_sigma_deg * kRadPerDeg);
+  P_.diagonal().segment<2>(kTilt).array() += tilt * (1 - square(keep[kTilt]));
+  P_.diagonal().segment<2>(kFlowBias).array() +=
+      square(config_.flow_bias_m_s) * (1 - square(keep[kFlowBias]));
+  P_.diagonal().segment<3>(kForceBias).array() +=
+      square(config_.force_bias_m_s2) * dt_s / kForceBiasTime_s;
+  P_(kYaw, kYaw) += square(config_.yaw_walk_deg_per_sqrt_s * kRadPerDeg) * dt_s;
+  const double q = square(acceleration_noise);
+  P_.diagonal().segment<3>(kVelocity).array() += q * dt_s;
+  P_.diagonal().segment<3>(kPosition).array() += q * dt_s * dt_s * dt_s / 3;
+  for (int axis = 0; axis < 3; ++axis) {
+    P_(kPosition + axis, kVelocity + axis) += q * dt_s * dt_s / 2;
+    P_(kVelocity + axis, kPosition + axis) += q * dt_s * dt_s / 2;
+  }
+}
+
+void DroneFilter::updateVelocity(const DroneMeasurement& measured, double dt_s) {
+  const double sample_s = std::min(dt_s, kLongestSample_s);
+  for (int axis = 0; axis < 2; ++axis) {
+    const Foreseen seen = flow(x_, measured.R_odom_base);
+    update(measured.flow_base_m_s[axis] - seen.value[axis], seen.jacobian.row(axis),
+           square(config_.flow_noise_m_s_per_sqrt_hz) / sample_s);
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    const Foreseen felt = drag(x_, measured.R_odom_base);
+    update(measured.force_base_m_s2[axis] - felt.value[axis], felt.jacobian.row(axis),
+           (square(config_.force_noise_m_s2_per_sqrt_hz) + square(config_.gust_m_s2_per_sqrt_hz)) /
+               sample_s);
+  }
+}
+
+double DroneFilter::heightInnovation_m(double height_m) const {
+  return height_m - (x_[kPosition + 2] - x_[kFloor]);
+}
+
+double DroneFilter::heightSigma_m() const {
+  constexpr int kZ = kPosition + 2;
+  const double variance_m2 = P_(kZ, kZ) + P_(kFloor, kFloor) - 2 * P_(kZ, kFloor);
+  return std::sqrt(std::max(variance_m2, 0.0) + square(config_.height_noise_m));
+}
+
+void DroneFilter::updateHeight(double height_m, double dt_s) {
+  Row H = Row::Zero();
+  H[kPosition + 2] = 1;
+  H[kFloor] = -1;
+  update(heightInnovation_m(height_m), H,
+         square(config_.height_noise_m) * std::max(1.0, 1 / (kEchoes_hz * dt_s)));
+}
+
+void DroneFilter::changeFloor(double floor_m) {
+  constexpr int kZ = kPosition + 2;
+  const bool is_first = std::abs(floor_m) < std::max(kSameFloor_m, config_.table_step_m / 2);
+  P_.row(kFloor).setZero();
+  P_.col(kFloor).setZero();
+  x_[kFloor] = is_first ? 0 : floor_m;
+  if (!is_first) {  // floor = z - height
+    P_.row(kFloor) = P_.row(kZ);
+    P_.col(kFloor) = P_.col(kZ);
+    P_(kFloor, kFloor) = P_(kZ, kZ);
+  }
+  P_(kFloor, kFloor) += is_first ? kLeastVariance : square(config_.height_noise_m);
+}
+
+void DroneFilter::widen(double position_m, double velocity_m_s) {
+  P_.diagonal().segment<3>(kPosition).array() += square(position_m);
+  P_.diagonal().segment<3>(kVelocity).array() += square(velocity_m_s);
+}
+
+void DroneFilter::update(double innovation, const Row& H, double variance) {
+  const State PHt = P_ * H.transpose();
+  const double S = H * PHt + variance;
+  // What is above this many deviations says little of where the drone is.
+  constexpr double kMost = 5;
+  const double bounded = std::clamp(innovation, -kMost * std::sqrt(S), kMost * std::sqrt(S));
+  x_ += PHt * (bounded / S);
+  P_ -= PHt * PHt.transpose() / S;
+  x_[kYaw] = 0;
+}
+
+OdometryState DroneFilter::observed(const Eigen::Matrix3d& R_reported) const {
+  OdometryState state;
+  const Eigen::Vector3d tilt(x_[kTilt], x_[kTilt + 1], 0);
+  const Eigen::Matrix3d R = R_reported * rotationOf(tilt);
+  state.T_odom_base.linear() = R;
+  state.T_odom_base.translation() = x_.segment<3>(kPosition);
+  state.twist_base.head<3>() = R.transpose() * x_.segment<3>(kVelocity);
+  Eigen::Matrix<double, 6, kSize> J = Eigen::Matrix<double, 6, kSize>::Zero();
+  J.block<3, 3>(0, kPosition).setIdentity();
+  J.block<3, 2>(3, kTilt) = R.leftCols<2>();
+  J.block<3, 1>(3, kYaw) = Eigen::Vector3d::UnitZ();
+  const Matrix6d covariance = J * P_ * J.transpose();
+  state.covariance = 0.5 * (covariance + covariance.transpose());
+  state.covariance.diagonal().tail<3>().array() += square(kAttitudeNoise_rad);
+  state.twist_covariance.topLeftCorner<3, 3>() =
+      R.transpose() * P_.block<3, 3>(kVelocity, kVelocity) * R;
+  return state;
+}
+
+}  // namespace ardrone_vslam

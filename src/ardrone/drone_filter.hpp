@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "ardrone_vslam/drone_observer.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/odometry_config.hpp"
+
+namespace ardrone_vslam {
+
+/// Extended Kalman filter of the drone's motion. Thrust is along base's z, so its tilt tells the
+/// acceleration, and what the accelerometer feels across it is the air's drag, which tells the
+/// velocity: Martin and Salaun, The true role of accelerometer feedback in quadrotor control, 2010.
+/// odom has z up; its x axis is that of the reported yaw's zero.
+class DroneFilter {
+ public:
+  /// Where in the state: position [m] and velocity [m/s] of base, the latter turned by the yaw's
+  /// error; what is to be put right of the reported tilt (rotation vector, axes of base) [rad];
+  /// errors of the flow, of the accelerometer; drag [1/s]; height of the floor below [m]; the
+  /// reported yaw's error [rad], always estimated as zero.
+  enum Index {
+    kPosition = 0,
+    kVelocity = 3,
+    kTilt = 6,
+    kFlowBias = 8,
+    kFlowScale = 10,
+    kForceBias = 11,
+    kDrag = 14,
+    kFloor = 15,
+    kYaw = 16,
+    kSize = 17
+  };
+  /// Where attitude and force of a time come from: of a hole they are guessed.
+  enum class Known {
+    kMeasured,     ///< a packet's
+    kCommanded,    ///< what cmd_vel told the drone to do
+    kInterpolated  ///< between the packets around the hole
+  };
+  /// Means, placed by Index.
+  using State = Eigen::Matrix<double, kSize, 1>;
+  /// Of the State's errors, placed by Index.
+  using Covariance = Eigen::Matrix<double, kSize, kSize>;
+  /// Derivative of two quantities by the State.
+  using Rows2 = Eigen::Matrix<double, 2, kSize>;
+
+  /// What a measurement should be, and its derivative by the state.
+  struct Foreseen {
+    Eigen::Vector2d value =
+        Eigen::Vector2d::Zero();     ///< forward and left, in the measurement's unit
+    Rows2 jacobian = Rows2::Zero();  ///< of value by the State
+  };
+
+  /// @throws ConfigError listing every parameter out of its range
+  explicit DroneFilter(const DroneFilterConfig& config);
+
+  /// At x = y = 0, its height that above the floor.
+  void begin(const DroneMeasurement& measured);
+  /// Flies on for so long.
+  void predict(const DroneMeasurement& measured, double dt_s, Known known = Known::kMeasured);
+  /// Stands still for so long.
+  void rest(double dt_s);
+  /// @param dt_s  since the measurement before: that of the sensors' noise
+  void updateVelocity(const DroneMeasurement& measured, double dt_s);
+  /// @param height_m  above what is below, measured
+  /// @param dt_s  since the height before: neighbours err alike
+  void updateHeight(double height_m, double dt_s);
+
+  /// Height measured less height foreseen, and the deviation of that.
+  double heightInnovation_m(double height_m) const;
+  /// Standard deviation of heightInnovation_m().
+  double heightSigma_m() const;
+  /// The floor is now `floor_m` high, by the position: another one than before, unless it is that
+  /// of the beginning again.
+  void changeFloor(double floor_m);
+  /// Position and velocity have become unknown by so much.
+  void widen(double position_m, double velocity_m_s);
+
+  /// Means after the last call.
+  const State& state() const { return x_; }
+  /// Covariance after the last call.
+  const Covariance& covariance() const { return P_; }
+  /// Pose with covariance, velocity with covariance; no stamp, no turn rate.
+  OdometryState observed(const Eigen::Matrix3d& R_reported) const;
+
+  /// The equations, for predict and update: the state after dt_s and its derivative by the state.
+  static State motion(const State& x, const DroneMeasurement& measured, double dt_s);
+  /// Derivative of motion() by x.
+  static Covariance motionJacobian(const State& x, const DroneMeasurement& measured, double dt_s);
+  /// What the optical flow should report: base's velocity, forward and left [m/s].
+  static Foreseen flow(const State& x, const Eigen::Matrix3d& R_reported);
+  /// What the accelerometer should feel across the thrust, forward and left [m/s^2].
+  static Foreseen drag(const State& x, const Eigen::Matrix3d& R_reported);
+
+ private:
+  void addNoise(double dt_s, double acceleration_noise);
+  void update(double innovation, const Eigen::Matrix<double, 1, kSize>& H, double variance);
+
+  DroneFilterConfig config_;
+  State x_ = State::Zero();
+  Covariance P_ = Covariance::Zero();
+};
+
+}  // namespace ardrone_vslam

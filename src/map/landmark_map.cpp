@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/landmark_map.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace ardrone_vslam {
+
+LandmarkMap::LandmarkMap(const LandmarkMapConfig& config) : config_(config) {
+  validate(config);
+}
+
+void LandmarkMap::reserve(std::size_t landmarks) {
+  landmarks_.reserve(landmarks);
+  index_of_id_.reserve(landmarks);
+  columns_.reserve(landmarks);
+  stale_.reserve(landmarks);
+  stale_for_columns_.reserve(landmarks);
+}
+
+std::uint32_t LandmarkMap::add(const Landmark& landmark) {
+  const std::uint32_t id = next_id_++;
+  index_of_id_.emplace(id, landmarks_.size());
+  landmarks_.push_back(landmark);
+  landmarks_.back().id = id;
+  stale_.push_back(0);
+  markStale(landmarks_.size() - 1);
+  return id;
+}
+
+void LandmarkMap::remove(std::uint32_t id) {
+  const auto entry = index_of_id_.find(id);
+  if (entry == index_of_id_.end()) return;
+  const std::size_t hole = entry->second;
+  index_of_id_.erase(entry);
+  if (index_is_laid_out_) index_.remove(static_cast<int>(id));
+  if (hole + 1 != landmarks_.size()) {
+    landmarks_[hole] = landmarks_.back();
+    index_of_id_[landmarks_[hole].id] = hole;
+    stale_[hole] = static_cast<std::uint8_t>(stale_.back() & kStaleIndex);
+    markStale(hole);
+  }
+  landmarks_.pop_back();
+  stale_.pop_back();
+}
+
+Landmark& LandmarkMap::at(std::size_t index) {
+  markStale(index);
+  return landmarks_[index];
+}
+
+Landmark& LandmarkMap::atPlace(std::size_t index) {
+  markStaleForColumns(index);
+  return landmarks_[index];
+}
+
+void LandmarkMap::markStale(std::size_t index) {
+  markStaleForColumns(index);
+  if (index_is_laid_out_) markStaleForIndex(index);
+}
+
+void LandmarkMap::markStaleForColumns(std::size_t index) {
+  std::uint8_t& stale = stale_[index];
+  if ((stale & kStaleColumns) == 0) stale_for_columns_.push_back(index);
+  stale |= kStaleColumns;
+}
+
+void LandmarkMap::markStaleForIndex(std::size_t index) {
+  std::uint8_t& stale = stale_[index];
+  if ((stale & kStaleIndex) != 0) return;
+  stale |= kStaleIndex;
+  stale_for_index_.push_back(landmarks_[index].id);
+  if (stale_for_index_.size() <= 2 * landmarks_.size() + kIndexStep) return;
+  // Most of it are landmarks that came and went while nobody needed the index.
+  const auto is_gone = [this](std::uint32_t id) { return index_of_id_.count(id) == 0; };
+  stale_for_index_.erase(std::remove_if(stale_for_index_.begin(), stale_for_index_.end(), is_gone),
+                         stale_for_index_.end());
+}
+
+const LandmarkColumns& LandmarkMap::columns(const Eigen::Vector3d& camera_map) {
+  columns_.resize(landmarks_.size());
+  if (columns_.follow(camera_map)) {
+    for (std::size_t i = 0; i < landmarks_.size(); ++i) columns_.set(i, landmarks_[i]);
+  }
+  for (const std::size_t i : stale_for_columns_) {
+    if (i >= landmarks_.size()) continue;
+    columns_.set(i, landmarks_[i]);
+    stale_[i] = static_cast<std::uint8_t>(stale_[i] & ~kStaleColumns);
+  }
+  stale_for_columns_.clear();
+  return columns_;
+}
+
+void LandmarkMap::layOutIndex() {
+  std::vector<int> ids;
+  ids.reserve(landmarks_.size());
+  for (const Landmark& landmark : landmarks_) ids.push_back(static_cast<int>(landmark.id));
+  std::vector<Descriptor> centres;
+  for (const int id : DescriptorIndex::centresOf(ids))
+    centres.push_back(find(static_cast<std::uint32_t>(id))->descriptor);
+  if (centres.empty()) centres.resize(1);
+  index_.layOut(centres);
+  index_is_laid_out_ = true;
+  stale_for_index_.clear();
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    stale_[i] = static_cast<std::uint8_t>(stale_[i] & ~kStaleIndex);
+    markStaleForIndex(i);
+  }
+}
+
+bool LandmarkMap::advanceIndex() {
+  if (!index_is_laid_out_ || !index_.isRightSizeFor(landmarks_.size())) layOutIndex();
+  for (int step = 0; step < kIndexStep && !stale_for_index_.empty(); ++step) {
+    const auto entry = index_of_id_.find(stale_for_index_.back());
+    stale_for_index_.pop_back();
+    if (entry == index_of_id_.end()) continue;
+    std::uint8_t& stale = stale_[entry->second];
+    stale = static_cast<std::uint8_t>(stale & ~kStaleIndex);
+    enter(landmarks_[entry->second]);
+  }
+  return stale_for_index_.empty();
+}
+
+void LandmarkMap::enter(const Landmark& landmark) {
+  const auto id = static_cast<int>(landmark.id);
+  const Descriptor* known = index_.find(id);
+  if (known != nullptr && *known == landmark.descriptor) return;
+  index_.remove(id);
+  index_.insert({id, landmark.descriptor});
+}
+
+DescriptorIndex& LandmarkMap::index() {
+  assert(index_is_laid_out_ && stale_for_index_.empty() && "the index is not up to date");
+  return index_;
+}
+
+int LandmarkMap::enforceCap() {
+  const auto cap = static_cast<std::size_t>(config_.max_landmarks);
+  if (landmarks_.size() <= cap) return 0;
+  // A tenth of the cap at once, so that a full map does not sort at every frame.
+  const std::size_t surplus = landmarks_.size() - cap + cap / 10;
+  std::vector<std::pair<std::int64_t, std::uint32_t>> age;
+  age.reserve(landmarks_.size());
+  for (const Landmark& landmark : landmarks_) age.emplace_back(landmark.last_seen_ns, landmark.id);
+  std::nth_element(age.begin(), age.begin() + static_cast<std::ptrdiff_t>(surplus), age.end());
+  std::sort(age.begin(), age.begin() + static_cast<std::ptrdiff_t>(surplus));
+  for (std::size_t i = 0; i < surplus; ++i) remove(age[i].second);
+  return static_cast<int>(surplus);
+}
+
+const Landmark* LandmarkMap::find(std::uint32_t id) const {
+  const auto entry = index_of_id_.find(id);
+  return entry == index_of_id_.end() ? nullptr : &landmarks_[entry->second];
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/mapper.hpp"
+
+#include <cmath>
+
+namespace ardrone_vslam {
+namespace {
+
+/// The feature that saw a landmark last stands for it: its descriptor, track and direction.
+void rememberObservation(const FrameView& view, std::size_t feature, Landmark& landmark) {
+  landmark.track_id = view.features().track_id[feature];
+  landmark.descriptor = view.features().descriptor[feature];
+  landmark.view_direction_map = view.ray(feature).direction_map;
+  landmark.seen_distance_m = (landmark.position_map - view.origin_map()).norm();
+  landmark.height_m = view.elevation(feature) * landmark.seen_distance_m;
+  landmark.last_seen_ns = view.features().stamp_ns;
+  landmark.times_missed = 0;
+  ++landmark.times_seen;
+}
+
+}  // namespace
+
+Mapper::Mapper(const MapperConfig& config) : config_(config) {
+  validate(config);
+}
+
+void Mapper::refine(const FrameView& view, const std::vector<Association>& matches,
+                    LandmarkMap& map) const {
+  const double sigma_a = angleSigma_rad(view.focalLength_px());
+  for (const Association& match : matches) {
+    const auto feature = static_cast<std::size_t>(match.feature);
+    Landmark& landmark = map.at(static_cast<std::size_t>(match.target));
+    const Ray ray = view.ray(feature);
+    widenBaseline(view, feature, landmark);
+    const double depth = (landmark.position_map - ray.origin_map).dot(ray.direction_map);  // (5.20)
+    const Eigen::Vector3d measured = ray.origin_map + depth * ray.direction_map;           // (5.21)
+    const double sigma_p =
+        std::hypot(config_.position_sigma_m, view.deviationSince_m(landmark.position_variance_m2));
+    const double sigma = measurementSigma_m(sigma_p, std::abs(depth), sigma_a);  // (5.22)
+    const double variance = landmark.sigma_m * landmark.sigma_m;
+    const double gain = variance / (variance + sigma * sigma);           // (5.30-5.32)
+    landmark.position_map += gain * (measured - landmark.position_map);  // (5.33)
+    landmark.sigma_m = std::sqrt((1 - gain) * variance);                 // (5.34)
+    rememberObservation(view, feature, landmark);
+  }
+}
+
+void Mapper::widenBaseline(const FrameView& view, std::size_t feature, Landmark& landmark) const {
+  // A track that goes on is hardly ever a mismatch, a landmark found by its descriptor may be one.
+  if (landmark.track_id != view.features().track_id[feature]) return;
+  // A wrong feature may still lie within the landmark's threshold, and would count for good, as the
+  // parallax only grows. Of the first view's epipolar plane it seldom lies within three deviations.
+  const auto offset = epipolarOffset(landmark.first_ray, view.ray(feature));
+  if (!offset || offset->across > 3 * angleSigma_rad(view.focalLength_px())) return;
+  const auto point = triangulate(landmark.first_ray, view.ray(feature));
+  if (!point || point->parallax_rad < config_.baseline_growth * landmark.parallax_rad) return;
+  // After a long way round the drift between the two views would turn the map: then the wider
+  // baseline gives no better depth.
+  const double sigma_p =
+      std::hypot(config_.position_sigma_m, view.deviationSince_m(landmark.position_variance_m2));
+  const double deviation =
+      measurementSigma_m(sigma_p, point->depth_m, angleSigma_rad(view.focalLength_px()));
+  const double depth_deviation = depthSigma_m(deviation, point->parallax_rad);
+  if (depth_deviation > landmark.depth_sigma_m) return;
+  landmark.position_map = point->position_map;
+  landmark.parallax_rad = point->parallax_rad;
+  landmark.depth_sigma_m = depth_deviation;
+}
+
+void Mapper::remember(const FrameView& view, const std::vector<Association>& matches,
+                      LandmarkMap& map) {
+  for (const Association& match : matches)
+    rememberObservation(view, static_cast<std::size_t>(match.feature),
+                        map.at(static_cast<std::size_t>(match.target)));
+}
+
+int Mapper::countMissed(const std::vector<int>& missed, LandmarkMap& map) const {
+  std::vector<std::uint32_t> dropped;
+  for (const int index : missed) {
+    const int times_missed = map.addMiss(static_cast<std::size_t>(index));
+    const Landmark& landmark = map.all()[static_cast<std::size_t>(index)];
+    if (landmark.times_seen <= 2 && times_missed >= config_.drop_unconfirmed_after)
+      dropped.push_back(landmark.id);
+  }
+  for (const std::uint32_t id : dropped) map.remove(id);
+  return static_cast<int>(dropped.size());
+}
+
+int Mapper::countFailed(const std::vector<int>& failed, LandmarkMap& map) const {
+  std::vector<std::uint32_t> dropped;
+  for (const int index : failed) {
+    const int times_failed = map.addFailure(static_cast<std::size_t>(index));
+    const Landmark& landmark = map.all()[static_cast<std::size_t>(index)];
+    if (times_failed > config_.drop_failing_ratio * landmark.times_seen)
+      dropped.push_back(landmark.id);
+  }
+  for (const std::uint32_t id : dropped) map.remove(id);
+  return static_cast<int>(dropped.size());
+}
+
+int Mapper::triangulateMatches(const FrameView& view, const std::vector<Association>& matches,
+                               FeatureMap& features, LandmarkMap& landmarks,
+                               std::vector<bool>& used) const {
+  const double sigma_a = angleSigma_rad(view.focalLength_px());
+  const double min_parallax_rad = config_.min_parallax_deg * M_PI / 180;
+  int made = 0;
+  for (const Association& match : matches) {
+    const auto feature = static_cast<std::size_t>(match.feature);
+    const auto entry = static_cast<std::size_t>(match.target);
+    const MapFeature& first = features.all()[entry];
+    const bool same_track =
+        first.track_id != kNoTrack && first.track_id == view.features().track_id[feature];
+    const auto point = triangulate(first.ray, view.ray(feature));
+    if (!point || point->parallax_rad < min_parallax_rad) {
+      if (same_track)
+        used[feature] = true;  // the older view has the longer baseline: it stays and waits
+      continue;
+    }
+    features.remove(entry);
+    if (point->depth_m > config_.max_depth_m) continue;
+    used[feature] = true;
+    Landmark landmark;
+    const double sigma_p =
+        std::hypot(config_.position_sigma_m, view.deviationSince_m(first.position_variance_m2));
+    landmark.position_map = point->position_map;
+    landmark.position_variance_m2 = view.positionVariance_m2();
+    landmark.sigma_m = measurementSigma_m(sigma_p, point->depth_m, sigma_a);  // (5.19)
+    landmark.depth_sigma_m = depthSigma_m(landmark.sigma_m, point->parallax_rad);
+    landmark.first_ray = first.ray;
+    landmark.parallax_rad = point->parallax_rad;
+    landmark.first_seen_ns = first.stamp_ns;
+    landmark.times_seen = 1;
+    rememberObservation(view, feature, landmark);
+    landmarks.add(landmark);
+    ++made;
+  }
+  return made;
+}
+
+void Mapper::storeRest(const FrameView& view, const std::vector<bool>& used,
+                       FeatureMap& features) const {
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    if (used[i]) continue;
+    MapFeature entry;
+    entry.track_id = view.features().track_id[i];
+    entry.ray = view.ray(i);
+    entry.elevation = view.elevation(i);
+    entry.position_variance_m2 = view.positionVariance_m2();
+    entry.stamp_ns = view.features().stamp_ns;
+    entry.descriptor = view.features().descriptor[i];
+    features.add(entry);
+  }
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_update/relocation.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "ardrone_vslam/rotation.hpp"
+#include "map_update/observation_rays.hpp"
+#include "msckf/track_residual.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kMostSamples = 1000;  // a tenth of right matches are found in nearly every frame
+constexpr double kLeastAttitude_rad = 0.0175;
+constexpr double kParallelSine = 0.03;  // of two rays that tell no distance
+constexpr double kMostByChance = 1e-6;  // a lost drone asks in every frame
+constexpr std::size_t kFewest = 4;      // three of them are taken by the pose
+
+class Relocator {
+ public:
+  Relocator(const Clone& predicted, const Eigen::Vector3d& camera_base,
+            const std::vector<MapObservation>& observations, double sigma_a, double attitude_rad)
+      : predicted_(predicted),
+        camera_base_(camera_base),
+        observations_(observations),
+        sigma_a_(sigma_a),
+        attitude_rad_(std::max(attitude_rad, kLeastAttitude_rad)) {}
+
+  /// @return the pose that most observations agree with
+  std::optional<Clone> search() const;
+  std::vector<std::size_t> agreeing(const Clone& pose, double slack_rad) const;
+  /// Probability that a wrong match agrees with a pose.
+  double shareByChance(const Clone& pose) const;
+
+ private:
+  std::optional<Clone> poseOf(std::size_t a, std::size_t b) const;
+  Clone refined(Clone pose) const;
+  double off(const Clone& pose, std::size_t i, double slack_rad) const {
+    return offRay(observations_[i], pose.R_map_rig * observations_[i].bearing_base,
+                  pose.position_map + pose.R_map_rig * camera_base_, sigma_a_, slack_rad);
+  }
+  double score(const Clone& pose, double slack_rad) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < observations_.size(); ++i)
+      sum += std::max(0.0, 1 - off(pose, i, slack_rad) / kInlier);
+    return sum;
+  }
+
+  const Clone& predicted_;
+  const Eigen::Vector3d& camera_base_;
+  const std::vector<MapObservation>& observations_;
+  double sigma_a_;
+  double attitude_rad_;
+};
+
+std::optional<Clone> Relocator::poseOf(std::size_t a, std::size_t b) const {
+  const Eigen::Vector3d ray_a = predicted_.R_map_rig * observations_[a].bearing_base;
+  const Eigen::Vector3d ray_b = predicted_.R_map_rig * observations_[b].bearing_base;
+  if (!(ray_a.cross(ray_b).norm() > kParallelSine)) return std::nullopt;
+  const Eigen::Vector3d camera = nearestToRays(observations_[a], ray_a, observations_[b], ray_b);
+  if (!camera.allFinite()) return std::nullopt;
+  Clone pose = predicted_;
+  pose.position_map = camera - predicted_.R_map_rig * camera_base_;
+  // Two rays have one angle to spare: most wrong pairs end here.
+  if (!(off(pose, a, attitude_rad_) < kInlier && off(pose, b, attitude_rad_) < kInlier))
+    return std::nullopt;
+  return pose;
+}
+
+Clone Relocator::refined(Clone pose) const {
+  // The prediction's attitude errs alike for all, so it is found; then what agrees is told better.
+  for (const double slack_rad : {attitude_rad_, 0.5 * attitude_rad_, kSlack_rad, kSlack_rad}) {
+    Matrix6d matrix = Matrix6d::Zero();
+    Vector6d vector = Vector6d::Zero();
+    const double attitude_weight = 1 / (attitude_rad_ * attitude_rad_);
+    matrix.diagonal().tail<3>().setConstant(attitude_weight);
+    vector.tail<3>() =
+        attitude_weight * rotationVectorOf(predicted_.R_map_rig * pose.R_map_rig.transpose());
+    for (const std::size_t i : agreeing(pose, slack_rad)) {
+      const MapObservation& s = observations_[i];
+      const auto ray = rayResidual(pose, camera_base_, s.bearing_base, s.point_map);
+      if (!ray) continue;
+      const Eigen::Matrix2d noise = sigma_a_ * sigma_a_ * Eigen::Matrix2d::Identity() +
+                                    ray->point * s.covariance_m2 * ray->point.transpose();
+      const Eigen::Matrix<double, 6, 2> weighted = ray->pose.transpose() * noise.inverse();
+      matrix += weighted * ray->pose;
+      vector += weighted * ray->residual;
+    }
+    const Vector6d step = matrix.ldlt().solve(vector);
+    if (!step.allFinite()) break;
+    pose.position_map += step.head<3>();
+    pose.R_map_rig = rotationOf(step.tail<3>()) * pose.R_map_rig;
+  }
+  return pose;
+}
+
+std::vector<std::size_t> Relocator::agreeing(const Clone& pose, double slack_rad) const {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < observations_.size(); ++i) {
+    if (off(pose, i, slack_rad) < kInlier) indices.push_back(i);
+  }
+  return indices;
+}
+
+std::optional<Clone> Relocator::search() const {
+  std::optional<Clone> best;
+  double best_rough = 0;
+  double best_score = 0;
+  double samples = kMostSamples;
+  Draws draws;
+  for (int k = 0; k < samples; ++k) {
+    const std::size_t a = draws.below(observations_.size());
+    const std::size_t b = draws.below(observations_.size());
+    if (a == b) continue;
+    const auto pose = poseOf(a, b);
+    if (!pose) continue;
+    const double rough = score(*pose, attitude_rad_);
+    if (rough <= best_rough) continue;
+    best_rough = rough;
+    const Clone better = refined(*pose);
+    const double its_score = score(better, kSlack_rad);
+    if (its_score <= best_score) continue;
+    best_score = its_score;
+    best = better;
+    // Until two right ones have been drawn with a probability of 0.999; of these every other pair
+    // lies well.
+    const double share = its_score / static_cast<double>(observations_.size());
+    samples = std::min(samples, std::log(0.001) / std::log1p(-0.5 * share * share));
+  }
+  return best;
+}
+
+double Relocator::shareByChance(const Clone& pose) const {
+  const Eigen::Vector3d camera = pose.position_map + pose.R_map_rig * camera_base_;
+  const std::size_t count = observations_.size();
+  // Anywhere in its window ..
+  double by_window = 0;
+  for (const MapObservation& s : observations_) {
+    const Eigen::Vector3d offset = s.point_map - camera;
+    const double variance =
+        acrossVariance_rad2(s, offset.normalized(), offset.norm(), sigma_a_, kSlack_rad);
+    by_window += std::min(1.0, kInlier * variance / (s.window_rad * s.window_rad));
+  }
+  // .. but corners and landmarks stand in groups: so often do the same ones agree in other pairs.
+  constexpr std::size_t kRounds = 20;
+  std::size_t trials = 0;
+  std::size_t by_pairs = 0;
+  for (std::size_t round = 1; round <= kRounds; ++round) {
+    const std::size_t shift = round * count / (kRounds + 1);
+    if (shift == 0) continue;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3d ray = pose.R_map_rig * observations_[(i + shift) % count].bearing_base;
+      by_pairs += offRay(observations_[i], ray, camera, sigma_a_, kSlack_rad) < kInlier ? 1U : 0U;
+      ++trials;
+    }
+  }
+  return std::max(by_window / static_cast<double>(count),
+                  static_cast<double>(by_pairs + 1) / static_cast<double>(trials + 1));
+}
+
+}  // namespace
+
+double agreementsByChance(std::size_t matches, std::size_t agreeing, double share) {
+  const double poses = std::pow(static_cast<double>(matches), 3) / 6;
+  if (agreeing < kFewest || matches < agreeing || !(share < 1)) return poses;
+  const double others = static_cast<double>(matches - 3);
+  const double q = static_cast<double>(agreeing - 3) / others;
+  if (q <= share) return poses;
+  double divergence = q * std::log(q / share);
+  if (q < 1) divergence += (1 - q) * std::log((1 - q) / (1 - share));
+  return poses * std::exp(-others * divergence);
+}
+
+bool chanceExplains(const Clone& pose, const Eigen::Vector3d& camera_base,
+                    const std::vector<MapObservation>& observations, std::size_t agreeing,
+                    double angle_sigma_rad, double most_by_chance) {
+  const Relocator relocator(pose, camera_base, observations, angle_sigma_rad, 0);
+  return agreementsByChance(observations.size(), agreeing, relocator.shareByChance(pose)) >
+         most_by_chance;
+}
+
+std::optional<ObservationConsensus> relocate(const Clone& predicted,
+                                             const Eigen::Vector3d& camera_base,
+                                             const std::vector<MapObservation>& observations,
+                                             double angle_sigma_rad, double attitude_sigma_rad) {
+  if (observations.size() < kFewest) return std::nullopt;
+  const Relocator relocator(predicted, camera_base, observations, angle_sigma_rad,
+                            attitude_sigma_rad);
+  const auto pose = relocator.search();
+  if (!pose) return std::nullopt;
+  const std::vector<std::size_t> agreeing = relocator.agreeing(*pose, kSlack_rad);
+  if (chanceExplains(*pose, camera_base, observations, agreeing.size(), angle_sigma_rad,
+                     kMostByChance))
+    return std::nullopt;
+  ObservationConsensus consensus;
+  consensus.position_map = pose->position_map;
+  consensus.R_map_rig = pose->R_map_rig;
+  for (const std::size_t i : agreeing) consensus.observations.push_back(observations[i]);
+  return consensus;
+}
+
+}  // namespace ardrone_vslam

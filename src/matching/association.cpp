@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/association.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kNobody = -1;
+/// So many landmarks tell how far away the map is.
+constexpr std::size_t kDistanceSample = 1000;
+/// So many searches ahead a landmark's descriptor is asked for.
+constexpr std::size_t kPrefetched = 8;
+
+}  // namespace
+
+Associator::Associator(const AssociationConfig& config)
+    : config_(config), global_matcher_(config.matcher, config.index_probes) {
+  validate(config);
+}
+
+void Associator::begin(const FrameView& view, std::size_t target_count) {
+  best_of_target_.assign(target_count, BestTwo{});
+  feature_taken_.assign(view.size(), false);
+  targets_in_view_.clear();
+  tracks_.reset(view.features());
+}
+
+int Associator::featureOfTrack(std::uint32_t track_id) const {
+  // Most landmarks of a large map were seen last before the oldest of the frame's tracks began.
+  if (tracks_.begin() == tracks_.end() || track_id < tracks_.begin()->track_id) return kNobody;
+  const TrackedFeature* entry = tracks_.find(track_id);
+  return entry == nullptr ? kNobody : static_cast<int>(entry->feature);
+}
+
+int Associator::bestFeature(int target) const {
+  const BestTwo& best = best_of_target_[static_cast<std::size_t>(target)];
+  if (!accept(best, config_.matcher)) return kNobody;
+  const auto feature = static_cast<std::size_t>(best.index);
+  if (feature_taken_[feature]) return kNobody;  // by a target before, if there is no cross check
+  if (config_.matcher.cross_check && windows_.nearestQuery(best.index) != target) return kNobody;
+  return best.index;
+}
+
+double Associator::margin_px(const FrameView& view, std::uint32_t anchor_id,
+                             double position_variance_m2, double distance_m) const {
+  return config_.threshold_sigmas * view.focalLength_px() *
+         view.driftAngle_rad(anchor_id, position_variance_m2, distance_m);
+}
+
+bool Associator::decideLandmark(const FrameView& view, const LandmarkMap& map,
+                                const Association& candidate, AssociationResult& result) {
+  ++result.candidates;
+  if (isLandmarkMismatch(view, map.all()[static_cast<std::size_t>(candidate.target)],
+                         candidate.feature)) {
+    ++result.mismatches;
+    return false;
+  }
+  result.matches.push_back(candidate);
+  feature_taken_[static_cast<std::size_t>(candidate.feature)] = true;
+  return true;
+}
+
+void Associator::matchLandmarks(const FrameView& view, LandmarkMap& map,
+                                AssociationResult& result) {
+  result = {};
+  const LandmarkColumns& columns = map.columns(view.origin_map());
+  columns.project(view, {config_.max_view_angle_deg, config_.max_distance_ratio}, visible_);
+  result.in_view = static_cast<int>(visible_.count);
+  begin(view, visible_.count);
+  result.method = chooseMethod(view, map, columns);
+  if (result.method == MatchMethod::kGuided) {
+    matchGuided(view, map, columns, result);
+  } else {
+    matchGlobally(view, map, columns, result);
+  }
+}
+
+bool Associator::windowsAreWide(const FrameView& view, const LandmarkColumns& columns) {
+  const auto radiusOf = [&](std::size_t landmark, float distance_m) {
+    const double margin = margin_px(view, columns.anchorId(landmark),
+                                    columns.positionVariance_m2(landmark), distance_m);
+    return static_cast<float>(config_.search_radius_px + margin);
+  };
+  radius_px_.resize(visible_.count);
+  for (std::size_t k = 0; k < visible_.count; ++k)
+    radius_px_[k] = radiusOf(static_cast<std::size_t>(visible_.index[k]), visible_.distance_m[k]);
+  sorted_radii_px_ = radius_px_;
+  if (sorted_radii_px_.empty()) {
+    // Nothing is where the camera is thought to be: wide or not is a matter of the whole map.
+    const std::size_t step = 1 + columns.size() / kDistanceSample;
+    for (std::size_t i = 0; i < columns.size(); i += step) {
+      const float distance_m = columns.seenDistance_m(i);
+      if (distance_m > 0) sorted_radii_px_.push_back(radiusOf(i, distance_m));
+    }
+  }
+  if (sorted_radii_px_.empty()) return false;
+  const auto median =
+      sorted_radii_px_.begin() + static_cast<std::ptrdiff_t>(sorted_radii_px_.size() / 2);
+  std::nth_element(sorted_radii_px_.begin(), median, sorted_radii_px_.end());
+  return *median > config_.max_window_share * view.features().width_px;
+}
+
+MatchMethod Associator::chooseMethod(const FrameView& view, LandmarkMap& map,
+                                     const LandmarkColumns& columns) {
+  if (!windowsAreWide(view, columns)) return MatchMethod::kGuided;
+  if (map.size() < static_cast<std::size_t>(config_.index_from_landmarks))
+    return MatchMethod::kExact;
+  // The index is built over several frames, so that none of them waits for all of it.
+  return map.advanceIndex() ? MatchMethod::kIndexed : MatchMethod::kExact;
+}
+
+void Associator::matchGuided(const FrameView& view, const LandmarkMap& map,
+                             const LandmarkColumns& columns, AssociationResult& result) {
+  // Tracks first: they need no search, and their features are not offered to other landmarks.
+  for (std::size_t k = 0; k < visible_.count; ++k) {
+    const int landmark = visible_.index[k];
+    const int feature = featureOfTrack(columns.trackId(static_cast<std::size_t>(landmark)));
+    const bool free = feature != kNobody && !feature_taken_[static_cast<std::size_t>(feature)];
+    if (free && decideLandmark(view, map, {landmark, feature}, result)) continue;
+    targets_in_view_.push_back(static_cast<int>(k));
+  }
+  windows_.build(view.idealPixels(), view.features().descriptor, feature_taken_);
+  const auto descriptorOf = [&](int target) -> const Descriptor& {
+    const int landmark = visible_.index[static_cast<std::size_t>(target)];
+    return map.all()[static_cast<std::size_t>(landmark)].descriptor;
+  };
+  for (std::size_t t = 0; t < targets_in_view_.size(); ++t) {
+    // Of a large map's descriptors hardly any is in a cache.
+    if (t + kPrefetched < targets_in_view_.size())
+      __builtin_prefetch(&descriptorOf(targets_in_view_[t + kPrefetched]));
+    const int target = targets_in_view_[t];
+    const auto k = static_cast<std::size_t>(target);
+    best_of_target_[k] =
+        windows_.search(descriptorOf(target), visible_.pixel_px(k), radius_px_[k], target);
+  }
+  for (const int target : targets_in_view_) {
+    const int landmark = visible_.index[static_cast<std::size_t>(target)];
+    const int feature = bestFeature(target);
+    if (feature == kNobody || !decideLandmark(view, map, {landmark, feature}, result))
+      result.missed.push_back(landmark);
+  }
+}
+
+void Associator::matchGlobally(const FrameView& view, LandmarkMap& map,
+                               const LandmarkColumns& columns, AssociationResult& result) {
+  landmark_taken_.assign(columns.size(), false);
+  const auto decide = [&](const Association& candidate) {
+    const auto landmark = static_cast<std::size_t>(candidate.target);
+    if (landmark_taken_[landmark] || feature_taken_[static_cast<std::size_t>(candidate.feature)])
+      return;
+    landmark_taken_[landmark] = decideLandmark(view, map, candidate, result);
+  };
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const int feature = featureOfTrack(columns.trackId(i));
+    if (feature != kNobody) decide({static_cast<int>(i), feature});
+  }
+  for (const DescriptorMatch& match :
+       global_matcher_.match(view.features(), feature_taken_, map, result.method)) {
+    decide({match.train, match.query});
+  }
+}
+
+double Associator::threshold_rad(const FrameView& view, const Landmark& landmark,
+                                 double distance_m) const {
+  const double drift_px =
+      margin_px(view, landmark.anchor_id, landmark.position_variance_m2, distance_m);
+  return std::min((config_.landmark_threshold_px + drift_px) / view.focalLength_px(), M_PI);
+}
+
+bool Associator::isLandmarkMismatch(const FrameView& view, const Landmark& landmark,
+                                    int feature) const {
+  const Ray ray = view.ray(static_cast<std::size_t>(feature));
+  const Eigen::Vector3d offset = landmark.position_map - ray.origin_map;
+  const double distance_m = offset.norm();
+  const Eigen::Vector3d predicted = offset / distance_m;
+  const double angle = threshold_rad(view, landmark, distance_m);
+  return !(predicted.dot(ray.direction_map) > std::cos(angle));  // (5.36)
+}
+
+void Associator::matchMapFeatures(const FrameView& view, const FeatureMap& map,
+                                  const std::vector<bool>& taken, AssociationResult& result) {
+  result = {};
+  begin(view, map.size());
+  std::copy(taken.begin(), taken.end(), feature_taken_.begin());
+  const auto decide = [&](int target, int feature) {
+    ++result.candidates;
+    feature_taken_[static_cast<std::size_t>(feature)] = true;
+    const MapFeature& first = map.all()[static_cast<std::size_t>(target)];
+    if (isEpipolarMismatch(view, first, feature)) {
+      ++result.mismatches;
+      return;
+    }
+    result.matches.push_back({target, feature});
+  };
+
+  for (std::size_t f = 0; f < view.size(); ++f) {
+    if (feature_taken_[f]) continue;
+    const int target = map.indexOfTrack(view.features().track_id[f]);
+    if (target != kNobody) decide(target, static_cast<int>(f));
+  }
+  // Entries whose track has ended are looked for by descriptor. A near point moves away from where
+  // rotation alone puts it, hence the window.
+  windows_.build(view.idealPixels(), view.features().descriptor, feature_taken_);
+  const auto radius_px = static_cast<float>(config_.search_radius_px);
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const MapFeature& entry = map.all()[i];
+    if (map.isRemoved(i) || featureOfTrack(entry.track_id) != kNobody) continue;
+    Eigen::Vector2f centre_px;
+    if (!view.idealPixel(entry.ray.direction_map, entry.elevation, centre_px)) continue;
+    ++result.in_view;
+    targets_in_view_.push_back(static_cast<int>(i));
+    best_of_target_[i] =
+        windows_.search(entry.descriptor, centre_px, radius_px, static_cast<int>(i));
+  }
+  for (const int target : targets_in_view_) {
+    const int feature = bestFeature(target);
+    if (feature != kNobody) decide(target, feature);
+  }
+}
+
+bool Associator::isEpipolarMismatch(const FrameView& view, const MapFeature& first,
+                                    int feature) const {
+  const Ray present = view.ray(static_cast<std::size_t>(feature));
+  const auto offset = epipolarOffset(first.ray, present);
+  if (!offset) return false;  // no baseline yet: nothing to test, and nothing to triangulate either
+  // An uncertain baseline turns the epipolar plane about the first ray, and the parallax with it.
+  const double baseline_m = (present.origin_map - first.ray.origin_map).norm();
+  const double rotation_rad =
+      config_.threshold_sigmas * view.deviationSince_m(first.position_variance_m2) / baseline_m;
+  const double pixels_rad = config_.epipolar_threshold_px / view.focalLength_px();
+  const double threshold = pixels_rad + rotation_rad * std::hypot(offset->along, offset->across);
+  return offset->across > threshold || offset->along < -threshold ||
+         offset->ahead < -(pixels_rad + rotation_rad);
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "ardrone_vslam/slam_config.hpp"
+#include "map/feature_map.hpp"
+#include "map/landmark_map.hpp"
+#include "matching/descriptor_matcher.hpp"
+#include "matching/frame_view.hpp"
+#include "matching/global_matcher.hpp"
+#include "matching/window_search.hpp"
+#include "msckf/track_order.hpp"
+
+namespace ardrone_vslam {
+
+/// `target` is the index of a landmark or map feature, `feature` of the frame's feature.
+struct Association {
+  int target = 0;   ///< index into LandmarkMap::all() or FeatureMap::all()
+  int feature = 0;  ///< index into ImageFeatures
+};
+
+/// What one search found, before and after the removal of mismatches.
+struct AssociationResult {
+  std::vector<Association> matches;           ///< what is left after the removal of mismatches
+  MatchMethod method = MatchMethod::kGuided;  ///< how it was looked for
+  int in_view = 0;                            ///< targets that the prediction puts into the image
+  int candidates = 0;                         ///< descriptor or track matches
+  int mismatches = 0;                         ///< removed of them
+  std::vector<int> missed;  ///< targets in view without a match; none unless guided
+};
+
+/// Finds the landmarks and map features that a frame shows, and removes mismatches (thesis 5.3).
+class Associator {
+ public:
+  /// @throws ConfigError listing every parameter out of its range
+  explicit Associator(const AssociationConfig& config);
+
+  /// Landmarks seen by the frame. Each landmark and each feature at most once.
+  /// - The prior is narrow: those that the predicted pose puts into the image and that were last
+  ///   seen from a like direction and distance, by track or by the best descriptor within a window
+  ///   that grows with the prior's deviation.
+  /// - The windows would hold most of the image (max_window_share): by track, or by the best
+  ///   descriptor among all landmarks, found exactly or by the map's index.
+  /// A match whose ray is off the prediction by more than the threshold is a mismatch (5.36).
+  /// O(landmarks + pairs inside windows), or as matchExact or DescriptorIndex::search.
+  void matchLandmarks(const FrameView& view, LandmarkMap& map, AssociationResult& result);
+
+  /// A match is a mismatch when it is off the prediction by more than this.
+  double threshold_rad(const FrameView& view, const Landmark& landmark, double distance_m) const;
+
+  /// Map features seen again by those of the frame's features that `taken` does not mark: by track,
+  /// else by descriptor around where rotation alone would put them; matches off the epipolar plane
+  /// are mismatches (5.37-5.44).
+  void matchMapFeatures(const FrameView& view, const FeatureMap& map,
+                        const std::vector<bool>& taken, AssociationResult& result);
+
+ private:
+  void begin(const FrameView& view, std::size_t target_count);
+  int featureOfTrack(std::uint32_t track_id) const;
+  int bestFeature(int target) const;
+  double margin_px(const FrameView& view, std::uint32_t anchor_id, double position_variance_m2,
+                   double distance_m) const;
+  bool windowsAreWide(const FrameView& view, const LandmarkColumns& columns);
+  MatchMethod chooseMethod(const FrameView& view, LandmarkMap& map, const LandmarkColumns& columns);
+  void matchGuided(const FrameView& view, const LandmarkMap& map, const LandmarkColumns& columns,
+                   AssociationResult& result);
+  void matchGlobally(const FrameView& view, LandmarkMap& map, const LandmarkColumns& columns,
+                     AssociationResult& result);
+  bool decideLandmark(const FrameView& view, const LandmarkMap& map, const Association& candidate,
+                      AssociationResult& result);
+  bool isLandmarkMismatch(const FrameView& view, const Landmark& landmark, int feature) const;
+  bool isEpipolarMismatch(const FrameView& view, const MapFeature& first, int feature) const;
+
+  AssociationConfig config_;
+  GlobalMatcher global_matcher_;
+  VisibleLandmarks visible_;
+  std::vector<float> radius_px_;  // window of each visible landmark
+  std::vector<float> sorted_radii_px_;
+  // Targets are numbered as they are visited: visible landmarks, or the map's features.
+  WindowSearch windows_;  // of the features not taken by tracks
+  std::vector<BestTwo> best_of_target_;
+  std::vector<bool> feature_taken_;
+  std::vector<bool> landmark_taken_;
+  std::vector<int> targets_in_view_;
+  TrackOrder tracks_;  // of the frame's features
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "msckf/track_residual.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "ardrone_vslam/rotation.hpp"
+#include "map/triangulation.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+/// Two unit vectors across a unit vector, as rows.
+Eigen::Matrix<double, 2, 3> tangents(const Eigen::Vector3d& direction) {
+  int least = 0;
+  direction.cwiseAbs().minCoeff(&least);
+  Eigen::Matrix<double, 2, 3> rows;
+  rows.row(0) = direction.cross(Eigen::Vector3d::Unit(least)).normalized().transpose();
+  rows.row(1) = direction.cross(rows.row(0).transpose()).transpose();
+  return rows;
+}
+
+/// What takes a vector's part across a unit vector.
+Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
+  return Eigen::Matrix3d::Identity() - unit * unit.transpose();
+}
+
+/// Where a point lies beside a measured ray.
+struct Prediction {
+  Eigen::Vector3d direction;  // from the camera to the point
+  double distance_m;
+  double along;  // cosine to the measured ray
+};
+
+std::optional<Prediction> predict(const Ray& measured, const Eigen::Vector3d& point_map) {
+  constexpr double kNearest_m = 1e-6;
+  constexpr double kWidestCosine = 0.5;
+  const Eigen::Vector3d offset = point_map - measured.origin_map;
+  const double distance_m = offset.norm();
+  if (!(distance_m > kNearest_m)) return std::nullopt;
+  const Eigen::Vector3d direction = offset / distance_m;
+  const double along = measured.direction_map.dot(direction);
+  if (!(along > kWidestCosine)) return std::nullopt;
+  return Prediction{direction, distance_m, along};
+}
+
+/// The point nearest to all rays, a start for the iteration on angles.
+Eigen::Vector3d nearestPoint(const std::vector<Ray>& rays) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  for (const Ray& ray : rays) {
+    const Eigen::Matrix3d across = acrossOf(ray.direction_map);
+    A += across;
+    b += across * ray.origin_map;
+  }
+  return A.inverse() * b;
+}
+
+double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Gives the rows of U orthonormal columns, of the same span (Gram and Schmidt, modified).
+void orthonormalise(std::vector<ViewRows>& views) {
+  for (int column = 0; column < 3; ++column) {
+    double length2 = 0;
+    for (const ViewRows& view : views) length2 += view.point.col(column).squaredNorm();
+    const double length = std::sqrt(length2);
+    Eigen::RowVector3d shared = Eigen::RowVector3d::Zero();
+    for (ViewRows& view : views) {
+      view.point.col(column) /= length;
+      shared += view.point.col(column).transpose() * view.point;
+    }
+    for (ViewRows& view : views) {
+      for (int other = column + 1; other < 3; ++other)
+        view.point.col(other) -= shared(other) * view.point.col(column);
+    }
+  }
+}
+
+/// Cholesky decomposition S = L L' of the lower half of the upper square; what is below, as rows
+/// that L is to be solved for, is taken along.
+void decompose(Eigen::MatrixXd& lower) {
+  for (Eigen::Index k = 0; k < lower.cols(); ++k) {
+    const Eigen::Index rows = lower.rows() - k;
+    lower.col(k).tail(rows) /= std::sqrt(lower(k, k));
+    for (Eigen::Index j = k + 1; j < lower.cols(); ++j)
+      lower.col(j).tail(lower.rows() - j) -= lower(j, k) * lower.col(k).tail(lower.rows() - j);
+  }
+}
+
+}  // namespace
+
+std::optional<RayResidual> rayResidual(const Clone& pose, const Eigen::Vector3d& camera_base,
+                                       const Eigen::Vector3d& bearing_base,
+                                       const Eigen::Vector3d& point_map) {
+  const Eigen::Vector3d lever = pose.R_map_rig * camera_base;
+  const Ray measured{pose.position_map + lever, pose.R_map_rig * bearing_base};
+  const auto predicted = predict(measured, point_map);
+  if (!predicted) return std::nullopt;
+  const Eigen::Matrix<double, 2, 3> B = tangents(predicted->direction);
+  RayResidual ray;
+  ray.residual = B * measured.direction_map / predicted->along;
+  ray.point = B / predicted->distance_m;
+  ray.pose.leftCols<3>() = -ray.point;
+  ray.pose.rightCols<3>() = B * skew(predicted->direction) + ray.point * skew(lever);
+  return ray;
+}
+
+std::optional<TrackPoint> triangulateTrack(const std::vector<Clone>& frames,
+                                           const Eigen::Vector3d& camera_base, TrackViews views,
+                                           double angle_sigma_rad) {
+  if (views.size() < 2) return std::nullopt;
+  std::vector<Ray> rays;
+  rays.reserve(views.size());
+  for (const TrackView& view : views) {
+    const Clone& frame = frames[view.frame];
+    rays.push_back(
+        {frame.position_map + frame.R_map_rig * camera_base, frame.R_map_rig * view.bearing_base});
+  }
+  TrackPoint point;
+  point.position_map = nearestPoint(rays);
+  Eigen::Matrix3d inverse;
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    // Of the residuals of rayResidual(), whose tangents are not needed here.
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    for (const Ray& ray : rays) {
+      const auto predicted = predict(ray, point.position_map);
+      if (!predicted) return std::nullopt;
+      const double per_m = 1 / predicted->distance_m;
+      A += per_m * per_m * acrossOf(predicted->direction);
+      b += per_m * (ray.direction_map / predicted->along - predicted->direction);
+    }
+    inverse = A.inverse();
+    point.position_map += inverse * b;
+    if (!point.position_map.allFinite()) return std::nullopt;
+  }
+  point.covariance_m2 = angle_sigma_rad * angle_sigma_rad * inverse;
+  if (!point.covariance_m2.allFinite()) return std::nullopt;
+  const Eigen::Vector3d first = point.position_map - rays.front().origin_map;
+  for (const Ray& ray : rays) {
+    const Eigen::Vector3d offset = point.position_map - ray.origin_map;
+    if (!(offset.dot(ray.direction_map) > 0)) return std::nullopt;
+    point.parallax_rad = std::max(point.parallax_rad, angleBetween(first, offset));
+  }
+  return point;
+}
+
+double TrackResidual::squaredRest(const Eigen::VectorXd& error, int first) const {
+  const auto left = [&](const ViewRows& view) -> Eigen::Vector2d {
+    return view.residual - view.pose * error.segment<6>(view.coordinate - first);
+  };
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (const ViewRows& view : views) along += view.point.transpose() * left(view);
+  double sum = 0;
+  for (const ViewRows& view : views) sum += (left(view) - view.point * along).squaredNorm();
+  return sum;
+}
+
+double TrackResidual::distance(const WindowState& state) const {
+  const auto P = state.covariance();
+  const auto n = 2 * static_cast<Eigen::Index>(views.size());
+  Eigen::MatrixXd S(n + 4, n);  // A P A' + I, its lower half, and below it r' and U'
+  Eigen::Index column = 0;
+  for (auto right = views.begin(); right != views.end(); ++right, column += 2) {
+    Eigen::Index row = column;
+    for (auto left = right; left != views.end(); ++left, row += 2) {
+      const Eigen::Matrix<double, 6, 2> P_A =
+          P.block<6, 6>(left->coordinate, right->coordinate) * right->pose.transpose();
+      S.block<2, 2>(row, column) = left->pose * P_A;
+    }
+    S.block<1, 2>(n, column) = right->residual.transpose();
+    S.block<3, 2>(n + 1, column) = right->point.transpose();
+  }
+  S.diagonal().array() += 1;
+  // Across U the inverse is S^-1 - S^-1 U (U' S^-1 U)^-1 U' S^-1.
+  decompose(S);
+  const Eigen::Matrix4d rest = S.bottomRows<4>() * S.bottomRows<4>().transpose();
+  const Eigen::Vector3d along = rest.bottomLeftCorner<3, 1>();
+  const Eigen::Matrix3d inverse = rest.bottomRightCorner<3, 3>().inverse();
+  return rest(0, 0) - along.dot(inverse * along);
+}
+
+void TrackResidual::addTo(Information& information, double weight) const {
+  const int first = information.coordinates.front();
+  for (auto left = views.begin(); left != views.end(); ++left) {
+    const int row = left->coordinate - first;
+    const Eigen::Matrix<double, 6, 2> pose = weight * left->pose.transpose();
+    const Eigen::Matrix<double, 6, 3> along = weight * left->along;
+    information.vector.segment<6>(row) += pose * left->residual;
+    information.matrix.block<6, 6>(row, row) += pose * left->pose;
+    for (auto right = views.begin(); right <= left; ++right) {
+      const Eigen::Matrix<double, 6, 6> block = along * right->along.transpose();
+      information.matrix.block<6, 6>(row, right->coordinate - first) -= block;
+      // A height and the view of its frame: both halves lie in one block of the diagonal.
+      if (right != left && right->coordinate == left->coordinate)
+        information.matrix.block<6, 6>(row, row) -= block.transpose();
+    }
+  }
+}
+
+std::optional<TrackResidual> residualOf(const WindowState& state,
+                                        const Eigen::Vector3d& camera_base, TrackViews views,
+                                        const TrackPoint& point, double angle_sigma_rad,
+                                        const std::optional<FloorHeight>& floor) {
+  TrackResidual constraint;
+  constraint.views.reserve(views.size() + 1);
+  for (const TrackView& view : views) {
+    const auto ray =
+        rayResidual(state.frames()[view.frame], camera_base, view.bearing_base, point.position_map);
+    if (!ray) return std::nullopt;
+    ViewRows& rows = constraint.views.emplace_back();
+    rows.coordinate = state.frameCoordinate(view.frame);
+    rows.pose = ray->pose / angle_sigma_rad;
+    rows.point = ray->point;  // of unit noise but for the factor that all rows share
+    rows.residual = ray->residual / angle_sigma_rad;
+  }
+  if (floor) {
+    const Clone& frame = state.frames()[views.back().frame];
+    ViewRows& rows = constraint.views.emplace_back();
+    rows.coordinate = state.frameCoordinate(views.back().frame);
+    rows.pose.setZero();
+    rows.point.setZero();
+    rows.pose(0, 2) = 1 / floor->sigma_m;
+    rows.point(0, 2) = -angle_sigma_rad / floor->sigma_m;
+    const double height_m = frame.position_map.z() - point.position_map.z();
+    rows.residual << (floor->height_m - height_m) / floor->sigma_m, 0;
+    constraint.has_height = true;
+  }
+  orthonormalise(constraint.views);
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (const ViewRows& rows : constraint.views) along += rows.point.transpose() * rows.residual;
+  for (ViewRows& rows : constraint.views) {
+    rows.residual -= rows.point * along;
+    rows.along = rows.pose.transpose() * rows.point;
+  }
+  return constraint;
+}
+
+Eigen::Matrix3d covarianceByFrames(const WindowState& state, const Eigen::Vector3d& camera_base,
+                                   TrackViews views, const Eigen::Vector3d& point_map,
+                                   std::size_t anchor) {
+  // Error of the point less that of a point which keeps its place beside the anchor = G e, e the
+  // errors of bias, scale, anchor, and views: six columns of G each.
+  struct Part {
+    int coordinate;
+    Eigen::Matrix<double, 3, 6> G;
+  };
+  std::vector<Part> parts;
+  parts.reserve(views.size() + 2);
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  for (const TrackView& view : views) {
+    const auto ray =
+        rayResidual(state.frames()[view.frame], camera_base, view.bearing_base, point_map);
+    if (!ray) continue;
+    A += ray->point.transpose() * ray->point;
+    parts.push_back({state.frameCoordinate(view.frame), ray->point.transpose() * ray->pose});
+  }
+  const Eigen::Matrix3d minus_inverse = -A.inverse();
+  for (Part& part : parts) part.G = (minus_inverse * part.G).eval();
+  const Clone& pose = state.frames()[anchor];
+  const Eigen::Vector3d from_anchor = point_map - pose.position_map;
+  Part beside{state.frameCoordinate(anchor), {}};
+  beside.G << -Eigen::Matrix3d::Identity(), skew(from_anchor);
+  parts.push_back(beside);
+  Part stretch{WindowState::kBias, Eigen::Matrix<double, 3, 6>::Zero()};  // not of what follows
+  stretch.G.leftCols<3>() = from_anchor * pose.stretch_by_bias_s_m.transpose();
+  stretch.G.col(WindowState::kScale - WindowState::kBias) = from_anchor;
+  parts.push_back(stretch);
+
+  const auto P = state.covariance();
+  Eigen::Matrix3d half = Eigen::Matrix3d::Zero();  // of G P G', which is symmetric
+  for (auto left = parts.begin(); left != parts.end(); ++left) {
+    Eigen::Matrix<double, 6, 3> P_G =
+        0.5 * P.block<6, 6>(left->coordinate, left->coordinate) * left->G.transpose();
+    for (auto right = parts.begin(); right != left; ++right)
+      P_G += P.block<6, 6>(left->coordinate, right->coordinate) * right->G.transpose();
+    half += left->G * P_G;
+  }
+  return half + half.transpose();
+}
+
+double chiSquare95(int degrees_of_freedom) {
+  const double k = degrees_of_freedom;
+  const double spread = 2 / (9 * k);
+  constexpr double kNormal95 = 1.6449;
+  const double root = 1 - spread + kNormal95 * std::sqrt(spread);
+  return k * root * root * root;
+}
+
+}  // namespace ardrone_vslam

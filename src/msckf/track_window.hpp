@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "msckf/track_order.hpp"
+#include "msckf/track_residual.hpp"
+
+namespace ardrone_vslam {
+
+/// A track that may be used: its views, and what its point would need to become a landmark.
+struct FinishedTrack {
+  std::uint32_t track_id = 0;     ///< ImageFeatures::track_id
+  TrackViews views;               ///< held by the TrackWindow until it is asked again
+  Descriptor descriptor;          ///< of its last view
+  std::uint32_t landmark_id = 0;  ///< of the landmark it belongs to, 0: none
+};
+
+/// The tracks through the frames of the window. Tracks ascend in their id, and their observations
+/// lie one behind the other, so that each of these steps is one pass: O(tracks and features), and
+/// nothing is allocated once there have been as many.
+class TrackWindow {
+ public:
+  /// @param R_base_cam  the camera's mounting
+  explicit TrackWindow(const Eigen::Matrix3d& R_base_cam) : R_base_cam_(R_base_cam) {}
+  /// Of the features from now on. None of them may have the track of an earlier one.
+  void changeCamera(const Eigen::Matrix3d& R_base_cam) { R_base_cam_ = R_base_cam; }
+
+  /// How far the image has moved since a frame of the window, once its turning is taken out.
+  struct Motion {
+    double median_px = 0;  ///< of the common tracks
+    int common = 0;        ///< tracks of that frame that go on
+    int lost = 0;          ///< and those that do not, of all that the window still has
+  };
+  /// @param order  of these features
+  Motion motionSince(const Clone& frame, const Clone& present, const ImageFeatures& features,
+                     const TrackOrder& order);
+
+  /// Appends a view to the track of each feature.
+  void add(std::uint32_t frame_id, const ImageFeatures& features, const TrackOrder& order);
+  /// A track belongs to a landmark; unknown tracks are ignored.
+  void assignLandmark(std::uint32_t track_id, std::uint32_t landmark_id);
+
+  /// Takes out the tracks that ended before the newest frame, and adds what those that began in the
+  /// oldest one have so far when that frame is to go. Ascending in track id.
+  const std::vector<FinishedTrack>& takeFinished(const std::vector<Clone>& frames,
+                                                 bool oldest_goes);
+  /// A track that goes on has been used: only its newest view is left for later.
+  void keepNewestView(std::uint32_t track_id);
+  /// The oldest frame leaves the window.
+  void dropFrame(std::uint32_t frame_id);
+
+ private:
+  struct Observation {
+    std::uint32_t frame_id;
+    Eigen::Vector3d bearing_base;
+  };
+  struct Track {
+    std::uint32_t id = 0;
+    std::uint32_t landmark_id = 0;
+    std::uint32_t first = 0;  // of its observations in Tracks::observations
+    std::uint32_t count = 0;  // at least one
+    Descriptor descriptor;
+  };
+  struct Tracks {
+    std::vector<Track> tracks;
+    std::vector<Observation>
+        observations;  // also of tracks and views that are gone, until the next add()
+
+    const Observation& oldest(const Track& track) const { return observations[track.first]; }
+    const Observation& newest(const Track& track) const {
+      return observations[track.first + track.count - 1];
+    }
+    /// Null: the frame did not see it. The newest views are found first.
+    const Observation* viewOf(const Track& track, std::uint32_t frame_id) const;
+    Track* find(std::uint32_t id);
+    /// Appends a track and its observations of another store.
+    void take(const Track& track, const Tracks& from);
+  };
+
+  Eigen::Matrix3d R_base_cam_;
+  Tracks now_;
+  Tracks next_;  // add() builds it and changes it for the other
+  std::vector<FinishedTrack> finished_;
+  std::vector<TrackView> finished_views_;
+  std::vector<double> moved_px_;
+};
+
+}  // namespace ardrone_vslam

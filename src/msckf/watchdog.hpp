@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "ardrone_vslam/msckf_config.hpp"
+
+namespace ardrone_vslam {
+
+/// How far camera and odometry contradict each other at one image.
+struct Contradiction {
+  double bias_sigmas = 0;         ///< of the velocity bias that the camera has told the filter
+  std::optional<double> fix_nis;  ///< when landmarks of an earlier visit were compared
+  bool is_confirmed = false;      ///< such landmarks were in agreement with the pose
+};
+
+/// Ends the trust in the camera when it contradicts the odometry for longer than chance or a worse
+/// odometry explains: a wrong calibration, a scene that moves, a mirror. Which of the two is wrong
+/// nobody knows, but without the camera the pose is never worse than the odometry.
+class Watchdog {
+ public:
+  /// @throws ConfigError listing every parameter out of its range
+  explicit Watchdog(const WatchdogConfig& config);
+
+  /// @return whether trust ends with this image
+  bool see(std::int64_t stamp_ns, const Contradiction& contradiction);
+  /// For watchdog_pause_s after trust ended, and twice as long each time it ends again.
+  bool isDistrustful(std::int64_t stamp_ns) const;
+  /// Nothing hints at a contradiction: camera and odometry are a good deal closer than the limits.
+  bool isCalm() const { return calm_; }
+
+ private:
+  WatchdogConfig config_;
+  std::optional<std::int64_t> last_ns_;
+  double pause_s_;                        // the next one
+  std::optional<std::int64_t> until_ns_;  // the end of the pause
+  double bias_s_ = 0;                     // how long each has been beyond its limit
+  double fixes_s_ = 0;
+  bool calm_ = true;
+};
+
+}  // namespace ardrone_vslam

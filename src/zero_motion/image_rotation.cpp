@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "zero_motion/image_rotation.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "ardrone_vslam/rotation.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using Vector5d = Eigen::Matrix<double, 5, 1>;
+using Matrix5d = Eigen::Matrix<double, 5, 5>;
+
+constexpr int kCommonRounds = 4;
+constexpr int kPlaneRounds = 8;
+constexpr double kInlierSigmas = 3;
+constexpr double kInlierShare = 0.6;
+/// Rays nearer to the way than this (sine) say little of their plane's direction.
+constexpr double kNearestToWay = 0.15;
+/// Jumps of neighbouring corners are alike: more tracks than this say no more.
+constexpr double kIndependentTracks = 40;
+
+double weightOf(double left, double scale) {
+  const double off = left / scale;
+  return 1 / ((1 + off * off) * (1 + off * off));  // Geman and McClure
+}
+
+/// Turn and way between two images; the way has length 1.
+struct Motion {
+  Eigen::Matrix3d R_then_now = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d way_then = Eigen::Vector3d::UnitZ();
+};
+
+struct Prior {
+  Eigen::Vector3d way_then = Eigen::Vector3d::UnitZ();
+  double weight = 0;  // in squares of the corners' deviation
+};
+
+/// As if all points were equally far away: a turn, and a shift along the way, that most tracks
+/// agree on. What the shift leaves is parallax, so the weights are as wide as the mean of it.
+Eigen::Matrix3d commonTurn(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
+                           const Eigen::Vector3d& way_then) {
+  Eigen::Matrix3d R_then_now = Eigen::Matrix3d::Identity();
+  double shift = 0;
+  double scale_rad = 0;  // in the first round all count alike
+  for (int round = 0; round < kCommonRounds; ++round) {
+    Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d g = Eigen::Vector4d::Zero();
+    double sum = 0, sum_left = 0;
+    for (const BearingPair& pair : pairs) {
+      const Eigen::Vector3d now = R_then_now * pair.now;
+      const Eigen::Vector3d turned = now - pair.then;
+      const Eigen::Vector3d across = way_then - now.dot(way_then) * now;
+      const double left = (turned + shift * across).norm();
+      const double weight = scale_rad > 0 ? weightOf(left, scale_rad) : 1;
+      sum += weight;
+      sum_left += weight * left;
+      Eigen::Matrix<double, 3, 4> J;
+      J << -skew(now), across;
+      A += weight * J.transpose() * J;
+      g += weight * J.transpose() * turned;
+    }
+    scale_rad = std::max(2 * sum_left / sum, kInlierSigmas * corner_sigma_rad);
+    const Eigen::Vector4d step = -A.ldlt().solve(g);
+    R_then_now = rotationOf(step.head<3>()) * R_then_now;
+    shift = step.w();
+  }
+  return R_then_now;
+}
+
+Eigen::Matrix<double, 3, 2> acrossOf(const Eigen::Vector3d& direction) {
+  Eigen::Matrix<double, 3, 2> across;
+  across.col(0) = direction.unitOrthogonal();
+  across.col(1) = direction.cross(across.col(0));
+  return across;
+}
+
+/// Normal equations of the distances from the epipolar planes; turn, then the way across itself.
+struct PlaneFit {
+  Matrix5d A = Matrix5d::Zero();
+  Vector5d g = Vector5d::Zero();
+  double cost = 0;  // bounded: a pair costs at most 1
+  int inliers = 0;
+};
+
+PlaneFit planeFit(const std::vector<BearingPair>& pairs, const Motion& motion, const Prior& prior,
+                  double scale_rad) {
+  PlaneFit fit;
+  const Eigen::Matrix<double, 3, 2> across = acrossOf(motion.way_then);
+  for (const BearingPair& pair : pairs) {
+    const Eigen::Vector3d now = motion.R_then_now * pair.now;
+    const Eigen::Vector3d normal = motion.way_then.cross(now);
+    const double sine = std::max(normal.norm(), kNearestToWay);
+    const double left_rad = pair.then.dot(normal) / sine;
+    Vector5d J;
+    J << now.cross(pair.then.cross(motion.way_then)), across.transpose() * now.cross(pair.then);
+    J /= sine;
+    const double off = left_rad / scale_rad;
+    const double weight = weightOf(left_rad, scale_rad);
+    fit.A += weight * J * J.transpose();
+    fit.g += weight * left_rad * J;
+    fit.cost += off * off / (1 + off * off);
+    if (std::abs(off) < 1) ++fit.inliers;
+  }
+  const Eigen::Vector3d off = motion.way_then - prior.way_then;
+  fit.A.bottomRightCorner<2, 2>() += prior.weight * Eigen::Matrix2d::Identity();
+  fit.g.tail<2>() += prior.weight * across.transpose() * off;
+  fit.cost += prior.weight * off.squaredNorm() / (scale_rad * scale_rad);
+  return fit;
+}
+
+/// Improves the motion (Levenberg and Marquardt); the scale shrinks to the corners' own noise.
+PlaneFit refine(const std::vector<BearingPair>& pairs, double corner_sigma_rad, const Prior& prior,
+                Motion& motion) {
+  double scale_rad = 4 * kInlierSigmas * corner_sigma_rad;
+  double damping = 1e-3;
+  PlaneFit fit = planeFit(pairs, motion, prior, scale_rad);
+  for (int round = 0; round < kPlaneRounds; ++round) {
+    Matrix5d A = fit.A;
+    A.diagonal() *= 1 + damping;
+    const Vector5d step = -A.ldlt().solve(fit.g);
+    Motion moved;
+    moved.way_then = (motion.way_then + acrossOf(motion.way_then) * step.tail<2>()).normalized();
+    moved.R_then_now = rotationOf(step.head<3>()) * motion.R_then_now;
+    const PlaneFit tried = planeFit(pairs, moved, prior, scale_rad);
+    const bool is_better = tried.cost < fit.cost;
+    if (is_better) {
+      motion = moved;
+      fit = tried;
+    }
+    damping *= is_better ? 0.1 : 10;
+    if (round == kPlaneRounds / 2) {
+      scale_rad = kInlierSigmas * corner_sigma_rad;
+      fit = planeFit(pairs, motion, prior, scale_rad);
+    }
+  }
+  return fit;
+}
+
+}  // namespace
+
+std::optional<ImageRotation> fitTurn(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
+                                     const DisplacementGuess& guess) {
+  if (pairs.size() < kFewestTurnTracks) return std::nullopt;
+  Prior prior;
+  const double displacement_m = guess.displacement_m.norm();
+  if (displacement_m > 0) prior.way_then = guess.displacement_m / displacement_m;
+  // Of the direction; a way much shorter than its deviation may point anywhere.
+  const double sigma_rad =
+      std::max(guess.sigma_m, 1e-3 * displacement_m) / std::max(displacement_m, 1e-9);
+  prior.weight = std::pow(corner_sigma_rad / std::min(sigma_rad, 1.0), 2);
+  Motion motion;
+  motion.way_then = prior.way_then;
+  motion.R_then_now = commonTurn(pairs, corner_sigma_rad, prior.way_then);
+  const PlaneFit fit = refine(pairs, corner_sigma_rad, prior, motion);
+  const auto count = static_cast<double>(pairs.size());
+  if (!motion.R_then_now.allFinite() || fit.inliers < kInlierShare * count) return std::nullopt;
+  const double share = std::min(1.0, kIndependentTracks / fit.inliers);
+  const double scale = 1 / (corner_sigma_rad * corner_sigma_rad);
+  const Eigen::Matrix2d A_prior = prior.weight * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d A_way = share * (fit.A.bottomRightCorner<2, 2>() - A_prior) + A_prior;
+  const Eigen::Matrix<double, 3, 2> A_mixed = share * fit.A.topRightCorner<3, 2>();
+  ImageRotation turn;
+  turn.R_then_now = motion.R_then_now;
+  turn.information = scale * (share * fit.A.topLeftCorner<3, 3>() -
+                              A_mixed * A_way.inverse() * A_mixed.transpose());
+  turn.inliers = fit.inliers;
+  return turn;
+}
+
+}  // namespace ardrone_vslam

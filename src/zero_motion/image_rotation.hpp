@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+namespace ardrone_vslam {
+
+/// One track in two images: unit vectors, each in its own image's optical frame.
+struct BearingPair {
+  Eigen::Vector3d then;  ///< in the earlier image
+  Eigen::Vector3d now;   ///< in the later one
+};
+
+/// The camera's way between two images as the odometry says: it tells apart the two motions that
+/// move a plane's picture alike, and a turn from a way sideways.
+struct DisplacementGuess {
+  Eigen::Vector3d displacement_m = Eigen::Vector3d::Zero();  ///< axes of the image then
+  double sigma_m = 0;                                        ///< per axis
+};
+
+/// By how much the camera turned between two images.
+struct ImageRotation {
+  Eigen::Matrix3d R_then_now =
+      Eigen::Matrix3d::Identity();  ///< takes directions in the later image to the earlier one
+  /// Inverse covariance of its rotation vector [1/rad^2], axes of the image then. The direction of
+  /// the way is fitted, too: a turn that another way explains as well counts little.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  int inliers = 0;  ///< pairs that agree with it
+};
+
+/// Fewer tracks tell no turn.
+constexpr std::size_t kFewestTurnTracks = 20;
+
+/// Fits turn and direction of the way to the epipolar planes (5.37) of the tracks, robustly: up to
+/// a third of them may be wrong. Neither depths nor the length of the way matter. O(pairs).
+/// @param corner_sigma_rad  of a corner between two images, per axis
+/// @param guess  how surely the direction is known follows from length and deviation
+/// @return nothing for fewer than kFewestTurnTracks pairs, and when too few agree
+std::optional<ImageRotation> fitTurn(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
+                                     const DisplacementGuess& guess);
+
+}  // namespace ardrone_vslam
