@@ -60,7 +60,7 @@ Scene streetWith(int features) {
   return scene;
 }
 
-SlamConfig configOf(Estimator estimator) {
+SlamConfig configOf(EstimatorKind estimator) {
   SlamConfig config;
   config.estimator = estimator;
   config.mapper.max_depth_m = 200;
@@ -128,7 +128,7 @@ class StageCpu {
   double since_ms_ = 0;
 };
 
-Cost costOf(const Scene& scene, Estimator estimator) {
+Cost costOf(const Scene& scene, EstimatorKind estimator) {
   const std::vector<OdometryState> odometry = truthOf(scene.path);
   Slam slam(configOf(estimator), forwardCamera());
   RunResult run;
@@ -211,8 +211,8 @@ int run(const std::string& path) {
   out << "series,features,landmarks,in_view,tracks,associate_ms,localise_ms,map_ms\n";
   for (const int features : {50, 100, 200, 400, 600, 1000, 1500, 2000}) {
     const Scene scene = streetWith(features);
-    write(out, "thesis", costOf(scene, Estimator::kThesis));
-    write(out, "msckf", costOf(scene, Estimator::kMsckf));
+    write(out, "thesis", costOf(scene, EstimatorKind::kThesis));
+    write(out, "msckf", costOf(scene, EstimatorKind::kMsckf));
     std::cerr << features << " features\n";
   }
   const Scene scene = streetWith(600);

@@ -230,19 +230,19 @@ void visitParameters(LandmarkMapConfig& c, Visitor&& visit) {
 }
 
 /// Who makes the pose: docs/data_path.md.
-enum class Estimator {
+enum class EstimatorKind {
   kThesis,   ///< ThesisFilter
   kMsckf,    ///< Msckf
   kOdometry  ///< nobody: the odometry is passed on
 };
 template <>
-struct EnumNames<Estimator> {
+struct EnumNames<EstimatorKind> {
   static constexpr std::array<const char*, 3> kNames{"thesis", "constraint", "odometry"};
 };
 
 /// Everything of the mapper / localiser.
 struct SlamConfig {
-  Estimator estimator = Estimator::kMsckf;
+  EstimatorKind estimator = EstimatorKind::kMsckf;
   bool planar = false;
   double image_time_offset_s = 0;
   OdometryBufferConfig odometry;

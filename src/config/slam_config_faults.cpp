@@ -18,7 +18,7 @@ std::vector<std::string> faultsBetween(const SlamConfig& config) {
     faults.emplace_back(
         "floor_points needs a height: set use_range and give the topic range, use_navdata_height "
         "and the topic altitude, or known_height_m");
-  if (config.estimator == Estimator::kMsckf) {
+  if (config.estimator == EstimatorKind::kMsckf) {
     if (config.planar)
       faults.emplace_back("planar needs estimator thesis (or odometry): the MSCKF has no 2-D mode");
     if (filter.min_track_views > filter.window_frames)
@@ -26,7 +26,7 @@ std::vector<std::string> faultsBetween(const SlamConfig& config) {
           "min_track_views is above window_frames, so no track would be long enough to be used: "
           "lower min_track_views, or raise window_frames");
   }
-  if (config.estimator == Estimator::kThesis) {
+  if (config.estimator == EstimatorKind::kThesis) {
     const auto refuse = [&faults](const std::string& parameter, const std::string& without) {
       faults.push_back(parameter + " needs estimator constraint, the thesis filter would not use " +
                        "it: set estimator to constraint, or " + without);

@@ -16,6 +16,11 @@ HeightUpdate::HeightUpdate(const HeightConfig& config) : config_(config) {
   validate(config);
 }
 
+void HeightUpdate::apply(WindowState& state) {
+  const auto& height_m = state.newest().height_m;
+  outcome_ = height_m ? apply(*height_m, state) : HeightOutcome::kNone;
+}
+
 HeightOutcome HeightUpdate::apply(double height_m, WindowState& state) {
   const Clone& newest = state.frames().back();
   const double floor_map_m = newest.position_map.z() - height_m;

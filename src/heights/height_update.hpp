@@ -18,13 +18,18 @@ class HeightUpdate {
   /// @throws ConfigError listing every parameter out of its range
   explicit HeightUpdate(const HeightConfig& config);
 
-  /// Takes in the height at the newest frame. O(coordinates^2).
+  /// Takes in the height at the newest frame, if it has one. O(coordinates^2).
+  void apply(WindowState& state);
+  /// Of the newest frame.
+  HeightOutcome outcome() const { return outcome_; }
+  /// A height at the newest frame. O(coordinates^2).
   HeightOutcome apply(double height_m, WindowState& state);
 
  private:
   bool agreesWithRejected(double floor_map_m) const;
 
   HeightConfig config_;
+  HeightOutcome outcome_ = HeightOutcome::kNone;
   bool has_floor_ = false;
   std::int64_t used_ns_ = 0;  // stamp of the last height looked at
   // Since when heights were rejected, and the floor that the last of them told of.

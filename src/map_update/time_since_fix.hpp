@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -16,6 +17,18 @@ namespace ardrone_vslam {
 /// to check it by.
 class TimeSinceFix {
  public:
+  /// A frame's search is widened by the blind time before the last frame, so that odometry that is
+  /// as good as it claims has narrow windows; but a gap is blind from its beginning.
+  void see(std::int64_t stamp_ns) {
+    constexpr double kGap_s = 0.5;  // slower cameras are searched as after a gap
+    uncounted_s_ = last_stamp_ns_ ? static_cast<double>(stamp_ns - *last_stamp_ns_) * 1e-9 : 0;
+    last_stamp_ns_ = stamp_ns;
+    if (uncounted_s_ < kGap_s) return;
+    pass(uncounted_s_);
+    uncounted_s_ = 0;
+  }
+  /// Nothing was recognised in the frame seen last.
+  void passFrame() { pass(uncounted_s_); }
   /// Nothing was recognised for so long.
   void pass(double blind_s) { now_s_ += blind_s; }
   /// A fix by landmarks of these anchors. Anchors of their time and since are in place with them.
@@ -48,6 +61,8 @@ class TimeSinceFix {
   }
 
   double now_s_ = 0;
+  std::optional<std::int64_t> last_stamp_ns_;
+  double uncounted_s_ = 0;  // since the frame before, and not yet in now_s_
   std::unordered_map<std::uint32_t, double> linked_s_;  // by anchor
 };
 

@@ -13,7 +13,21 @@ constexpr std::size_t kDistanceSample = 1000;
 /// So many searches ahead a landmark's descriptor is asked for.
 constexpr std::size_t kPrefetched = 8;
 
+/// What the pose's uncertainty adds to a window.
+double margin_px(const AssociationConfig& config, const FrameView& view, std::uint32_t anchor_id,
+                 double position_variance_m2, double distance_m) {
+  return config.threshold_sigmas * view.focalLength_px() *
+         view.driftAngle_rad(anchor_id, position_variance_m2, distance_m);
+}
+
 }  // namespace
+
+double mismatchThreshold_rad(const AssociationConfig& config, const FrameView& view,
+                             const Landmark& landmark, double distance_m) {
+  const double drift_px =
+      margin_px(config, view, landmark.anchor_id, landmark.position_variance_m2, distance_m);
+  return std::min((config.landmark_threshold_px + drift_px) / view.focalLength_px(), M_PI);
+}
 
 Associator::Associator(const AssociationConfig& config)
     : config_(config), global_matcher_(config.matcher, config.index_probes) {
@@ -41,12 +55,6 @@ int Associator::bestFeature(int target) const {
   if (feature_taken_[feature]) return kNobody;  // by a target before, if there is no cross check
   if (config_.matcher.cross_check && windows_.nearestQuery(best.index) != target) return kNobody;
   return best.index;
-}
-
-double Associator::margin_px(const FrameView& view, std::uint32_t anchor_id,
-                             double position_variance_m2, double distance_m) const {
-  return config_.threshold_sigmas * view.focalLength_px() *
-         view.driftAngle_rad(anchor_id, position_variance_m2, distance_m);
 }
 
 bool Associator::decideLandmark(const FrameView& view, const LandmarkMap& map,
@@ -79,7 +87,7 @@ void Associator::matchLandmarks(const FrameView& view, LandmarkMap& map,
 
 bool Associator::windowsAreWide(const FrameView& view, const LandmarkColumns& columns) {
   const auto radiusOf = [&](std::size_t landmark, float distance_m) {
-    const double margin = margin_px(view, columns.anchorId(landmark),
+    const double margin = margin_px(config_, view, columns.anchorId(landmark),
                                     columns.positionVariance_m2(landmark), distance_m);
     return static_cast<float>(config_.search_radius_px + margin);
   };
@@ -162,20 +170,13 @@ void Associator::matchGlobally(const FrameView& view, LandmarkMap& map,
   }
 }
 
-double Associator::threshold_rad(const FrameView& view, const Landmark& landmark,
-                                 double distance_m) const {
-  const double drift_px =
-      margin_px(view, landmark.anchor_id, landmark.position_variance_m2, distance_m);
-  return std::min((config_.landmark_threshold_px + drift_px) / view.focalLength_px(), M_PI);
-}
-
 bool Associator::isLandmarkMismatch(const FrameView& view, const Landmark& landmark,
                                     int feature) const {
   const Ray ray = view.ray(static_cast<std::size_t>(feature));
   const Eigen::Vector3d offset = landmark.position_map - ray.origin_map;
   const double distance_m = offset.norm();
   const Eigen::Vector3d predicted = offset / distance_m;
-  const double angle = threshold_rad(view, landmark, distance_m);
+  const double angle = mismatchThreshold_rad(config_, view, landmark, distance_m);
   return !(predicted.dot(ray.direction_map) > std::cos(angle));  // (5.36)
 }
 

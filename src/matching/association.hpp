@@ -30,6 +30,10 @@ struct AssociationResult {
   std::vector<int> missed;  ///< targets in view without a match; none unless guided
 };
 
+/// A landmark's match is a mismatch when it is off the prediction by more than this.
+double mismatchThreshold_rad(const AssociationConfig& config, const FrameView& view,
+                             const Landmark& landmark, double distance_m);
+
 /// Finds the landmarks and map features that a frame shows, and removes mismatches (thesis 5.3).
 class Associator {
  public:
@@ -46,9 +50,6 @@ class Associator {
   /// O(landmarks + pairs inside windows), or as matchExact or DescriptorIndex::search.
   void matchLandmarks(const FrameView& view, LandmarkMap& map, AssociationResult& result);
 
-  /// A match is a mismatch when it is off the prediction by more than this.
-  double threshold_rad(const FrameView& view, const Landmark& landmark, double distance_m) const;
-
   /// Map features seen again by those of the frame's features that `taken` does not mark: by track,
   /// else by descriptor around where rotation alone would put them; matches off the epipolar plane
   /// are mismatches (5.37-5.44).
@@ -59,8 +60,6 @@ class Associator {
   void begin(const FrameView& view, std::size_t target_count);
   int featureOfTrack(std::uint32_t track_id) const;
   int bestFeature(int target) const;
-  double margin_px(const FrameView& view, std::uint32_t anchor_id, double position_variance_m2,
-                   double distance_m) const;
   bool windowsAreWide(const FrameView& view, const LandmarkColumns& columns);
   MatchMethod chooseMethod(const FrameView& view, LandmarkMap& map, const LandmarkColumns& columns);
   void matchGuided(const FrameView& view, const LandmarkMap& map, const LandmarkColumns& columns,

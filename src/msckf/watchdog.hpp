@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 
@@ -30,6 +31,17 @@ class Watchdog {
   /// Nothing hints at a contradiction: camera and odometry are a good deal closer than the limits.
   bool isCalm() const { return calm_; }
 
+  /// Remembers this one while nothing hints at a contradiction.
+  void keepWhileCalm(const Eigen::Isometry3d& T_map_odom) {
+    if (isCalm()) calm_T_map_odom_ = T_map_odom;
+  }
+  /// The odometry's frame jumps: what is remembered goes along.
+  void step(const Eigen::Vector3d& step_odom_m) {
+    calm_T_map_odom_.translation() -= calm_T_map_odom_.linear() * step_odom_m;
+  }
+  /// The last one remembered: to go back to when trust ends.
+  const Eigen::Isometry3d& calmT_map_odom() const { return calm_T_map_odom_; }
+
  private:
   WatchdogConfig config_;
   std::optional<std::int64_t> last_ns_;
@@ -38,6 +50,7 @@ class Watchdog {
   double bias_s_ = 0;                     // how long each has been beyond its limit
   double fixes_s_ = 0;
   bool calm_ = true;
+  Eigen::Isometry3d calm_T_map_odom_ = Eigen::Isometry3d::Identity();
 };
 
 }  // namespace ardrone_vslam

@@ -25,6 +25,13 @@ Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
 
 }  // namespace
 
+std::optional<std::size_t> indexOf(const std::vector<Clone>& poses, std::uint32_t id) {
+  const auto found =
+      std::find_if(poses.begin(), poses.end(), [id](const Clone& pose) { return pose.id == id; });
+  if (found == poses.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - poses.begin());
+}
+
 WindowState::WindowState(const OdometryNoiseConfig& config, bool attitude_states)
     : config_(config) {
   validate(config);

@@ -28,6 +28,9 @@ struct Clone {
   double stretch = 1;              ///< by corrections of scale and bias, of what belongs to it
 };
 
+/// Place of the pose of this id among them; nothing when there is none. O(poses).
+std::optional<std::size_t> indexOf(const std::vector<Clone>& poses, std::uint32_t id);
+
 /// Measurements r = H x + n of some error coordinates, compressed to H' W H and H' W r.
 struct Information {
   std::vector<int> coordinates;  ///< of WindowState
@@ -101,6 +104,8 @@ class WindowState {
 
   /// Oldest first; the newest one is the present pose.
   const std::vector<Clone>& frames() const { return frames_; }
+  /// The present pose.
+  const Clone& newest() const { return frames_.back(); }
   /// Frames that have left the window, as landmarks belong to them.
   const std::vector<Clone>& anchors() const { return anchors_; }
   /// First coordinate of a frame; of frames().size(): one beyond the last frame.

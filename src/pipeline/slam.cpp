@@ -5,12 +5,51 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "config/slam_config_faults.hpp"
-#include "pipeline/slam_state.hpp"
+#include "map/landmark_map.hpp"
+#include "matching/association.hpp"
+#include "matching/frame_view.hpp"
+#include "odometry/odometry_step.hpp"
+#include "pipeline/estimator.hpp"
 
 namespace ardrone_vslam {
 namespace {
+
+bool isFinite(const Estimate& estimate) {
+  return estimate.T_map_base.matrix().allFinite() && estimate.covariance.allFinite();
+}
+
+FrameResult resultOf(const Estimate& estimate, const Correction& correction,
+                     const MapChanges& changes) {
+  FrameResult result;
+  result.state = changes.state.value_or(correction.state);
+  result.T_map_base = estimate.T_map_base;
+  result.covariance = estimate.covariance;
+  result.sigma_m = std::sqrt(estimate.covariance.topLeftCorner<3, 3>().trace() / 3);
+  result.fix_nis = estimate.fix_nis;
+  result.scale_error = estimate.scale_error;
+  result.scale_sigma = estimate.scale_sigma;
+  result.height = estimate.height;
+  if (correction.by_landmarks) {
+    result.camera_position_map = correction.by_landmarks->position_map;
+    result.camera_sigma_m = std::sqrt(correction.by_landmarks->covariance.trace() / 3);
+  }
+  result.feature_candidates = changes.feature_candidates;
+  result.feature_matches = changes.feature_matches;
+  result.new_landmarks = changes.new_landmarks;
+  result.removed_landmarks = changes.removed_landmarks;
+  result.map_features = changes.map_features;
+  return result;
+}
+
+void noteMatches(const AssociationResult& matches, FrameResult& result) {
+  result.match_method = matches.method;
+  result.landmarks_in_view = matches.in_view;
+  result.landmark_candidates = matches.candidates;
+  result.landmark_matches = static_cast<int>(matches.matches.size());
+}
 
 void refuseExtrinsics(const Eigen::Isometry3d& T_base_cam) {
   const std::string fault = extrinsicsFault(T_base_cam);
@@ -36,6 +75,24 @@ std::string extrinsicsFault(const Eigen::Isometry3d& T_base_cam) {
   return fault.str();
 }
 
+struct Slam::State {
+  State(const SlamConfig& c, const Eigen::Isometry3d& T_base_cam)
+      : config(c),
+        estimator(makeEstimator(c, T_base_cam)),
+        associator(c.association),
+        map(c.landmark_map) {}
+
+  SlamConfig config;
+  OdometryStepWatch step_watch;
+  std::unique_ptr<Estimator> estimator;
+  FrameView view;
+  Associator associator;
+  AssociationResult matches;
+  LandmarkMap map;
+  FrameResult result;
+  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
+};
+
 Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
   validate(config);
   const std::vector<std::string> faults = faultsBetween(config);
@@ -47,194 +104,73 @@ Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
 Slam::~Slam() = default;
 
 bool Slam::canChangeCamera() const {
-  return !state_->constraint || state_->config.msckf.odometry.extrinsics_sigma_deg == 0;
+  return state_->estimator->canChangeCamera();
 }
 
 void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
-  assert(canChangeCamera() && "an estimated mounting error is one camera's");
+  assert(canChangeCamera() && "an estimated error of the extrinsics is one camera's");
   refuseExtrinsics(T_base_cam);
-  state_->T_base_cam = T_base_cam;
   state_->view.changeCamera();
-  if (state_->constraint) state_->constraint->changeCamera(T_base_cam);
+  state_->estimator->changeCamera(T_base_cam);
 }
 
 const std::vector<Landmark>& Slam::landmarks() const {
-  return state_->landmark_map.all();
+  return state_->map.all();
 }
 
 void Slam::reserveMap() {
   constexpr std::size_t kOfOneImage = 500;
   const auto most = static_cast<std::size_t>(state_->config.landmark_map.max_landmarks);
-  state_->landmark_map.reserve(most + kOfOneImage);
+  state_->map.reserve(most + kOfOneImage);
 }
 
 Eigen::Isometry3d Slam::T_map_odom() const {
-  if (state_->constraint) return state_->result.T_map_base * state_->result.T_odom_base.inverse();
-  // Both poses have the odometry's orientation, so that only the positions differ; this form stays
-  // exact far from the origin.
-  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
-  T_map_odom.translation() =
-      state_->result.T_map_base.translation() - state_->result.T_odom_base.translation();
-  return T_map_odom;
+  return state_->T_map_odom;
 }
 
 const FrameResult& Slam::process(const ImageFeatures& features, const OdometryState& odometry,
                                  const StageHook& hook) {
   State& s = *state_;
   assert(odometry.stamp_ns == features.stamp_ns &&
-         "the odometry state must be for the image's stamp");
-  assert((!s.started || features.stamp_ns > s.result.stamp_ns) && "stamps must ascend");
+         "the odometry must be that of the image's stamp");
+  assert((s.result.stamp_ns == 0 || features.stamp_ns > s.result.stamp_ns) && "stamps must ascend");
   const auto enter = [&hook](Stage stage) {
     if (hook) hook(stage);
   };
-  s.result = {};
-  s.result.features = static_cast<int>(features.size());
+  Estimator& estimator = *s.estimator;
+  Correction correction;
+  MapChanges changes;
 
   enter(Stage::kLocalise);
-  s.predict(features, odometry);
-  if (!s.poseAt(odometry).matrix().allFinite() || !s.covariance().allFinite()) {
-    s.landmark_matches = {};
-    s.feature_matches = {};
-    s.report(odometry);  // which says so; nothing of it may reach the map
-    enter(Stage::kIdle);
-    return s.result;
-  }
-  if (s.config.estimator == Estimator::kOdometry) {
-    s.result.state = SlamState::kOdometryOnly;
-  } else {
+  const std::optional<OdometryStep> step = s.step_watch.see(odometry);
+  estimator.predict(odometry, step);
+  CameraPose camera = estimator.camera();
+  s.view.reset(features, camera.T_map_cam, s.config.planar);
+  moveTo(std::move(camera), s.view);
+  s.matches = {};
+  // Of what is not finite nothing may reach the map; the result says so.
+  if (isFinite(estimator.estimate())) {
     enter(Stage::kAssociate);
-    s.associator.matchLandmarks(s.view, s.landmark_map, s.landmark_matches);
+    if (estimator.wantsLandmarks()) s.associator.matchLandmarks(s.view, s.map, s.matches);
     enter(Stage::kLocalise);
-    s.constraint ? s.fixByLandmarks() : s.localise();
+    correction = estimator.correct(s.matches, s.view, s.map);
     enter(Stage::kMap);
-    s.constraint ? s.useTracks(features) : s.refineAndMap();
+    changes = estimator.updateMap(s.matches, s.view, s.map);
+    changes.removed_landmarks += s.map.enforceCap();
   }
-  s.report(odometry);
+
+  const Estimate estimate = estimator.estimate();
+  s.T_map_odom = estimate.T_map_odom;
+  s.result = resultOf(estimate, correction, changes);
+  s.result.stamp_ns = odometry.stamp_ns;
+  s.result.T_odom_base = odometry.T_odom_base;
+  if (step) s.result.odometry_step_m = step->step_odom_m.norm();
+  s.result.features = static_cast<int>(features.size());
+  s.result.landmarks = static_cast<int>(s.map.size());
+  noteMatches(s.matches, s.result);
+  if (!isFinite(s.result)) s.result.state = SlamState::kNotFinite;
   enter(Stage::kIdle);
   return s.result;
-}
-
-Eigen::Isometry3d Slam::State::poseAt(const OdometryState& odometry) const {
-  Eigen::Isometry3d T_map_base = odometry.T_odom_base;  // orientation: the odometry's, drift-free
-  if (constraint) {
-    T_map_base = constraint->T_map_base();
-  } else {
-    T_map_base.translation() = filter.position_map();
-  }
-  return T_map_base;
-}
-
-Matrix6d Slam::State::covariance() const {
-  if (constraint) return constraint->covariance();
-  const double attitude_rad = config.thesis_filter.attitude_sigma_deg * M_PI / 180;
-  Matrix6d covariance = Matrix6d::Zero();
-  covariance.topLeftCorner<3, 3>() = filter.covariance();
-  covariance.bottomRightCorner<3, 3>() = attitude_rad * attitude_rad * Eigen::Matrix3d::Identity();
-  return covariance;
-}
-
-void Slam::State::predict(const ImageFeatures& features, const OdometryState& odometry) {
-  const auto step = step_watch.see(odometry);
-  if (step) result.odometry_step_m = step->step_odom_m.norm();
-  if (constraint) {
-    passGap(odometry.stamp_ns);
-    started ? constraint->predict(odometry, step) : constraint->start(odometry);
-  } else if (started) {
-    filter.predict(odometry);
-  } else {
-    filter.start(odometry.T_odom_base.translation(), odometry);
-  }
-  started = true;  // where map equalled odom
-  const Eigen::Isometry3d T_map_base = poseAt(odometry);
-  offset_map = T_map_base.linear() * T_base_cam.translation();
-  Eigen::Isometry3d T_map_cam = T_map_base * T_base_cam;
-  if (constraint) T_map_cam.linear() = constraint->newest().R_map_rig * T_base_cam.linear();
-  if (config.planar) {
-    T_map_cam.translation().z() = 0;
-    offset_map.z() = 0;
-  }
-  view.reset(features, T_map_cam, config.planar);
-  setVariance();
-}
-
-void Slam::State::setVariance() {
-  view.setPositionVariance(covariance().topLeftCorner<3, 3>().trace() / 3,
-                           constraint || config.thesis_filter.common_drift);
-  if (constraint) setDrifts();
-}
-
-std::optional<PositionFix> Slam::State::locate(const std::vector<Association>& matches) {
-  observations.clear();
-  for (const Association& match : matches) {
-    const Landmark& landmark = landmark_map.all()[static_cast<std::size_t>(match.target)];
-    observations.push_back({landmark.position_map,
-                            view.ray(static_cast<std::size_t>(match.feature)).direction_map,
-                            landmark.sigma_m, landmark.position_variance_m2});
-  }
-  auto fix =
-      filter.locate(observations, view.origin_map(), mapper.angleSigma_rad(view.focalLength_px()));
-  if (!fix) return std::nullopt;
-  fix->position_map -= offset_map;  // of the base
-  if (config.planar) fix->position_map.z() = filter.position_map().z();
-  result.camera_position_map = fix->position_map;
-  result.camera_sigma_m = std::sqrt(fix->covariance.trace() / 3);
-  return fix;
-}
-
-void Slam::State::localise() {
-  const auto fix = locate(landmark_matches.matches);
-  if (!fix) {
-    result.state = landmark_map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTooFewLandmarks;
-    return;
-  }
-  result.state = filter.fuse(*fix) ? SlamState::kLocalised : SlamState::kFixRejected;
-}
-
-void Slam::State::refineAndMap() {
-  Eigen::Vector3d camera_map = filter.position_map() + offset_map;
-  if (config.planar) camera_map.z() = 0;
-  view.setOrigin(camera_map);
-  setVariance();
-  used.assign(view.size(), false);
-  for (const Association& match : landmark_matches.matches)
-    used[static_cast<std::size_t>(match.feature)] = true;
-  mapper.refine(view, landmark_matches.matches, landmark_map);
-  // An image that shows nothing (dark, lens covered) says nothing about the landmarks either.
-  if (view.size() > 0)
-    result.removed_landmarks = mapper.countMissed(landmark_matches.missed, landmark_map);
-
-  associator.matchMapFeatures(view, feature_map, used, feature_matches);
-  result.new_landmarks =
-      mapper.triangulateMatches(view, feature_matches.matches, feature_map, landmark_map, used);
-  mapper.storeRest(view, used, feature_map);
-  feature_map.compact(view.features().stamp_ns);
-  result.removed_landmarks += landmark_map.enforceCap();
-}
-
-void Slam::State::report(const OdometryState& odometry) {
-  result.stamp_ns = odometry.stamp_ns;
-  result.T_odom_base = odometry.T_odom_base;
-  result.T_map_base = poseAt(odometry);
-  result.covariance = covariance();
-  result.sigma_m = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace() / 3);
-  if (config.estimator != Estimator::kOdometry) {
-    result.match_method = landmark_matches.method;
-    result.landmarks_in_view = landmark_matches.in_view;
-    result.landmark_candidates = landmark_matches.candidates;
-    result.landmark_matches = static_cast<int>(landmark_matches.matches.size());
-    result.feature_candidates = constraint ? constraint->candidates() : feature_matches.candidates;
-    result.feature_matches =
-        constraint ? constraint->used() : static_cast<int>(feature_matches.matches.size());
-  }
-  result.landmarks = static_cast<int>(landmark_map.size());
-  result.map_features = static_cast<int>(feature_map.size());
-  if (constraint) {
-    result.fix_nis = constraint->fixNis();
-    result.scale_error = constraint->scaleError();
-    result.scale_sigma = constraint->scaleSigma();
-    result.height = constraint->heightOutcome();
-  }
-  if (!isFinite(result)) result.state = SlamState::kNotFinite;
 }
 
 const char* explain(SlamState state) {

@@ -61,7 +61,7 @@ TEST_F(ConfigFile, OverridesStandAboveTheFile) {
   EXPECT_EQ(load(text, {"max_depth_m=60", "max_depth_m=80"}).mapper.mapper.max_depth_m, 80);
   EXPECT_EQ(load(text, {"features_per_frame=99"}).tracker.corners.features_per_frame, 99)
       << "a tracker's parameter is known without its section";
-  EXPECT_EQ(loadConfig("", {"estimator=odometry"}).mapper.estimator, Estimator::kOdometry);
+  EXPECT_EQ(loadConfig("", {"estimator=odometry"}).mapper.estimator, EstimatorKind::kOdometry);
 }
 
 TEST_F(ConfigFile, EveryFaultIsListedAtOnce) {

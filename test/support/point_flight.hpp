@@ -122,7 +122,7 @@ inline std::vector<ImageFeatures> film(PointWorld& world, const Flight& flight) 
 
 inline SlamConfig thesisConfig() {
   SlamConfig config;
-  config.estimator = Estimator::kThesis;
+  config.estimator = EstimatorKind::kThesis;
   return config;
 }
 

@@ -103,8 +103,8 @@ TEST(Parameters, StagesRefuseInvalidConfigurations) {
 }
 
 TEST(Parameters, NamesOfChoices) {
-  EXPECT_STREQ(nameOf(Estimator::kThesis), "thesis");
-  EXPECT_STREQ(nameOf(Estimator::kOdometry), "odometry");
+  EXPECT_STREQ(nameOf(EstimatorKind::kThesis), "thesis");
+  EXPECT_STREQ(nameOf(EstimatorKind::kOdometry), "odometry");
   EXPECT_STREQ(nameOf(MeanKind::kPrinted), "printed");
   EXPECT_STREQ(nameOf(MeanKind::kExact), "exact");
 }

@@ -28,7 +28,7 @@ TEST(SlamConfig, TheThesisFilterRefusesWhatItWouldNotUse) {
   SlamConfig config;
   config.height_input.use_range = true;
   EXPECT_TRUE(faultsOf(config).empty());
-  config.estimator = Estimator::kThesis;
+  config.estimator = EstimatorKind::kThesis;
   expectFault(config, {"use_range", "estimator to constraint", "use_range to false"});
   config.height_input.use_range = false;
   config.height_input.known_height_m = 1.65;
@@ -42,7 +42,7 @@ TEST(SlamConfig, TheThesisFilterRefusesWhatItWouldNotUse) {
 
 TEST(SlamConfig, TheObserverIsARowBesideTheOthersWithTheirParameters) {
   SlamConfig config;
-  config.estimator = Estimator::kOdometry;
+  config.estimator = EstimatorKind::kOdometry;
   config.height_input.use_range = true;
   config.msckf.attitude_states = false;
   EXPECT_TRUE(faultsOf(config).empty());
@@ -55,7 +55,7 @@ TEST(SlamConfig, TracksMustFitIntoTheWindow) {
   EXPECT_TRUE(faultsOf(config).empty());
   config.msckf.min_track_views = 6;
   expectFault(config, {"lower min_track_views", "raise window_frames"});
-  config.estimator = Estimator::kThesis;
+  config.estimator = EstimatorKind::kThesis;
   EXPECT_TRUE(faultsOf(config).empty()) << "it has no window";
 }
 
@@ -79,7 +79,7 @@ TEST(SlamConfig, FloorPointsNeedAHeightAndTheMsckf) {
               {"floor_points needs a height", "use_range", "use_navdata_height", "known_height_m"});
   config.height_input.known_height_m = 1.2;
   EXPECT_TRUE(faultsOf(config).empty());
-  config.estimator = Estimator::kThesis;
+  config.estimator = EstimatorKind::kThesis;
   EXPECT_EQ(faultsOf(config).size(), 2U) << "the height is none of its, either";
 }
 

@@ -97,7 +97,7 @@ TEST(CameraSwitch, OneMapHasWhatBothCamerasSaw) {
   const Flight flight = test::lapsFlight(kLapFrames, kLaps, 10);
   for (const bool thesis : {false, true}) {
     SlamConfig config = msckfConfig();
-    if (thesis) config.estimator = Estimator::kThesis;
+    if (thesis) config.estimator = EstimatorKind::kThesis;
     const SwitchedRun run = fly(1, flight, test::observeExactly(flight), config, inSecondLap);
     int floor = 0;
     int walls = 0;

@@ -103,14 +103,14 @@ void expectHonest(const Consistency& consistency) {
 
 TEST(ConsistencyWorld, TheCovarianceIsTrueOverTwentySeeds) {
   SlamConfig config;
-  config.estimator = Estimator::kMsckf;
+  config.estimator = EstimatorKind::kMsckf;
   // Measured: 0.97 (single seeds 0.27 to 2.1), 99.6 % inside (96 % at least).
   expectHonest(overTwentySeeds(config));
 }
 
 TEST(ConsistencyWorld, SoIsThatOfTheLinearFormWhereTheAttitudeIsExact) {
   SlamConfig config;
-  config.estimator = Estimator::kMsckf;
+  config.estimator = EstimatorKind::kMsckf;
   config.msckf.attitude_states = false;
   OdometryNoiseConfig& noise = config.msckf.odometry;
   noise.tilt_sigma_deg = 0;

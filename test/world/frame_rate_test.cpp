@@ -40,7 +40,7 @@ PointWorld room(std::uint64_t seed, int hz) {
 
 SlamConfig configOf() {
   SlamConfig config;
-  config.estimator = Estimator::kMsckf;
+  config.estimator = EstimatorKind::kMsckf;
   config.msckf.odometry.walk_m_per_sqrt_s = 0.03;
   return config;
 }

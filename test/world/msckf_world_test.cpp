@@ -28,7 +28,7 @@ PointWorld room(std::uint64_t seed, double wrong_share = 0) {
 
 SlamConfig msckfConfig() {
   SlamConfig config;
-  config.estimator = Estimator::kMsckf;
+  config.estimator = EstimatorKind::kMsckf;
   // What test::observe draws: no scale, attitude exact.
   config.msckf.odometry.walk_m_per_sqrt_s = 0.03;
   return config;

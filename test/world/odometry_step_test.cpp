@@ -18,7 +18,7 @@ constexpr std::size_t kFault = 300;  // frame, in the second of three laps
 
 SlamConfig msckfConfig() {
   SlamConfig config;
-  config.estimator = Estimator::kMsckf;
+  config.estimator = EstimatorKind::kMsckf;
   return config;
 }
 

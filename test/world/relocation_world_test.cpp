@@ -54,7 +54,7 @@ std::vector<OdometryState> observeDrifting(const Flight& flight, std::uint64_t s
 
 SlamConfig msckfConfig() {
   SlamConfig config;
-  config.estimator = Estimator::kMsckf;
+  config.estimator = EstimatorKind::kMsckf;
   return config;
 }
 

@@ -20,7 +20,7 @@ constexpr test::DriftConfig kHover{0.02, 0.13};
 
 SlamConfig msckfConfig() {
   SlamConfig config;
-  config.estimator = Estimator::kMsckf;
+  config.estimator = EstimatorKind::kMsckf;
   return config;
 }
 

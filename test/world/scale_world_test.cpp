@@ -33,7 +33,7 @@ Flight climbingLaps(double climb_m) {
 
 SlamConfig scaleConfig() {
   SlamConfig config;
-  config.estimator = Estimator::kMsckf;
+  config.estimator = EstimatorKind::kMsckf;
   // What test::observe draws.
   config.msckf.odometry.walk_m_per_sqrt_s = 0.03;
   config.msckf.odometry.velocity_bias_m_s = 0.01;

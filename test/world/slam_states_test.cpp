@@ -133,7 +133,7 @@ TEST(MountingCheck, TheCameraIsOnTheDrone) {
 
 TEST_F(SlamStates, ObserverOnly) {
   SlamConfig config;
-  config.estimator = Estimator::kOdometry;
+  config.estimator = EstimatorKind::kOdometry;
   Slam slam(config, test::forwardExtrinsics());
   EXPECT_EQ(slam.process(look(0), odometry_[0]).state, SlamState::kOdometryOnly);
 }

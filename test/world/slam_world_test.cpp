@@ -178,7 +178,7 @@ TEST(SlamWorld, ObserverEstimatorPassesTheOdometryOn) {
   const Flight flight = test::lapsFlight(kLapFrames, 1, 10);
   PointWorld world = room(1);
   SlamConfig config;
-  config.estimator = Estimator::kOdometry;
+  config.estimator = EstimatorKind::kOdometry;
   const auto odometry = test::observe(flight, {}, 3);
   const FlightRun run = test::fly(world, flight, odometry, config);
   for (std::size_t i = 0; i < run.results.size(); ++i) {

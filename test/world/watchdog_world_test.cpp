@@ -36,7 +36,7 @@ Outcome fly(double speed, std::uint64_t seed) {
         world.look(T_room * flight[i].T_map_base * test::forwardExtrinsics(), flight[i].stamp_ns));
   }
   SlamConfig config;
-  config.estimator = Estimator::kMsckf;
+  config.estimator = EstimatorKind::kMsckf;
   const auto odometry = test::observe(flight, {}, seed);
   Outcome outcome{test::run(frames, odometry, config), {}, {}};
   for (std::size_t i = 0; i < flight.size(); ++i) {

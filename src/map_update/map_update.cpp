@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_update/map_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "map_update/relocation.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+/// Wrong matches from narrower windows do little harm.
+constexpr double kHarmlessWindow_rad = 0.05;
+constexpr double kMostByChance = 0.1;
+
+double medianWindow_rad(const std::vector<MapObservation>& observations) {
+  std::vector<double> windows_rad;
+  for (const MapObservation& s : observations) windows_rad.push_back(s.window_rad);
+  const auto middle = windows_rad.begin() + static_cast<std::ptrdiff_t>(windows_rad.size() / 2);
+  std::nth_element(windows_rad.begin(), middle, windows_rad.end());
+  return *middle;
+}
+
+/// How well the newest attitude is known relative to the observed landmarks' anchors, per axis.
+double attitudeSigma_rad(const std::vector<MapObservation>& observations,
+                         const WindowState& state) {
+  const int newest = state.frameCoordinate(state.frames().size() - 1);
+  std::vector<bool> is_seen(state.anchors().size(), false);
+  for (const MapObservation& s : observations) is_seen[s.anchor] = true;
+  double variance_rad2 = 0;
+  for (std::size_t i = 0; i < is_seen.size(); ++i) {
+    if (!is_seen[i]) continue;
+    const Matrix6d relative = state.relativeCovariance(newest, state.anchorCoordinate(i));
+    variance_rad2 = std::max(variance_rad2, relative.bottomRightCorner<3, 3>().trace() / 3);
+  }
+  return std::sqrt(variance_rad2);
+}
+
+}  // namespace
+
+void MapUpdate::beginFrame() {
+  outcome_ = FixOutcome::kNone;
+  was_compared_ = false;
+}
+
+FixOutcome MapUpdate::apply(const std::vector<LandmarkObservation>& observations,
+                            const Eigen::Vector3d& camera_base, double focal_length_px,
+                            WindowState& state) {
+  skip(observations.size());
+  Frame frame{camera_base, config_.track_sigma_px / focal_length_px, state};
+  outcome_ = fix(observations, frame);
+  return outcome_;
+}
+
+void MapUpdate::skip(std::size_t observations) {
+  verdicts_.assign(observations, ObservationVerdict::kUnjudged);
+}
+
+bool MapUpdate::isLocated() const {
+  return outcome_ == FixOutcome::kApplied || outcome_ == FixOutcome::kRelocated ||
+         outcome_ == FixOutcome::kNotNeeded;
+}
+
+std::optional<double> MapUpdate::comparedNis() const {
+  if (!was_compared_) return std::nullopt;
+  return nis();
+}
+
+FixOutcome MapUpdate::fix(const std::vector<LandmarkObservation>& observations, Frame& frame) {
+  const double widest_rad = config_.relocation_window_deg * M_PI / 180;
+  const auto& anchors = frame.state.anchors();
+  std::vector<MapObservation> old;
+  std::vector<MapObservation> wide;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const LandmarkObservation& s = observations[i];
+    const auto anchor = indexOf(anchors, s.anchor_id);
+    if (!anchor) continue;
+    const auto age_ns = frame.state.newest().stamp_ns - anchors[*anchor].stamp_ns;
+    if (static_cast<double>(age_ns) * 1e-9 < config_.fix_min_age_s) continue;
+    old.push_back({s.bearing_base, s.point_map, s.covariance_m2, *anchor, i, s.window_rad});
+    if (s.window_rad <= widest_rad) continue;
+    wide.push_back(old.back());
+    verdicts_[i] = ObservationVerdict::kDoubtful;
+  }
+  // The wide ones first: of a map that was begun anew meanwhile they are seldom the most.
+  const FixOutcome by_few = fixByFew(wide, frame);
+  if (by_few == FixOutcome::kRelocated) return by_few;
+  const FixOutcome by_most = fixByMost(old, frame);
+  if (by_most == FixOutcome::kNone) return by_few;
+  if (by_most != FixOutcome::kRejected) return by_most;
+  // The odometry is more wrong than it claims, or the landmarks are: more than chance decides.
+  const FixOutcome by_all = fixByFew(old, frame);
+  return by_all == FixOutcome::kNone ? by_most : by_all;
+}
+
+FixOutcome MapUpdate::fixByFew(const std::vector<MapObservation>& observations, Frame& frame) {
+  if (static_cast<int>(observations.size()) < config_.min_fix_landmarks) return FixOutcome::kNone;
+  const auto consensus =
+      relocate(frame.state.newest(), frame.camera_base, observations, frame.angle_sigma_rad,
+               attitudeSigma_rad(observations, frame.state));
+  if (!consensus || static_cast<int>(consensus->observations.size()) < config_.min_fix_landmarks)
+    return FixOutcome::kNone;
+  const FixOutcome outcome = update(*consensus, config_.relocation_gate_sigmas, frame);
+  if (outcome != FixOutcome::kRejected) judge(observations, *consensus);
+  return outcome == FixOutcome::kApplied ? FixOutcome::kRelocated : outcome;
+}
+
+FixOutcome MapUpdate::fixByMost(const std::vector<MapObservation>& observations, Frame& frame) {
+  if (static_cast<int>(observations.size()) < config_.min_fix_landmarks) return FixOutcome::kNone;
+  const Clone& newest = frame.state.newest();
+  const ObservationConsensus consensus =
+      agreeOnPosition(newest, frame.camera_base, observations, frame.angle_sigma_rad);
+  // In windows some wrong matches agree by chance, but not most of all.
+  if (static_cast<int>(consensus.observations.size()) < config_.min_fix_landmarks ||
+      2 * consensus.observations.size() < observations.size())
+    return FixOutcome::kNone;
+  // Of a place that was hardly seen before there are few matches, and then most may agree as well.
+  Clone agreed = newest;
+  agreed.position_map = consensus.position_map;
+  if (medianWindow_rad(observations) > kHarmlessWindow_rad &&
+      chanceExplains(agreed, frame.camera_base, observations, consensus.observations.size(),
+                     frame.angle_sigma_rad, kMostByChance))
+    return FixOutcome::kNone;
+  const FixOutcome outcome = update(consensus, config_.fix_gate_sigmas, frame);
+  if (outcome != FixOutcome::kRejected) judge(observations, consensus);
+  return outcome;
+}
+
+FixOutcome MapUpdate::update(const ObservationConsensus& consensus, double gate_sigmas,
+                             Frame& frame) {
+  MapFix fix = fixBy(frame.state, frame.camera_base, consensus, frame.angle_sigma_rad,
+                     config_.fix_independent_landmarks);
+  consistency_.learn(fix.whitened(), coordinates());
+  was_compared_ = true;
+  frame.state.inflate(consistency_.odometryFactor());
+  if (fix.drift.topLeftCorner<3, 3>().trace() <
+      config_.fix_drift_share * fix.covariance.topLeftCorner<3, 3>().trace())
+    return FixOutcome::kNotNeeded;
+  if (!(fix.distance() < coordinates() * gate_sigmas * gate_sigmas)) return FixOutcome::kRejected;
+  fix.information.matrix /= consistency_.mapFactor();
+  fix.information.vector /= consistency_.mapFactor();
+  return frame.state.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;
+}
+
+void MapUpdate::judge(const std::vector<MapObservation>& observations,
+                      const ObservationConsensus& consensus) {
+  for (const MapObservation& s : observations)
+    verdicts_[s.index] = ObservationVerdict::kContradicts;
+  for (const MapObservation& s : consensus.observations)
+    verdicts_[s.index] = ObservationVerdict::kAgrees;
+}
+
+}  // namespace ardrone_vslam

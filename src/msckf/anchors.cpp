@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "msckf/anchors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ardrone_vslam {
+
+void Anchors::choose(const WindowState& state, double point_distance_m) {
+  const Clone& newest = state.newest();
+  if (const auto frame = indexOf(state.frames(), current_id_)) {
+    const Clone& anchor = state.frames()[*frame];
+    const double displacement_m = (newest.position_map - anchor.position_map).norm();
+    const double rotation_rad =
+        Eigen::AngleAxisd(newest.R_map_rig.transpose() * anchor.R_map_rig).angle();
+    if (displacement_m < config_.anchor_spacing * point_distance_m &&
+        rotation_rad < config_.anchor_turn_deg * M_PI / 180)
+      return;
+  }
+  current_id_ = newest.id;
+  re_anchoring_.begin(newest);
+}
+
+void Anchors::retire(std::size_t frame, WindowState& state) {
+  if (in_use_.erase(state.frames()[frame].id) == 0) {
+    state.removeFrame(frame);
+    return;
+  }
+  state.makeAnchor(frame);
+  if (static_cast<int>(state.anchors().size()) > config_.max_anchors) joinNearest(state);
+}
+
+void Anchors::joinNearest(WindowState& state) {
+  const auto& anchors = state.anchors();
+  std::size_t nearest = 1;
+  double shortest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < anchors.size(); ++i) {
+    const double distance_m = (anchors[i].position_map - anchors[i - 1].position_map).norm();
+    if (distance_m >= shortest_m) continue;
+    shortest_m = distance_m;
+    nearest = i;
+  }
+  re_anchoring_.join(anchors[nearest], anchors[nearest - 1].id);
+  state.removeAnchor(nearest);
+}
+
+std::vector<AnchorCorrection> Anchors::takeCorrections(const WindowState& state,
+                                                       double point_distance_m,
+                                                       double focal_length_px) {
+  constexpr double kUnseen_px = 0.3;
+  return re_anchoring_.take(state, point_distance_m, kUnseen_px / focal_length_px);
+}
+
+std::vector<AnchorDrift> driftsOf(const WindowState& state) {
+  const int n = state.frameCoordinate(state.frames().size() - 1);
+  std::vector<AnchorDrift> drifts;
+  const auto add = [&](const Clone& pose, int a) {
+    const Matrix6d relative = state.relativeCovariance(n, a);
+    drifts.push_back({pose.id, std::max(relative.topLeftCorner<3, 3>().trace() / 3, 0.0),
+                      std::max(relative.bottomRightCorner<3, 3>().trace() / 3, 0.0)});
+  };
+  for (std::size_t i = 0; i < state.anchors().size(); ++i)
+    add(state.anchors()[i], state.anchorCoordinate(i));
+  for (std::size_t i = 0; i < state.frames().size(); ++i)
+    add(state.frames()[i], state.frameCoordinate(i));
+  // The reference of the zero-motion update may be older than anchors.
+  std::sort(drifts.begin(), drifts.end(),
+            [](const AnchorDrift& a, const AnchorDrift& b) { return a.anchor_id < b.anchor_id; });
+  return drifts;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "msckf/landmark_upkeep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace ardrone_vslam {
+namespace {
+
+/// Of points seen along a baseline that the odometry's velocity error may have made (a drone that
+/// turns on the spot, the camera at its nose): all of them are so much nearer or further, which
+/// shows only from elsewhere.
+Eigen::Matrix3d covarianceByStretch(double stretch_sigma, const Eigen::Vector3d& offset) {
+  constexpr double kLittle = 0.1;
+  constexpr double kCaution = 3;  // a velocity error is one draw for all of them
+  if (stretch_sigma < kLittle) return Eigen::Matrix3d::Zero();
+  return std::pow(kCaution * stretch_sigma, 2) * offset * offset.transpose();
+}
+
+}  // namespace
+
+Landmark landmarkOf(const UsedTrack& used, const FrameView& view) {
+  Landmark landmark;
+  const Eigen::Vector3d offset = used.point.position_map - view.origin_map();
+  const Eigen::Matrix3d by_stretch = covarianceByStretch(used.stretch_sigma, offset);
+  const double variance_m2 = used.point.covariance_m2.trace() + by_stretch.trace();
+  landmark.position_map = used.point.position_map;
+  landmark.covariance_m2 = used.covariance_m2 + by_stretch;
+  landmark.anchor_id = used.anchor_id;
+  landmark.sigma_m = std::sqrt(variance_m2 / 3);
+  landmark.depth_sigma_m = std::sqrt(variance_m2);
+  landmark.parallax_rad = used.point.parallax_rad;
+  landmark.position_variance_m2 = view.positionVariance_m2();
+  landmark.track_id = used.track.track_id;
+  landmark.descriptor = used.track.descriptor;
+  landmark.seen_distance_m = offset.norm();
+  landmark.view_direction_map = offset.normalized();
+  landmark.first_seen_ns = view.features().stamp_ns;
+  landmark.last_seen_ns = view.features().stamp_ns;
+  landmark.times_seen = static_cast<int>(used.track.views.size());
+  return landmark;
+}
+
+bool isWellKnown(const UsedTrack& one, const FrameView& view, const MsckfConfig& config) {
+  const double distance_m = (one.point.position_map - view.origin_map()).norm();
+  return std::sqrt(one.covariance_m2.trace()) < config.landmark_sigma * distance_m;
+}
+
+void renew(const UsedTrack& one, const FrameView& view, const MsckfConfig& config,
+           const Landmark& landmark, LandmarkMap& map) {
+  // Its place beside the old anchor is forgotten: the drift since then must be worth it, too, and
+  // once it gives fixes it stays where it is.
+  constexpr double kBetter = 0.5;  // in variance
+  const double age_s =
+      static_cast<double>(view.features().stamp_ns - landmark.first_seen_ns) * 1e-9;
+  if (age_s > config.fix_min_age_s) return;
+  const double distance_m = (one.point.position_map - view.origin_map()).norm();
+  const double drift_m =
+      distance_m *
+      view.driftAngle_rad(landmark.anchor_id, landmark.position_variance_m2, distance_m);
+  if (one.covariance_m2.trace() + 3 * drift_m * drift_m > kBetter * landmark.covariance_m2.trace())
+    return;
+  Landmark better = landmarkOf(one, view);
+  better.id = landmark.id;
+  better.descriptor = landmark.descriptor;
+  better.first_seen_ns = landmark.first_seen_ns;
+  better.times_seen += landmark.times_seen;
+  map.atPlace(static_cast<std::size_t>(&landmark - map.all().data())) = better;
+}
+
+void applyCorrections(const std::vector<AnchorCorrection>& corrections, const FrameView& view,
+                      LandmarkMap& map) {
+  if (corrections.empty()) return;
+  // Most landmarks stay where they are and are not touched; their anchors lie close together in
+  // the columns.
+  const LandmarkColumns& columns = map.columns(view.origin_map());
+  // Neighbours mostly belong to one anchor.
+  std::uint32_t anchor_id = 0;
+  auto correction = corrections.end();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::uint32_t its_anchor = columns.anchorId(i);
+    if (its_anchor != anchor_id) {
+      anchor_id = its_anchor;
+      correction = std::find_if(
+          corrections.begin(), corrections.end(),
+          [anchor_id](const AnchorCorrection& one) { return one.anchor_id == anchor_id; });
+    }
+    if (correction != corrections.end()) correction->apply(map.atPlace(i));
+  }
+}
+
+std::vector<int> takeFailed(const AssociationResult& matches,
+                            const std::vector<Association>& trusted,
+                            const std::vector<ObservationVerdict>& verdicts, bool is_relocated,
+                            LandmarkMap& map) {
+  // A place is in view when some of its landmarks are found; behind a wall none of them is.
+  constexpr int kOneIn = 10;
+  struct Place {
+    int found = 0;
+    int missed = 0;
+  };
+  std::unordered_map<std::uint32_t, Place> places;
+  const auto anchorOf = [&map](int target) {
+    return map.all()[static_cast<std::size_t>(target)].anchor_id;
+  };
+  for (const Association& match : trusted) ++places[anchorOf(match.target)].found;
+  for (const int target : matches.missed) ++places[anchorOf(target)].missed;
+  std::vector<int> failed;
+  for (const int target : matches.missed) {
+    const Place& place = places[anchorOf(target)];
+    if (kOneIn * place.found >= place.found + place.missed) failed.push_back(target);
+  }
+  for (std::size_t i = 0; i < matches.matches.size(); ++i) {
+    if (verdicts[i] != ObservationVerdict::kContradicts) continue;
+    const int target = matches.matches[i].target;
+    failed.push_back(target);
+    // It was remembered, but not as an observation that speaks for it.
+    if (!is_relocated) --map.atPlace(static_cast<std::size_t>(target)).times_seen;
+  }
+  return failed;
+}
+
+}  // namespace ardrone_vslam

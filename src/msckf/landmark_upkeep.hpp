@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "ardrone_vslam/landmark.hpp"
+#include "ardrone_vslam/msckf_config.hpp"
+#include "map/landmark_map.hpp"
+#include "map_update/map_update.hpp"
+#include "matching/association.hpp"
+#include "matching/frame_view.hpp"
+#include "msckf/re_anchoring.hpp"
+#include "msckf/track_update.hpp"
+
+/// What becomes of the map's landmarks at a frame of the MSCKF. The views are from the corrected
+/// pose.
+namespace ardrone_vslam {
+
+/// A used track's point, seen from this view, as a landmark without id.
+Landmark landmarkOf(const UsedTrack& used, const FrameView& view);
+
+/// Whether its point is known to landmark_sigma of its distance.
+bool isWellKnown(const UsedTrack& one, const FrameView& view, const MsckfConfig& config);
+
+/// Gives a young landmark its track's newer point, where that is clearly better.
+void renew(const UsedTrack& one, const FrameView& view, const MsckfConfig& config,
+           const Landmark& landmark, LandmarkMap& map);
+
+/// Takes landmarks along with their anchors. O(landmarks).
+void applyCorrections(const std::vector<AnchorCorrection>& corrections, const FrameView& view,
+                      LandmarkMap& map);
+
+/// Landmarks that this frame speaks against: not found though others of their place are, or off an
+/// accepted fix. The latter are no longer counted as seen in it.
+/// @param verdicts  of the matches
+/// @param is_relocated  the frame's fix is a relocation: most matches are simply wrong
+/// @return indices into map.all()
+std::vector<int> takeFailed(const AssociationResult& matches,
+                            const std::vector<Association>& trusted,
+                            const std::vector<ObservationVerdict>& verdicts, bool is_relocated,
+                            LandmarkMap& map);
+
+}  // namespace ardrone_vslam

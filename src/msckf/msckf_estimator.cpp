@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "msckf/msckf_estimator.hpp"
+
+#include <utility>
+
+#include "msckf/landmark_upkeep.hpp"
+
+namespace ardrone_vslam {
+
+MsckfEstimator::MsckfEstimator(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam)
+    : config_(config),
+      T_rig_cam_(T_base_cam),
+      filter_(config.msckf, T_base_cam),
+      locator_(config.thesis_filter),
+      mapper_(config.mapper) {}
+
+bool MsckfEstimator::canChangeCamera() const {
+  return config_.msckf.odometry.extrinsics_sigma_deg == 0;
+}
+
+void MsckfEstimator::changeCamera(const Eigen::Isometry3d& T_base_cam) {
+  T_rig_cam_ = T_base_cam;
+  filter_.changeCamera(T_base_cam);
+}
+
+void MsckfEstimator::predict(const OdometryState& odometry,
+                             const std::optional<OdometryStep>& step) {
+  time_since_fix_.see(odometry.stamp_ns);
+  started_ ? filter_.predict(odometry, step) : filter_.start(odometry);
+  started_ = true;
+  T_odom_base_ = odometry.T_odom_base;
+}
+
+CameraPose MsckfEstimator::camera() {
+  CameraPose camera;
+  const Clone& now = filter_.newest();
+  camera.T_map_cam.linear() = now.R_map_rig * T_rig_cam_.linear();
+  camera.T_map_cam.translation() = now.position_map + now.R_map_rig * T_rig_cam_.translation();
+  camera.position_variance_m2 = filter_.covariance().topLeftCorner<3, 3>().trace() / 3;
+  camera.drifts = driftsOf(filter_.state());
+  time_since_fix_.widen(camera.drifts, config_.association.widening_s);
+  return camera;
+}
+
+Correction MsckfEstimator::correct(const AssociationResult& matches, const FrameView& view,
+                                   const LandmarkMap& map) {
+  Correction correction;
+  const Eigen::Vector3d camera_offset_map =
+      filter_.newest().R_map_rig * T_rig_cam_.translation();  // at the predicted attitude
+  correction.state = fix(matches, view, map);
+  state_ = correction.state;
+  judge(matches, map);
+  correction.by_landmarks =
+      locator_.locate(trusted_, view, map, mapper_.angleSigma_rad(view.focalLength_px()));
+  if (correction.by_landmarks) correction.by_landmarks->position_map -= camera_offset_map;
+  return correction;
+}
+
+SlamState MsckfEstimator::fix(const AssociationResult& matches, const FrameView& view,
+                              const LandmarkMap& map) {
+  std::vector<LandmarkObservation> seen;
+  seen.reserve(matches.matches.size());
+  for (const Association& match : matches.matches) {
+    const Landmark& landmark = map.all()[static_cast<std::size_t>(match.target)];
+    const auto feature = static_cast<std::size_t>(match.feature);
+    const double distance_m = (landmark.position_map - view.origin_map()).norm();
+    seen.push_back({T_rig_cam_.linear() * view.features().bearing_cam[feature].cast<double>(),
+                    landmark.position_map, landmark.covariance_m2, landmark.anchor_id,
+                    mismatchThreshold_rad(config_.association, view, landmark, distance_m)});
+  }
+  switch (filter_.fix(seen, view.focalLength_px())) {
+    case FixOutcome::kApplied:
+    case FixOutcome::kNotNeeded:
+      return SlamState::kLocalised;
+    case FixOutcome::kRelocated:
+      return SlamState::kRelocated;
+    case FixOutcome::kRejected:
+      return SlamState::kFixRejected;
+    case FixOutcome::kNone:
+      break;
+  }
+  if (filter_.isDistrustful()) return SlamState::kDistrusted;
+  return map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTracking;
+}
+
+void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& map) {
+  trusted_.clear();
+  std::vector<std::uint32_t> anchors;
+  for (std::size_t i = 0; i < matches.matches.size(); ++i) {
+    const Association& match = matches.matches[i];
+    const ObservationVerdict verdict = filter_.verdicts()[i];
+    if (verdict == ObservationVerdict::kAgrees)
+      anchors.push_back(map.all()[static_cast<std::size_t>(match.target)].anchor_id);
+    // A corner found beside its landmark still belongs to it, or it would become another landmark;
+    // among the matches of a relocation most are simply wrong.
+    const bool is_wrong =
+        verdict == ObservationVerdict::kDoubtful ||
+        (verdict == ObservationVerdict::kContradicts && state_ == SlamState::kRelocated);
+    if (!is_wrong) trusted_.push_back(match);
+  }
+  const bool is_blind = static_cast<int>(trusted_.size()) < config_.msckf.min_fix_landmarks;
+  if (is_blind) time_since_fix_.passFrame();
+  time_since_fix_.link(anchors);
+}
+
+MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView& view,
+                                     LandmarkMap& map) {
+  MapChanges changes;
+  const std::vector<UsedTrack>& used_tracks = filter_.track(view.features());
+  const bool is_located = state_ == SlamState::kLocalised || state_ == SlamState::kRelocated ||
+                          state_ == SlamState::kFixRejected;
+  if (!is_located && filter_.motion() == CameraMotion::kResting)
+    changes.state = SlamState::kResting;
+  if (!is_located && filter_.motion() == CameraMotion::kRotating)
+    changes.state = SlamState::kRotating;
+  moveTo(camera(), view);
+
+  applyCorrections(filter_.takeCorrections(view.focalLength_px()), view, map);
+  Mapper::remember(view, trusted_, map);
+  for (const Association& match : trusted_) {
+    const Landmark& landmark = map.all()[static_cast<std::size_t>(match.target)];
+    filter_.assignLandmark(landmark.track_id, landmark.id);
+  }
+  const bool is_relocated = state_ == SlamState::kRelocated;
+  changes.removed_landmarks = mapper_.countFailed(
+      takeFailed(matches, trusted_, filter_.verdicts(), is_relocated, map), map);
+  for (const UsedTrack& one : used_tracks) {
+    if (const Landmark* landmark = map.find(one.track.landmark_id)) {
+      renew(one, view, config_.msckf, *landmark, map);
+    } else if (isWellKnown(one, view, config_.msckf)) {
+      filter_.assignLandmark(one.track.track_id, map.add(landmarkOf(one, view)));
+      ++changes.new_landmarks;
+    }
+  }
+  changes.feature_candidates = filter_.candidates();
+  changes.feature_matches = filter_.used();
+  return changes;
+}
+
+Estimate MsckfEstimator::estimate() const {
+  Estimate estimate;
+  estimate.T_map_base = filter_.T_map_base();
+  estimate.T_map_odom = estimate.T_map_base * T_odom_base_.inverse();
+  estimate.covariance = filter_.covariance();
+  estimate.fix_nis = filter_.fixNis();
+  estimate.scale_error = filter_.state().scaleError();
+  estimate.scale_sigma = filter_.scaleSigma();
+  estimate.height = filter_.heightOutcome();
+  return estimate;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "map/mapper.hpp"
+#include "map_update/time_since_fix.hpp"
+#include "msckf/msckf.hpp"
+#include "pipeline/estimator.hpp"
+
+namespace ardrone_vslam {
+
+/// The default: poses by the MSCKF, which landmarks of earlier visits correct; tracks that it has
+/// used become landmarks, which are placed beside the frames whose errors they share.
+class MsckfEstimator final : public Estimator {
+ public:
+  MsckfEstimator(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam);
+
+  void predict(const OdometryState& odometry, const std::optional<OdometryStep>& step) override;
+  CameraPose camera() override;
+  bool wantsLandmarks() const override { return !filter_.isDistrustful(); }
+  Correction correct(const AssociationResult& matches, const FrameView& view,
+                     const LandmarkMap& map) override;
+  MapChanges updateMap(const AssociationResult& matches, FrameView& view,
+                       LandmarkMap& map) override;
+  Estimate estimate() const override;
+  bool canChangeCamera() const override;
+  void changeCamera(const Eigen::Isometry3d& T_base_cam) override;
+
+ private:
+  SlamState fix(const AssociationResult& matches, const FrameView& view, const LandmarkMap& map);
+  void judge(const AssociationResult& matches, const LandmarkMap& map);
+
+  SlamConfig config_;
+  Eigen::Isometry3d T_rig_cam_;
+  Msckf filter_;
+  LandmarkLocator locator_;
+  Mapper mapper_;
+  TimeSinceFix time_since_fix_;
+  bool started_ = false;
+  Eigen::Isometry3d T_odom_base_ = Eigen::Isometry3d::Identity();
+  SlamState state_ = SlamState::kBuildingMap;  // of the newest frame, by landmarks
+  std::vector<Association> trusted_;           // the newest frame's matches that may be right
+};
+
+}  // namespace ardrone_vslam

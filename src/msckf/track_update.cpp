@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "msckf/track_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace ardrone_vslam {
+
+/// A track that passed its gate, and how far it is trusted.
+struct TrackUpdate::Candidate {
+  const FinishedTrack* track;
+  TrackResidual residual;
+  double weight;
+};
+
+namespace {
+
+double squared(double value) {
+  return value * value;
+}
+
+template <class Candidate>
+void sum(const std::vector<Candidate>& candidates, Information& information) {
+  information.matrix.setZero();
+  information.vector.setZero();
+  for (const Candidate& c : candidates) {
+    if (c.weight > 0) c.residual.addTo(information, c.weight);
+  }
+  information.matrix.triangularView<Eigen::StrictlyUpper>() = information.matrix.transpose();
+}
+
+/// What calibration, rolling shutter and the scene do to the tracks of a keyframe they do to all
+/// alike, so that it does not average out: n of them have the variance 1 / n + common.
+/// @param common  variance of the error they share, over that of a ray
+void limitByCommonError(double n, double common, Information& information) {
+  const double share = 1 / (1 + n * common);
+  information.matrix *= share;
+  information.vector *= share;
+}
+
+/// Wrong tracks may pass a gate as wide as the prior, but they do not agree with the others: their
+/// weight falls with what is left of their residual (Geman and McClure), at last to 0 or 1.
+/// @return whether the information is that of the tracks that agree
+template <class Candidate>
+bool agree(const WindowState& state, std::vector<Candidate>& candidates, Information& information) {
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds; ++round) {
+    sum(candidates, information);
+    const auto error = state.preview(information);
+    if (!error) return false;
+    for (Candidate& c : candidates) {
+      const double left = c.residual.squaredRest(*error, information.coordinates.front());
+      const int dof = c.residual.degreesOfFreedom();
+      const bool is_last = round + 1 == kRounds;
+      c.weight = is_last ? (left < chiSquare95(dof) ? 1 : 0) : 1 / squared(1 + left / dof);
+    }
+  }
+  sum(candidates, information);
+  return true;
+}
+
+/// Whether the way between a track's first and last view is well enough known to triangulate.
+bool hasKnownBaseline(TrackViews views, double uncertainty, const WindowState& state) {
+  const std::size_t first = views.front().frame;
+  const std::size_t last = views.back().frame;
+  const Eigen::Matrix3d relative =
+      state.relativeCovariance(state.frameCoordinate(first), state.frameCoordinate(last))
+          .topLeftCorner<3, 3>();
+  const Eigen::Vector3d baseline =
+      state.frames()[last].position_map - state.frames()[first].position_map;
+  const double length_m2 = baseline.squaredNorm();
+  // Along it, it is a matter of scale, which does no harm.
+  const double across_m2 = relative.trace() - baseline.dot(relative * baseline) / length_m2;
+  return across_m2 < squared(uncertainty) * length_m2;
+}
+
+/// UsedTrack::stretch_sigma.
+double stretchSigma(TrackViews views, const Eigen::Vector3d& camera_base,
+                    const WindowState& state) {
+  const Clone& first = state.frames()[views.front().frame];
+  const Clone& last = state.frames()[views.back().frame];
+  const Eigen::Vector3d baseline = last.position_map + last.R_map_rig * camera_base -
+                                   first.position_map - first.R_map_rig * camera_base;
+  const double length_m = baseline.norm();
+  const Eigen::Vector3d along_base = last.R_map_rig.transpose() * baseline / length_m;
+  constexpr int kBias = WindowState::kBias;
+  const double variance = along_base.dot(state.covariance().block<3, 3>(kBias, kBias) * along_base);
+  const double time_s = static_cast<double>(last.stamp_ns - first.stamp_ns) * 1e-9;
+  return std::sqrt(variance) * time_s / length_m;
+}
+
+/// With `floor_points`, of a track that ends below.
+std::optional<FloorHeight> floorOf(TrackViews views, const HeightConfig& config,
+                                   const WindowState& state) {
+  if (!config.floor_points) return std::nullopt;
+  constexpr double kDown = 0.7;  // cosine: 45 degrees
+  const Clone& frame = state.frames()[views.back().frame];
+  const double down = -(frame.R_map_rig * views.back().bearing_base).z();
+  if (!frame.height_m || down < kDown) return std::nullopt;
+  return FloorHeight{*frame.height_m, config.floor_point_sigma_m};
+}
+
+}  // namespace
+
+void TrackUpdate::changeCamera(const Eigen::Vector3d& camera_base) {
+  // With no keyframe since the last change the tracks are still those of the camera before.
+  if (!earlier_camera_) earlier_camera_ = RayCamera{camera_base, angle_sigma_rad_};
+}
+
+void TrackUpdate::skip() {
+  used_.clear();
+  candidates_ = 0;
+}
+
+void TrackUpdate::apply(const std::vector<FinishedTrack>& finished,
+                        const Eigen::Vector3d& camera_base, double focal_length_px,
+                        std::uint32_t anchor_id, TrackWindow& tracks, WindowState& state) {
+  skip();
+  angle_sigma_rad_ = config_.track_sigma_px / focal_length_px;
+  const RayCamera camera = earlier_camera_.value_or(RayCamera{camera_base, angle_sigma_rad_});
+  std::vector<Candidate> candidates = gate(finished, camera, state);
+  if (correct(candidates, state)) collectUsed(candidates, camera, anchor_id, tracks, state);
+  if (earlier_camera_) {  // all its tracks have ended, and this one sees something else
+    earlier_camera_.reset();
+    point_distance_m_ = 0;
+  }
+}
+
+std::vector<TrackUpdate::Candidate> TrackUpdate::gate(const std::vector<FinishedTrack>& finished,
+                                                      const RayCamera& camera,
+                                                      const WindowState& state) {
+  const Eigen::Vector3d& camera_base = camera.position_base;
+  const double sigma_a = camera.angle_sigma_rad;
+  std::vector<Candidate> candidates;
+  for (const FinishedTrack& track : finished) {
+    if (static_cast<int>(track.views.size()) < config_.min_track_views ||
+        !hasKnownBaseline(track.views, config_.baseline_uncertainty, state))
+      continue;
+    const auto point = triangulateTrack(state.frames(), camera_base, track.views, sigma_a);
+    if (!point || point->parallax_rad < config_.track_parallax_sigmas * sigma_a) continue;
+    auto residual = residualOf(state, camera_base, track.views, *point, sigma_a);
+    if (!residual) continue;
+    ++candidates_;
+    double distance = residual->distance(state);
+    int dof = residual->degreesOfFreedom();
+    if (!(distance < 2 * chiSquare95(dof))) continue;
+    if (const auto floor = floorOf(track.views, config_.height, state)) {
+      auto on_floor = residualOf(state, camera_base, track.views, *point, sigma_a, floor);
+      const double with_floor = on_floor->distance(state);
+      // Else it is on a table, or the height is that of one.
+      if (with_floor - distance < chiSquare95(1)) {
+        *residual = *std::move(on_floor);
+        distance = with_floor;
+        dof = residual->degreesOfFreedom();
+      }
+    }
+    candidates.push_back({&track, std::move(*residual), 1 / squared(1 + distance / dof)});
+  }
+  return candidates;
+}
+
+bool TrackUpdate::correct(std::vector<Candidate>& candidates, WindowState& state) const {
+  if (candidates.empty()) return false;
+  const int first = state.frameCoordinate(0);
+  std::vector<int> coordinates(
+      static_cast<std::size_t>(state.frameCoordinate(state.frames().size()) - first));
+  std::iota(coordinates.begin(), coordinates.end(), first);
+  Information information(std::move(coordinates));
+  if (!agree(state, candidates, information)) return false;
+  const auto n = std::count_if(candidates.begin(), candidates.end(),
+                               [](const Candidate& c) { return c.weight > 0; });
+  limitByCommonError(static_cast<double>(n),
+                     squared(config_.track_common_px / config_.track_sigma_px), information);
+  return state.update(information);
+}
+
+void TrackUpdate::collectUsed(const std::vector<Candidate>& candidates, const RayCamera& camera,
+                              std::uint32_t anchor_id, TrackWindow& tracks,
+                              const WindowState& state) {
+  const Eigen::Vector3d& camera_base = camera.position_base;
+  const std::size_t anchor = *indexOf(state.frames(), anchor_id);
+  std::vector<double> distances_m;
+  for (const Candidate& c : candidates) {
+    if (c.weight == 0) continue;
+    tracks.keepNewestView(c.track->track_id);
+    const auto point =
+        triangulateTrack(state.frames(), camera_base, c.track->views, camera.angle_sigma_rad);
+    if (!point) continue;
+    const Eigen::Matrix3d by_frames =
+        covarianceByFrames(state, camera_base, c.track->views, point->position_map, anchor);
+    used_.push_back({*c.track, *point, anchor_id, point->covariance_m2 + by_frames,
+                     stretchSigma(c.track->views, camera_base, state)});
+    distances_m.push_back((point->position_map - state.newest().position_map).norm());
+  }
+  if (used_.empty()) return;
+  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
+  std::nth_element(distances_m.begin(), middle, distances_m.end());
+  point_distance_m_ = *middle;
+}
+
+}  // namespace ardrone_vslam

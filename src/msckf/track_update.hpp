@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "ardrone_vslam/msckf_config.hpp"
+#include "msckf/track_residual.hpp"
+#include "msckf/track_window.hpp"
+#include "msckf/window_state.hpp"
+
+namespace ardrone_vslam {
+
+/// A used track: its point may become a landmark.
+struct UsedTrack {
+  FinishedTrack track;          ///< its views are good until the window's tracks are asked again
+  TrackPoint point;             ///< by all its views
+  std::uint32_t anchor_id = 0;  ///< the frame whose error the point shares
+  /// Of the point beside its anchor, by the noise of the rays and the errors of the frames.
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
+  /// Share by which the odometry's velocity error may have stretched the baseline.
+  double stretch_sigma = 0;
+};
+
+/// Corrects the window by the tracks that are complete (the MSCKF's feature update): each
+/// constrains, once, the frames that saw it. Wrong ones are found by a gate and by consensus.
+class TrackUpdate {
+ public:
+  /// @param config  is taken as valid: the filter that holds it has checked it
+  explicit TrackUpdate(const MsckfConfig& config) : config_(config) {}
+
+  /// The next frames are another camera's; tracks that were not used yet are still the old one's.
+  /// @param camera_base  the old camera's position in base
+  void changeCamera(const Eigen::Vector3d& camera_base);
+  /// No track of another camera is left.
+  void forgetEarlierCamera() { earlier_camera_.reset(); }
+  /// A frame without an update.
+  void skip();
+
+  /// Corrects the state. Of each used track the window keeps the newest view alone.
+  /// O(tracks x views^2 + coordinates^3).
+  /// @param finished  tracks of the window
+  /// @param camera_base  the camera's position in base
+  /// @param focal_length_px  of the newest frame
+  /// @param anchor_id  Clone::id, in the window, of the frame that new points belong to
+  void apply(const std::vector<FinishedTrack>& finished, const Eigen::Vector3d& camera_base,
+             double focal_length_px, std::uint32_t anchor_id, TrackWindow& tracks,
+             WindowState& state);
+
+  /// The tracks used by the last apply(), of this frame.
+  const std::vector<UsedTrack>& used() const { return used_; }
+  /// Tracks that had enough parallax, likewise.
+  int candidates() const { return candidates_; }
+  /// Median distance of the points used last; 0: none yet, or another camera's.
+  double pointDistance_m() const { return point_distance_m_; }
+
+ private:
+  /// What the rays of tracks need of the camera that saw them.
+  struct RayCamera {
+    Eigen::Vector3d position_base;
+    double angle_sigma_rad;  // of a ray
+  };
+  struct Candidate;
+
+  std::vector<Candidate> gate(const std::vector<FinishedTrack>& finished, const RayCamera& camera,
+                              const WindowState& state);
+  bool correct(std::vector<Candidate>& candidates, WindowState& state) const;
+  void collectUsed(const std::vector<Candidate>& candidates, const RayCamera& camera,
+                   std::uint32_t anchor_id, TrackWindow& tracks, const WindowState& state);
+
+  MsckfConfig config_;
+  std::optional<RayCamera> earlier_camera_;  // whose tracks are left in the window
+  double angle_sigma_rad_ = 0;               // of the tracks seen last
+  std::vector<UsedTrack> used_;
+  int candidates_ = 0;
+  double point_distance_m_ = 0;
+};
+
+}  // namespace ardrone_vslam

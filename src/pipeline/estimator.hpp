@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/frame_result.hpp"
+#include "ardrone_vslam/slam_config.hpp"
+#include "map/landmark_locator.hpp"
+#include "map/landmark_map.hpp"
+#include "matching/association.hpp"
+#include "matching/frame_view.hpp"
+#include "odometry/odometry_step.hpp"
+
+namespace ardrone_vslam {
+
+/// The camera as an estimator has it: where it is, and how far landmarks may be off from there.
+struct CameraPose {
+  Eigen::Isometry3d T_map_cam = Eigen::Isometry3d::Identity();
+  double position_variance_m2 = 0;  ///< of the position, per axis
+  bool common_drift = true;         ///< landmarks share the drift of the time they were made
+  std::vector<AnchorDrift> drifts;  ///< beside each anchor of landmarks, ascending in its id
+};
+
+/// What an estimator knows at a frame.
+struct Estimate {
+  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();  ///< the pose
+  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();  ///< REP-105
+  Matrix6d covariance = Matrix6d::Zero();       ///< of T_map_base, see FrameResult::covariance
+  double fix_nis = 0;                           ///< see FrameResult::fix_nis
+  double scale_error = 0;                       ///< see FrameResult::scale_error
+  double scale_sigma = 0;                       ///< its standard deviation
+  HeightOutcome height = HeightOutcome::kNone;  ///< what became of the frame's height
+};
+
+/// What the landmarks found in a frame did to the pose.
+struct Correction {
+  SlamState state = SlamState::kBuildingMap;  ///< what the pose rests on
+  std::optional<PositionFix> by_landmarks;    ///< base by the landmarks alone, without prediction
+};
+
+/// What a frame's tracks did to the map.
+struct MapChanges {
+  int new_landmarks = 0;  ///< see FrameResult, as the following ones
+  int removed_landmarks = 0;
+  int feature_candidates = 0;
+  int feature_matches = 0;
+  int map_features = 0;
+  std::optional<SlamState> state;  ///< what the pose rests on now; else as corrected
+};
+
+/// Makes poses and a map of odometry, landmark matches and tracks. Slam calls, for each frame,
+/// predict, correct and updateMap, in this order; the last two only while the estimate is finite.
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+
+  /// The frame's pose by the odometry alone. At the first frame map equals odom.
+  /// @param step  a jump in the odometry's increment since the last frame
+  virtual void predict(const OdometryState& odometry, const std::optional<OdometryStep>& step) = 0;
+  /// The camera after what has been called last. Not const: anchors count from when it first names
+  /// them.
+  virtual CameraPose camera() = 0;
+  /// Whether correct() would look at landmarks found now.
+  virtual bool wantsLandmarks() const { return true; }
+  /// Corrects the pose by landmarks. @param matches  of the map, in the view from camera()
+  virtual Correction correct(const AssociationResult& matches, const FrameView& view,
+                             const LandmarkMap& map) = 0;
+  /// Takes in the frame's tracks and changes the map.
+  /// @param view  that of correct(); is moved to the pose that the map is changed from
+  virtual MapChanges updateMap(const AssociationResult& matches, FrameView& view,
+                               LandmarkMap& map) = 0;
+  /// After what has been called last.
+  virtual Estimate estimate() const = 0;
+
+  /// Whether changeCamera() may be called.
+  virtual bool canChangeCamera() const { return true; }
+  /// The next frame is another camera's, on the same base.
+  virtual void changeCamera(const Eigen::Isometry3d& T_base_cam) = 0;
+};
+
+/// Moves the view's rays to a camera's position; directions and windows stay.
+void moveTo(CameraPose camera, FrameView& view);
+
+/// The one that the configuration names.
+std::unique_ptr<Estimator> makeEstimator(const SlamConfig& config,
+                                         const Eigen::Isometry3d& T_base_cam);
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "map/feature_map.hpp"
+#include "map/mapper.hpp"
+#include "pipeline/estimator.hpp"
+#include "thesis/thesis_filter.hpp"
+
+namespace ardrone_vslam {
+
+/// The master thesis's algorithm 5: positions by a weighted mean of the landmarks, fused by a
+/// Kalman filter; landmarks triangulated of features that wait in a map of their own. Orientation
+/// is the odometry's. Also in 2-D (`planar`), where all z of map are zero.
+class ThesisEstimator : public Estimator {
+ public:
+  ThesisEstimator(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam);
+
+  void predict(const OdometryState& odometry, const std::optional<OdometryStep>& step) override;
+  CameraPose camera() override;
+  Correction correct(const AssociationResult& matches, const FrameView& view,
+                     const LandmarkMap& map) override;
+  MapChanges updateMap(const AssociationResult& matches, FrameView& view,
+                       LandmarkMap& map) override;
+  Estimate estimate() const override;
+  void changeCamera(const Eigen::Isometry3d& T_base_cam) override { T_base_cam_ = T_base_cam; }
+
+ private:
+  SlamConfig config_;
+  Eigen::Isometry3d T_base_cam_;
+  ThesisFilter filter_;
+  LandmarkLocator locator_;
+  Mapper mapper_;
+  Associator associator_;  // of features without depth
+  FeatureMap feature_map_;
+  AssociationResult feature_matches_;
+  std::vector<bool> used_;  // the frame's features that need not be stored
+  bool started_ = false;
+  Eigen::Isometry3d T_odom_base_ = Eigen::Isometry3d::Identity();
+};
+
+}  // namespace ardrone_vslam

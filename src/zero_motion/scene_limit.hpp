@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/msckf_config.hpp"
+#include "msckf/track_order.hpp"
+#include "msckf/track_window.hpp"
+#include "msckf/window_state.hpp"
+
+namespace ardrone_vslam {
+
+/// Where nothing else tells the drift: the camera has moved by no more than the image shows in a
+/// scene that is rest_depth_m away, so a hovering drone stays though its odometry drifts.
+/// O(frames x tracks).
+/// @param order  of the newest frame's features
+/// @param tracks  of the window
+/// @param view_rig  the camera's optical axis, axes of the rig
+void limitByScene(const ImageFeatures& features, const TrackOrder& order, TrackWindow& tracks,
+                  const Eigen::Vector3d& view_rig, const MsckfConfig& config, WindowState& state);
+
+}  // namespace ardrone_vslam

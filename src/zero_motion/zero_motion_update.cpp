@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "zero_motion/zero_motion_update.hpp"
+
+#include <cmath>
+
+namespace ardrone_vslam {
+
+double rotationSigma_rad(const WindowState& state, const MsckfConfig& config, std::size_t frame) {
+  // Taken as exact or not, the attitude is noisy.
+  if (!config.attitude_states)
+    return std::sqrt(2.0) * config.odometry.attitude_noise_deg * M_PI / 180;
+  const Matrix6d relative = state.relativeCovariance(
+      state.frameCoordinate(frame), state.frameCoordinate(state.frames().size() - 1));
+  return std::sqrt(relative.bottomRightCorner<3, 3>().trace() / 3);
+}
+
+void ZeroMotionUpdate::apply(const ImageFeatures& features, const Eigen::Isometry3d& T_rig_cam,
+                             bool is_located, double depth_m, WindowState& state) {
+  const auto reference = indexOf(state.frames(), reference_id_);
+  Eigen::Matrix3d R_reference_now = Eigen::Matrix3d::Identity();
+  double attitude_sigma_rad = 0;
+  if (!reference) detector_ = ZeroMotionDetector(config_.rest);
+  if (reference && reference_id_ != state.newest().id) {
+    const Eigen::Matrix3d R_rig_cam = T_rig_cam.linear();
+    attitude_sigma_rad = rotationSigma_rad(state, config_, *reference);
+    R_reference_now = (state.frames()[*reference].R_map_rig * R_rig_cam).transpose() *
+                      state.newest().R_map_rig * R_rig_cam;
+  }
+  motion_ = detector_.see(features, R_reference_now, attitude_sigma_rad);
+  const bool is_still = motion_ == CameraMotion::kResting || motion_ == CameraMotion::kRotating;
+  if (is_still && reference && !is_located && !holdStill(*reference, T_rig_cam, depth_m, state))
+    motion_ = CameraMotion::kMoving;
+  if (!is_still) odometry_displacement_.setZero();
+  if (!detector_.isReference()) return;
+  dropReference(state);
+  reference_id_ = state.newest().id;
+  reference_is_keyframe_ = false;
+}
+
+bool ZeroMotionUpdate::holdStill(std::size_t reference, const Eigen::Isometry3d& T_rig_cam,
+                                 double depth_m, WindowState& state) {
+  // Odometry does not err by so much: the image stands still for another reason (a frozen stream).
+  constexpr double kFastest_m_s = 0.5;
+  constexpr double kSlack_m = 0.1;
+  const Eigen::Vector3d camera_base = T_rig_cam.translation();
+  const Clone& then = state.frames()[reference];
+  const Clone& now = state.newest();
+  odometry_displacement_ += now.position_map + now.R_map_rig * camera_base - then.position_map -
+                            then.R_map_rig * camera_base;
+  if (odometry_displacement_.norm() > kFastest_m_s * detector_.still_s() + kSlack_m) return false;
+  const Eigen::Matrix3d R_rig_cam = T_rig_cam.linear();
+  const Eigen::Matrix3d R_map_cam = then.R_map_rig * R_rig_cam;
+  state.holdNewest(
+      reference, camera_base,
+      depth_m * depth_m * R_map_cam * detector_.stillness().hidden * R_map_cam.transpose());
+  return true;
+}
+
+void ZeroMotionUpdate::dropReference(WindowState& state) const {
+  const auto reference = indexOf(state.frames(), reference_id_);
+  if (reference && isReferenceOnly(reference_id_) && reference_id_ != state.newest().id)
+    state.removeFrame(*reference);
+}
+
+void ZeroMotionUpdate::changeCamera(WindowState& state) {
+  dropReference(state);
+  reset();
+  odometry_displacement_.setZero();
+}
+
+void ZeroMotionUpdate::reset() {
+  detector_ = ZeroMotionDetector(config_.rest);
+  reference_id_ = 0;
+  reference_is_keyframe_ = false;
+}
+
+}  // namespace ardrone_vslam
