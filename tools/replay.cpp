@@ -76,7 +76,7 @@ void addOptions(CLI::App& app, Options& o) {
       ->allow_extra_args(false)
       ->take_all();
   app.add_option("--estimator", o.estimator, "over the configuration")
-      ->check(CLI::IsMember({"thesis", "constraint", "odometry"}));
+      ->check(CLI::IsMember({"thesis", "msckf", "odometry"}));
   app.add_option("--odometry-profile", o.odometry_profile,
                  "corrupt the truth like this (truth, wheel, drone, hover, harsh; A,B@S: A, from "
                  "second S on B); default: the input's own odometry, else wheel for a KITTI "

@@ -26,7 +26,7 @@ struct Options {
   std::string out;
   std::string config;
   std::vector<std::string> overrides;
-  std::vector<std::string> estimators{"thesis", "constraint"};
+  std::vector<std::string> estimators{"thesis", "msckf"};
   std::string odometry_profile = "wheel";
   std::string seeds = "1:5";
   std::uint64_t world_seed = 1;
@@ -49,7 +49,7 @@ void addOptions(CLI::App& app, Options& o) {
       ->take_all();
   app.add_option("--estimator", o.estimators, "one or more, by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember({"thesis", "constraint", "odometry"}))
+      ->check(CLI::IsMember({"thesis", "msckf", "odometry"}))
       ->capture_default_str();
   app.add_option("--odometry-profile", o.odometry_profile, "corrupt the path like this")
       ->capture_default_str();

@@ -4,7 +4,7 @@
 
 #include "measurements.hpp"
 #include "random_source.hpp"
-#include "thesis/thesis_filter.hpp"
+#include "map/landmark_locator.hpp"
 
 namespace ardrone_vslam::reproduction {
 namespace {
@@ -56,7 +56,7 @@ double packageDeviation(const std::vector<double>& sigmas) {
   config.fix_angle_floor_deg = 0;
   std::vector<Observation> observations;
   for (const double sigma : sigmas) observations.push_back({{5, 0, 0}, {1, 0, 0}, sigma, 0});
-  const auto fix = ThesisFilter(config).locate(observations, Eigen::Vector3d::Zero(), 0);
+  const auto fix = LandmarkLocator(config).locate(observations, Eigen::Vector3d::Zero(), 0);
   return std::sqrt(fix->covariance(1, 1));
 }
 
@@ -85,7 +85,7 @@ Fix fixOfWrongObserver(MeanKind mean, int runs) {
   config.fix_deviation_floor_m = 0;
   config.fix_angle_floor_deg = 0;
   config.outlier_sigmas = 0;
-  const ThesisFilter filter(config);
+  const LandmarkLocator locator(config);
   Fix fix;
   for (int run = 0; run < runs; ++run) {
     RandomSource random(static_cast<std::uint64_t>(run));
@@ -99,7 +99,7 @@ Fix fixOfWrongObserver(MeanKind mean, int runs) {
       s.landmark_sigma_m = 0.02;
       observations.push_back(s);
     }
-    const auto found = filter.locate(observations, {0.5, 0, 0}, 1.0 / 570);
+    const auto found = locator.locate(observations, {0.5, 0, 0}, 1.0 / 570);
     fix.error_m += std::abs(found->position_map.x()) / runs;
     fix.claimed_m += std::sqrt(found->covariance(0, 0)) / runs;
   }

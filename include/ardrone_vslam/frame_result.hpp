@@ -69,8 +69,8 @@ struct FrameResult {
   double scale_error = 0;
   double scale_sigma = 0;                       ///< standard deviation of scale_error
   HeightOutcome height = HeightOutcome::kNone;  ///< MSCKF
-  /// By so much the odometry's position jumped since the last frame; 0: it moved. The constraint
-  /// filter does not take it for a way.
+  /// By so much the odometry's position jumped since the last frame; 0: it moved. The MSCKF
+  /// does not take it for motion.
   double odometry_step_m = 0;
   /// Base position by the landmarks alone, before the fusion (6.4); nothing when there were too
   /// few.

@@ -237,7 +237,7 @@ enum class EstimatorKind {
 };
 template <>
 struct EnumNames<EstimatorKind> {
-  static constexpr std::array<const char*, 3> kNames{"thesis", "constraint", "odometry"};
+  static constexpr std::array<const char*, 3> kNames{"thesis", "msckf", "odometry"};
 };
 
 /// Everything of the mapper / localiser.
@@ -262,7 +262,7 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
   visit(
       ParameterInfo{
           "estimator", "choice", 0, 0,
-          "thesis: weighted mean and scalar fusion; constraint: tracks and landmarks of earlier "
+          "thesis: weighted mean and scalar fusion; msckf: tracks and landmarks of earlier "
           "visits correct pose and attitude; odometry: passes the odometry on"},
       c.estimator);
   visit(

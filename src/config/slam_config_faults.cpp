@@ -28,8 +28,8 @@ std::vector<std::string> faultsBetween(const SlamConfig& config) {
   }
   if (config.estimator == EstimatorKind::kThesis) {
     const auto refuse = [&faults](const std::string& parameter, const std::string& without) {
-      faults.push_back(parameter + " needs estimator constraint, the thesis filter would not use " +
-                       "it: set estimator to constraint, or " + without);
+      faults.push_back(parameter + " needs estimator msckf, the thesis filter would not use " +
+                       "it: set estimator to msckf, or " + without);
     };
     if (height.use_range) refuse("use_range", "use_range to false");
     if (height.use_navdata_height) refuse("use_navdata_height", "use_navdata_height to false");

@@ -206,13 +206,13 @@ std::optional<TrackResidual> residualOf(const WindowState& state,
                                         const Eigen::Vector3d& camera_base, TrackViews views,
                                         const TrackPoint& point, double angle_sigma_rad,
                                         const std::optional<FloorHeight>& floor) {
-  TrackResidual constraint;
-  constraint.views.reserve(views.size() + 1);
+  TrackResidual track;
+  track.views.reserve(views.size() + 1);
   for (const TrackView& view : views) {
     const auto ray =
         rayResidual(state.frames()[view.frame], camera_base, view.bearing_base, point.position_map);
     if (!ray) return std::nullopt;
-    ViewRows& rows = constraint.views.emplace_back();
+    ViewRows& rows = track.views.emplace_back();
     rows.coordinate = state.frameCoordinate(view.frame);
     rows.pose = ray->pose / angle_sigma_rad;
     rows.point = ray->point;  // of unit noise but for the factor that all rows share
@@ -220,7 +220,7 @@ std::optional<TrackResidual> residualOf(const WindowState& state,
   }
   if (floor) {
     const Clone& frame = state.frames()[views.back().frame];
-    ViewRows& rows = constraint.views.emplace_back();
+    ViewRows& rows = track.views.emplace_back();
     rows.coordinate = state.frameCoordinate(views.back().frame);
     rows.pose.setZero();
     rows.point.setZero();
@@ -228,16 +228,16 @@ std::optional<TrackResidual> residualOf(const WindowState& state,
     rows.point(0, 2) = -angle_sigma_rad / floor->sigma_m;
     const double height_m = frame.position_map.z() - point.position_map.z();
     rows.residual << (floor->height_m - height_m) / floor->sigma_m, 0;
-    constraint.has_height = true;
+    track.has_height = true;
   }
-  orthonormalise(constraint.views);
+  orthonormalise(track.views);
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
-  for (const ViewRows& rows : constraint.views) along += rows.point.transpose() * rows.residual;
-  for (ViewRows& rows : constraint.views) {
+  for (const ViewRows& rows : track.views) along += rows.point.transpose() * rows.residual;
+  for (ViewRows& rows : track.views) {
     rows.residual -= rows.point * along;
     rows.along = rows.pose.transpose() * rows.point;
   }
-  return constraint;
+  return track;
 }
 
 Eigen::Matrix3d covarianceByFrames(const WindowState& state, const Eigen::Vector3d& camera_base,

@@ -18,9 +18,9 @@ namespace ardrone_vslam {
 struct Clone {
   std::uint32_t id = 0;       ///< ascending, never used again in one run
   std::int64_t stamp_ns = 0;  ///< of the image
-  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();  ///< of base
-  Eigen::Matrix3d R_map_rig =
-      Eigen::Matrix3d::Identity();  ///< of base as the mounting has it, see WindowState
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();   ///< of base
+  Eigen::Matrix3d R_map_rig = Eigen::Matrix3d::Identity();  ///< of the rig, which is base but for
+                                                            ///< the extrinsics' error (WindowState)
   /// By what share an error of the odometry's velocity, axes of base, stretches the way here: the
   /// velocity over its square. What is seen from here shares it.
   Eigen::Vector3d stretch_by_bias_s_m = Eigen::Vector3d::Zero();
@@ -52,11 +52,12 @@ struct Information {
 ///         their time, which landmarks share [-]
 ///   then  the frames, oldest first: position and attitude. They come and go with every image, and
 ///         at the end they do so without moving the others.
-/// A frame's attitude is that of base as the camera's mounting has it, error included, so that only
-/// the prediction and who asks for the pose need to know of the mounting's error.
-/// Axes of map; attitude errors are rotation vectors on the left, R_true = exp(error) R.
+/// A frame's attitude is that of the rig: base, turned by the error of the extrinsics, so that the
+/// configured T_base_cam is exactly T_rig_cam. Only the prediction and who asks for the pose need
+/// to know of that error. Axes of map; attitude errors are rotation vectors on the left, R_true =
+/// exp(error) R.
 ///
-/// One camera sees no scale: all constraints leave the window's dilation open. Two things keep
+/// One camera sees no scale: all tracks leave the window's dilation open. Two things keep
 /// rounds of linearisation from closing it: what errs along the way does so by a multiple of the
 /// step (the scale error, and the bias as far as it has the recent velocity's direction), and the
 /// covariance's dilation is turned along whenever poses are corrected.
@@ -133,7 +134,7 @@ class WindowState {
   double biasSigmas() const;
   /// Takes the odometry's newest pose to the newest frame's.
   Eigen::Isometry3d T_map_odom() const;
-  /// Turns base as the camera's mounting has it into base.
+  /// The error of the extrinsics: takes directions of the rig to base.
   const Eigen::Matrix3d& R_base_rig() const { return R_base_rig_; }
   /// Of all coordinates.
   CovarianceMatrix::ConstView covariance() const { return covariance_.all(); }

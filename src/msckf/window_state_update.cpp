@@ -83,7 +83,7 @@ void WindowState::inject(const Eigen::VectorXd& error) {
 }
 
 // A scale error stretches map and window as they now are, not as they were: the covariance must
-// say so, or later constraints would take the difference for a sight of the scale. The velocity's
+// say so, or later tracks would take the difference for a sight of the scale. The velocity's
 // bias stretches the steps of the window alone, each in its way.
 WindowState::Stretch WindowState::stretchBy(const Eigen::VectorXd& error) const {
   Stretch T = Stretch::Zero(error.size(), 4);

@@ -166,7 +166,7 @@ TEST(RealPipeline, AStillImageHoldsThePosition) {
   PaveOptions at_rest;
   at_rest.at_rest = true;
   const auto sequence = openPave(folder + "/ardrone2_video_example.capture", at_rest);
-  const Outcome outcome = runOn(*sequence, "hover", 3, 1, {"mapper/estimator=constraint"});
+  const Outcome outcome = runOn(*sequence, "hover", 3, 1, {"mapper/estimator=msckf"});
   constexpr std::size_t kFrame = 450;  // 15 s
   ASSERT_GT(outcome.run.frames.size(), kFrame);
   EXPECT_GT(outcome.evaluation.odometry_error_m[kFrame], 1.5);

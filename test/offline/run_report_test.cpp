@@ -287,7 +287,7 @@ TEST(RunReport, OdometryThatStepsOrFreezesIsCountedAndAWarning) {
   run.frames[2].result.odometry_step_m = 2.5;
   run.odometry_froze = true;
   const RunEvaluation evaluation = evaluate(run, straightTruth());
-  const Json summary = summaryOf(run, evaluation, {"s", "drone", 1, "constraint"});
+  const Json summary = summaryOf(run, evaluation, {"s", "drone", 1, "msckf"});
   EXPECT_EQ(summary["odometry_steps"], 2);
   EXPECT_EQ(summary["odometry_froze"], true);
   const RunVerdict verdict = judgeRun("flight", run, evaluation, false);
@@ -301,7 +301,7 @@ TEST(RunReport, ImagesAtWhichTheCameraIsDistrustedAreCountedAndAWarning) {
   RunResult run = someRun();
   run.frames[1].result.state = SlamState::kDistrusted;
   const RunEvaluation evaluation = evaluate(run, straightTruth());
-  EXPECT_EQ(summaryOf(run, evaluation, {"s", "drone", 1, "constraint"})["frames_distrusted"], 1);
+  EXPECT_EQ(summaryOf(run, evaluation, {"s", "drone", 1, "msckf"})["frames_distrusted"], 1);
   const RunVerdict verdict = judgeRun("flight", run, evaluation, false);
   ASSERT_EQ(verdict.warnings.size(), 1U);
   EXPECT_NE(verdict.warnings[0].find("contradict each other"), std::string::npos);
@@ -312,7 +312,7 @@ TEST(RunReport, TheOdometrysFaultsAreCountedAndWarnedOf) {
   run.odometry_faults[static_cast<std::size_t>(OdometryFault::kBurst)] = 12;
   run.odometry_faults[static_cast<std::size_t>(OdometryFault::kNoCovariance)] = 900;
   const RunEvaluation evaluation = evaluate(run, straightTruth());
-  const Json summary = summaryOf(run, evaluation, {"s", "drone", 1, "constraint"});
+  const Json summary = summaryOf(run, evaluation, {"s", "drone", 1, "msckf"});
   EXPECT_EQ(summary["odometry_faults"]["burst"], 12);
   EXPECT_EQ(summary["odometry_faults"]["no_covariance"], 900);
   EXPECT_EQ(summary["odometry_faults"]["jump"], 0);

@@ -81,7 +81,7 @@ TEST(SimulatedStreet, MsckfOnKitti00IsBetterThanItsOdometryAndKnowsIt) {
       std::vector<StampedPose>(path.poses().begin(), path.poses().begin() + kFrames));
   const PipelineConfig config = loadConfig(
       std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/kitti.yaml",
-      {"mapper/estimator=constraint", "mapper/extrinsics_sigma_deg=0", "mapper/track_sigma_px=1.5",
+      {"mapper/estimator=msckf", "mapper/extrinsics_sigma_deg=0", "mapper/track_sigma_px=1.5",
        "mapper/track_common_px=0"});  // exact mounting, independent noise
   const OdometryProfile wheel = loadOdometryProfile(
       "wheel", std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/odometry_profiles.yaml");

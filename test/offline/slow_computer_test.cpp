@@ -110,7 +110,7 @@ TEST_F(SlowRun, UsesTheImagesThatItHasTimeForAndCountsTheOthers) {
         slow.frames[i].result.stamp_ns - slow.frames.front().result.stamp_ns;
     EXPECT_EQ((passed_ns + 500'000) / 1'000'000, static_cast<std::int64_t>(200 * i));
   }
-  const auto summary = summaryOf(slow, evaluate(slow, {}), {"laps", "drone", 1, "constraint"});
+  const auto summary = summaryOf(slow, evaluate(slow, {}), {"laps", "drone", 1, "msckf"});
   EXPECT_EQ(summary["frames_dropped_slow"], 44);
   EXPECT_EQ(summary["frames"], 16);
 }

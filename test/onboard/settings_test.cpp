@@ -110,7 +110,7 @@ TEST(SettingsTest, EveryFaultIsNamed) {
   EXPECT_NE(settingsFault({"onboard/cpu_share=2"}).find("cpu_share"), std::string::npos);
   EXPECT_NE(settingsFault({"tracker/features_per_frame=many"}).find("whole number"),
             std::string::npos);
-  EXPECT_NE(settingsFault({"mapper/estimator=best"}).find("constraint"), std::string::npos);
+  EXPECT_NE(settingsFault({"mapper/estimator=best"}).find("msckf"), std::string::npos);
   EXPECT_NE(settingsFault({"mapper/odometry_mode=twist"}).find("pose"), std::string::npos);
   EXPECT_NE(settingsFault({"planar=true"}).find("section/key=value"), std::string::npos);
   EXPECT_NE(settingsFault({"maper/planar=true"}).find("unknown section"), std::string::npos);

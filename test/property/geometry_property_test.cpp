@@ -105,6 +105,7 @@ TEST_P(FilterProperty, CovarianceStaysSymmetricAndPositiveDefinite) {
     config.fix_deviation_floor_m = random.chance(0.5) ? 0 : 0.01;
     config.fix_angle_floor_deg = 0;
     ThesisFilter filter(config);
+    const LandmarkLocator locator(config);
     OdometryState state;
     filter.start(Eigen::Vector3d::Zero(), state);
     int fused = 0;
@@ -114,7 +115,7 @@ TEST_P(FilterProperty, CovarianceStaysSymmetricAndPositiveDefinite) {
       filter.predict(state);
       const double before_m2 = filter.covariance().trace() / 3;
       const auto observations = randomObservations(filter.position_map(), before_m2, random);
-      const auto fix = filter.locate(observations, filter.position_map(), 0.002);
+      const auto fix = locator.locate(observations, filter.position_map(), 0.002);
       if (fix && filter.fuse(*fix)) ++fused;
       const Eigen::Matrix3d& p = filter.covariance();
       ASSERT_TRUE(filter.position_map().allFinite()) << seed << ' ' << i;

@@ -29,13 +29,13 @@ TEST(SlamConfig, TheThesisFilterRefusesWhatItWouldNotUse) {
   config.height_input.use_range = true;
   EXPECT_TRUE(faultsOf(config).empty());
   config.estimator = EstimatorKind::kThesis;
-  expectFault(config, {"use_range", "estimator to constraint", "use_range to false"});
+  expectFault(config, {"use_range", "estimator to msckf", "use_range to false"});
   config.height_input.use_range = false;
   config.height_input.known_height_m = 1.65;
-  expectFault(config, {"known_height_m", "estimator to constraint", "known_height_m to 0"});
+  expectFault(config, {"known_height_m", "estimator to msckf", "known_height_m to 0"});
   config.height_input.known_height_m = 0;
   config.msckf.attitude_states = false;
-  expectFault(config, {"attitude_states", "estimator to constraint", "attitude_states to true"});
+  expectFault(config, {"attitude_states", "estimator to msckf", "attitude_states to true"});
   config.height_input.use_range = true;
   EXPECT_EQ(faultsOf(config).size(), 2U) << "all faults are told at once";
 }

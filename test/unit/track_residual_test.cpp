@@ -121,10 +121,10 @@ TEST(TrackResidual, DoesNotSeeTheScaleNorWhereTheMapIs) {
   const auto views = viewsOf({3, 0.2, -0.4}, state, 0.002, random);
   const auto point = triangulateTrack(state.frames(), Eigen::Vector3d::Zero(), views, 0.002);
   ASSERT_TRUE(point);
-  auto constraint = residualOf(state, Eigen::Vector3d::Zero(), views, *point, 0.002);
-  ASSERT_TRUE(constraint);
-  for (ViewRows& rows : constraint->views) rows.residual.setZero();
-  EXPECT_EQ(constraint->degreesOfFreedom(), 2 * 6 - 3);
+  auto track = residualOf(state, Eigen::Vector3d::Zero(), views, *point, 0.002);
+  ASSERT_TRUE(track);
+  for (ViewRows& rows : track->views) rows.residual.setZero();
+  EXPECT_EQ(track->degreesOfFreedom(), 2 * 6 - 3);
   Eigen::VectorXd dilation = Eigen::VectorXd::Zero(6 * 6);
   Eigen::VectorXd shift = dilation;
   Eigen::VectorXd one_moved = dilation;
@@ -135,7 +135,7 @@ TEST(TrackResidual, DoesNotSeeTheScaleNorWhereTheMapIs) {
   }
   const int first = state.frameCoordinate(0);
   const auto change = [&](const Eigen::VectorXd& error) {
-    return std::sqrt(constraint->squaredRest(error, first));
+    return std::sqrt(track->squaredRest(error, first));
   };
   const double size = change(one_moved);
   EXPECT_GT(size, 1);
@@ -151,8 +151,8 @@ TEST(TrackResidual, DistanceAndInformationAreThoseOfTheProjectedRows) {
   views.erase(views.begin() + 3);
   const auto point = triangulateTrack(state.frames(), kCamera_base, views, 0.002);
   ASSERT_TRUE(point);
-  const auto constraint = residualOf(state, kCamera_base, views, *point, 0.002);
-  ASSERT_TRUE(constraint);
+  const auto track = residualOf(state, kCamera_base, views, *point, 0.002);
+  ASSERT_TRUE(track);
   const int first = state.frameCoordinate(0);
   const int size = state.frameCoordinate(7) - first;
   const auto rows = static_cast<Eigen::Index>(2 * views.size());
@@ -176,12 +176,12 @@ TEST(TrackResidual, DistanceAndInformationAreThoseOfTheProjectedRows) {
   Eigen::MatrixXd S = H * P * H.transpose();
   S.diagonal().array() += 1;
   const double distance = r.dot(S.llt().solve(r));
-  EXPECT_NEAR(constraint->distance(state), distance, 1e-9 * distance);
+  EXPECT_NEAR(track->distance(state), distance, 1e-9 * distance);
 
   std::vector<int> coordinates;
   for (int k = 0; k < size; ++k) coordinates.push_back(first + k);
   Information information(coordinates);
-  constraint->addTo(information, 0.5);
+  track->addTo(information, 0.5);
   const Eigen::MatrixXd expected = 0.5 * H.transpose() * H;
   const Eigen::MatrixXd whole = information.matrix.selfadjointView<Eigen::Lower>();
   EXPECT_LT((whole - expected).norm(), 1e-12 * expected.norm());
@@ -189,7 +189,7 @@ TEST(TrackResidual, DistanceAndInformationAreThoseOfTheProjectedRows) {
             1e-12 * (H.transpose() * r).norm() + 1e-9);
   Eigen::VectorXd error(size);
   for (double& e : error) e = 0.01 * random.normal();
-  EXPECT_NEAR(constraint->squaredRest(error, first), (r - H * error).squaredNorm(), 1e-9);
+  EXPECT_NEAR(track->squaredRest(error, first), (r - H * error).squaredNorm(), 1e-9);
 }
 
 TEST(TrackResidual, ItsDistanceIsAChiSquareForHonestRays) {
@@ -207,12 +207,12 @@ TEST(TrackResidual, ItsDistanceIsAChiSquareForHonestRays) {
     const auto views = viewsOf({3, 0.2, -0.4}, state, kNoise_rad, random);
     const auto point = triangulateTrack(state.frames(), kCamera_base, views, kNoise_rad);
     ASSERT_TRUE(point);
-    const auto constraint = residualOf(state, kCamera_base, views, *point, kNoise_rad);
-    ASSERT_TRUE(constraint);
-    dof = constraint->degreesOfFreedom();
-    const double squared = constraint->squaredRest(no_error, state.frameCoordinate(0));
+    const auto track = residualOf(state, kCamera_base, views, *point, kNoise_rad);
+    ASSERT_TRUE(track);
+    dof = track->degreesOfFreedom();
+    const double squared = track->squaredRest(no_error, state.frameCoordinate(0));
     bare += squared;
-    EXPECT_LE(constraint->distance(state), squared + 1e-9);
+    EXPECT_LE(track->distance(state), squared + 1e-9);
   }
   EXPECT_NEAR(bare / kRuns, dof, 0.15 * dof);
 }
@@ -247,11 +247,11 @@ TEST(TrackResidual, AHeightAddsOneRowThatSeesTheScale) {
   for (int i = 0; i < 5; ++i)
     dilation.segment<3>(6 * i) =
         state.frames()[static_cast<std::size_t>(i)].position_map + kCamera_base - camera;
-  const auto seen = [&](const TrackResidual& constraint) {
+  const auto seen = [&](const TrackResidual& track) {
     Information information(coordinates);
     information.matrix.setZero();
     information.vector.setZero();
-    constraint.addTo(information, 1);
+    track.addTo(information, 1);
     information.matrix.triangularView<Eigen::StrictlyUpper>() = information.matrix.transpose();
     return dilation.dot(information.matrix * dilation);
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `estimator: constraint` on one flight filmed at the rates that drones film at.
+// `estimator: msckf` on one flight filmed at the rates that drones film at.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `estimator: constraint` in worlds of random points with random descriptors: errors against the
+// `estimator: msckf` in worlds of random points with random descriptors: errors against the
 // truth.
 #include <gtest/gtest.h>
 

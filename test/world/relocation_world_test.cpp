@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `estimator: constraint` after 30 s without an image, while the odometry drifts by metres.
+// `estimator: msckf` after 30 s without an image, while the odometry drifts by metres.
 #include <gtest/gtest.h>
 
 #include <algorithm>

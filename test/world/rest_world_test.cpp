@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `estimator: constraint` at rest and turning on the spot, with odometry that drifts.
+// `estimator: msckf` at rest and turning on the spot, with odometry that drifts.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The odometry's scale error with `estimator: constraint`: one camera does not see it, heights do.
+// The odometry's scale error with `estimator: msckf`: one camera does not see it, heights do.
 #include <gtest/gtest.h>
 
 #include <algorithm>

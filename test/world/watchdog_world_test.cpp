@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `estimator: constraint` when the camera is wrong and the odometry is right: from one image on the
+// `estimator: msckf` when the camera is wrong and the odometry is right: from one image on the
 // room turns round its middle, so that the camera sees another flight than the drone flies.
 #include <gtest/gtest.h>
 

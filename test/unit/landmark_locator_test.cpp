@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "thesis/thesis_filter.hpp"
+#include "map/landmark_locator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,14 +34,14 @@ std::vector<Observation> observationsAhead(int count, double landmark_sigma_m,
   return observations;
 }
 
-TEST(ThesisFilter, WorkedExampleOfThePrintedMean) {
-  ThesisFilter filter(printedOnly());
+TEST(LandmarkLocator, WorkedExampleOfThePrintedMean) {
+  const LandmarkLocator locator(printedOnly());
   // Two landmarks, seen along x and along y; the prediction is 0.1 m off in each.
   std::vector<Observation> observations(2);
   observations[0] = {{5, 0.2, 0}, {1, 0, 0}, 0.05, 0};
   observations[1] = {{0.4, 3, 0}, {0, 1, 0}, 0.02, 0};
   const Eigen::Vector3d predicted(0.1, 0.1, 0);
-  const auto fix = filter.locate(observations, predicted, 0.01);
+  const auto fix = locator.locate(observations, predicted, 0.01);
   ASSERT_TRUE(fix);
   // (6.1, 6.2): d = 4.9 and 2.9; p = l - d s = (0.1, 0.2, 0) and (0.4, 0.1, 0).
   // (6.3): sigma = 0.05 + 0.049 and 0.02 + 0.029; (6.4): weights 1 / sigma.
@@ -55,7 +55,7 @@ TEST(ThesisFilter, WorkedExampleOfThePrintedMean) {
 }
 
 // The odometry is 0.5 m off along the optical axis, 50 landmarks, 80 x 52 degrees.
-TEST(ThesisFilter, PrintedMeanIsDampedAlongTheRaysTheExactOneIsNot) {
+TEST(LandmarkLocator, PrintedMeanIsDampedAlongTheRaysTheExactOneIsNot) {
   const Eigen::Vector3d predicted(0.5, 0, 0);
   ThesisFilterConfig config = printedOnly();
   double printed_error = 0;
@@ -67,9 +67,9 @@ TEST(ThesisFilter, PrintedMeanIsDampedAlongTheRaysTheExactOneIsNot) {
     const auto observations = observationsAhead(50, 0.02, random);
     config.mean = MeanKind::kPrinted;
     printed_error +=
-        ThesisFilter(config).locate(observations, predicted, kPixel_rad)->position_map.x();
+        LandmarkLocator(config).locate(observations, predicted, kPixel_rad)->position_map.x();
     config.mean = MeanKind::kExact;
-    const auto exact = ThesisFilter(config).locate(observations, predicted, kPixel_rad);
+    const auto exact = LandmarkLocator(config).locate(observations, predicted, kPixel_rad);
     exact_error += std::abs(exact->position_map.x());
     exact_claim += std::sqrt(exact->covariance(0, 0));
   }
@@ -78,11 +78,11 @@ TEST(ThesisFilter, PrintedMeanIsDampedAlongTheRaysTheExactOneIsNot) {
   EXPECT_GT(exact_claim / kRuns, exact_error / kRuns) << "0.8 deviations are the mean distance";
 }
 
-TEST(ThesisFilter, CovarianceOfTheExactMeanIsItsScatter) {
+TEST(LandmarkLocator, CovarianceOfTheExactMeanIsItsScatter) {
   ThesisFilterConfig config = printedOnly();
   config.mean = MeanKind::kExact;
   config.outlier_sigmas = 0;  // weighed down, good ones claim a fifth more than their scatter
-  const ThesisFilter filter(config);
+  const LandmarkLocator locator(config);
   RandomSource geometry(3);
   const auto truth = observationsAhead(30, 0, geometry);
   RandomSource random(4);
@@ -96,7 +96,7 @@ TEST(ThesisFilter, CovarianceOfTheExactMeanIsItsScatter) {
       s.landmark_map += kSigma_m * random.normal3();
       s.landmark_sigma_m = kSigma_m;
     }
-    const auto fix = filter.locate(observations, Eigen::Vector3d::Zero(), 1e-9);
+    const auto fix = locator.locate(observations, Eigen::Vector3d::Zero(), 1e-9);
     ASSERT_TRUE(fix);
     scatter += fix->position_map * fix->position_map.transpose() / kRuns;
     claimed += fix->covariance / kRuns;
@@ -108,38 +108,38 @@ TEST(ThesisFilter, CovarianceOfTheExactMeanIsItsScatter) {
   EXPECT_LT((whitened - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.1) << whitened;
 }
 
-TEST(ThesisFilter, DeviationOfThePrintedMeanShrinksWithTheRootOfTheNumber) {
-  ThesisFilter filter(printedOnly());
+TEST(LandmarkLocator, DeviationOfThePrintedMeanShrinksWithTheRootOfTheNumber) {
+  const LandmarkLocator locator(printedOnly());
   const Observation s{{5, 0, 0}, {1, 0, 0}, 0.1, 0};
-  const auto one = filter.locate({s}, Eigen::Vector3d::Zero(), 0);
-  const auto four = filter.locate({s, s, s, s}, Eigen::Vector3d::Zero(), 0);
+  const auto one = locator.locate({s}, Eigen::Vector3d::Zero(), 0);
+  const auto four = locator.locate({s, s, s, s}, Eigen::Vector3d::Zero(), 0);
   EXPECT_NEAR(std::sqrt(one->covariance(0, 0)), 0.1, 1e-12);
   EXPECT_NEAR(std::sqrt(four->covariance(0, 0)), 0.05, 1e-12);
 }
 
-TEST(ThesisFilter, FloorsHoldErrorsThatAllLandmarksShare) {
+TEST(LandmarkLocator, FloorsHoldErrorsThatAllLandmarksShare) {
   ThesisFilterConfig config = printedOnly();
   config.fix_deviation_floor_m = 0.03;
   config.fix_angle_floor_deg = 1;
-  const ThesisFilter filter(config);
+  const LandmarkLocator locator(config);
   const std::vector<Observation> many(10000, Observation{{4, 0, 0}, {1, 0, 0}, 0.1, 0});
-  const auto fix = filter.locate(many, Eigen::Vector3d::Zero(), 0);
+  const auto fix = locator.locate(many, Eigen::Vector3d::Zero(), 0);
   EXPECT_NEAR(std::sqrt(fix->covariance(2, 2)), std::hypot(0.03, 4 * M_PI / 180, 0.001), 1e-9);
 }
 
-TEST(ThesisFilter, TooFewLandmarksFixNothing) {
+TEST(LandmarkLocator, TooFewLandmarksFixNothing) {
   ThesisFilterConfig config = printedOnly();
   config.min_landmarks = 3;
-  const ThesisFilter filter(config);
+  const LandmarkLocator locator(config);
   RandomSource random(1);
   const auto three = observationsAhead(3, 0.1, random);
   const std::vector<Observation> two(three.begin(), three.begin() + 2);
-  EXPECT_FALSE(filter.locate({}, Eigen::Vector3d::Zero(), kPixel_rad));
-  EXPECT_FALSE(filter.locate(two, Eigen::Vector3d::Zero(), kPixel_rad));
-  EXPECT_TRUE(filter.locate(three, Eigen::Vector3d::Zero(), kPixel_rad));
+  EXPECT_FALSE(locator.locate({}, Eigen::Vector3d::Zero(), kPixel_rad));
+  EXPECT_FALSE(locator.locate(two, Eigen::Vector3d::Zero(), kPixel_rad));
+  EXPECT_TRUE(locator.locate(three, Eigen::Vector3d::Zero(), kPixel_rad));
 }
 
-TEST(ThesisFilter, ExactMeanWeighsWrongMatchesDown) {
+TEST(LandmarkLocator, ExactMeanWeighsWrongMatchesDown) {
   ThesisFilterConfig config = printedOnly();
   config.mean = MeanKind::kExact;
   ThesisFilterConfig trusting = config;
@@ -150,35 +150,35 @@ TEST(ThesisFilter, ExactMeanWeighsWrongMatchesDown) {
     for (std::size_t i = 0; i < 30; ++i)  // another thing to the left of what the landmarks show
       observations[i].direction_map =
           (observations[i].direction_map + Eigen::Vector3d(0, 0.1, 0)).normalized();
-    const auto fix = ThesisFilter(config).locate(observations, Eigen::Vector3d::Zero(), kPixel_rad);
+    const auto fix = LandmarkLocator(config).locate(observations, Eigen::Vector3d::Zero(), kPixel_rad);
     const auto drawn =
-        ThesisFilter(trusting).locate(observations, Eigen::Vector3d::Zero(), kPixel_rad);
+        LandmarkLocator(trusting).locate(observations, Eigen::Vector3d::Zero(), kPixel_rad);
     ASSERT_TRUE(fix && drawn);
     EXPECT_LT(fix->position_map.norm(), 0.03) << seed;
     EXPECT_GT(drawn->position_map.norm(), 3 * fix->position_map.norm()) << seed;
   }
 }
 
-TEST(ThesisFilter, ExactMeanRefusesLandmarksInOneDirection) {
+TEST(LandmarkLocator, ExactMeanRefusesLandmarksInOneDirection) {
   ThesisFilterConfig config = printedOnly();
   config.mean = MeanKind::kExact;
-  const ThesisFilter filter(config);
+  const LandmarkLocator locator(config);
   const std::vector<Observation> same(5, Observation{{5, 0, 0}, {1, 0, 0}, 0.1, 0});
-  EXPECT_FALSE(filter.locate(same, Eigen::Vector3d::Zero(), kPixel_rad));
+  EXPECT_FALSE(locator.locate(same, Eigen::Vector3d::Zero(), kPixel_rad));
 }
 
-TEST(ThesisFilter, DegenerateObservationsGiveNoNumberThatIsNotFinite) {
-  const ThesisFilter filter(printedOnly());
+TEST(LandmarkLocator, DegenerateObservationsGiveNoNumberThatIsNotFinite) {
+  const LandmarkLocator locator(printedOnly());
   const std::vector<Observation> at_camera(3, Observation{{0, 0, 0}, {1, 0, 0}, 0, 0});
-  EXPECT_FALSE(filter.locate(at_camera, Eigen::Vector3d::Zero(), 0));
+  EXPECT_FALSE(locator.locate(at_camera, Eigen::Vector3d::Zero(), 0));
 }
 
-TEST(ThesisFilter, RefusesInvalidParameters) {
+TEST(LandmarkLocator, RefusesInvalidParameters) {
   ThesisFilterConfig config;
   config.min_landmarks = 0;
   config.gate_sigmas = std::nan("");
   try {
-    ThesisFilter filter(config);
+    const LandmarkLocator locator(config);
     FAIL() << "must throw";
   } catch (const ConfigError& e) {
     EXPECT_EQ(e.faults().size(), 2U);
