@@ -119,7 +119,7 @@ TEST(LandmarkLocator, DeviationOfThePrintedMeanShrinksWithTheRootOfTheNumber) {
 
 TEST(LandmarkLocator, FloorsHoldErrorsThatAllLandmarksShare) {
   ThesisFilterConfig config = printedOnly();
-  config.fix_deviation_floor_m = 0.03;
+  config.fix_sigma_floor_m = 0.03;
   config.fix_angle_floor_deg = 1;
   const LandmarkLocator locator(config);
   const std::vector<Observation> many(10000, Observation{{4, 0, 0}, {1, 0, 0}, 0.1, 0});
@@ -176,7 +176,7 @@ TEST(LandmarkLocator, DegenerateObservationsGiveNoNumberThatIsNotFinite) {
 TEST(LandmarkLocator, RefusesInvalidParameters) {
   ThesisFilterConfig config;
   config.min_landmarks = 0;
-  config.gate_sigmas = std::nan("");
+  config.odometry_noise_m_per_sqrt_s = std::nan("");
   try {
     const LandmarkLocator locator(config);
     FAIL() << "must throw";
