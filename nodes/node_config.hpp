@@ -29,17 +29,16 @@ namespace effects {
 constexpr const char* kQueue =
     "images (tracker) or their features (mapper) kept while it is busy; the oldest go first";
 constexpr const char* kMapFrame = "frame of the poses and of the map";
-constexpr const char* kOdomFrame =
-    "frame of the odometry; empty: the odometry's header.frame_id";
+constexpr const char* kOdomFrame = "frame of the odometry; empty: the odometry's header.frame_id";
 constexpr const char* kBaseFrame = "frame of the robot; empty: the odometry's child_frame_id";
 }  // namespace effects
 
 template <class Visitor>
 void visitParameters(TrackerNodeConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"image_transport", "choice", 0, 0,
-                      "raw: the topic `image`. compressed: `image`/compressed (JPEG)",
-                      turnFirst(22)},
-        c.image_transport);
+  visit(
+      ParameterInfo{"image_transport", "choice", 0, 0,
+                    "raw: the topic `image`. compressed: `image`/compressed (JPEG)", turnFirst(22)},
+      c.image_transport);
   visit(ParameterInfo{"rectified", "switch", 0, 0,
                       "the images are rectified: use camera_info's P, no distortion. Also read by "
                       "the offline tools, for bags",

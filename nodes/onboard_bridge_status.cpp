@@ -8,7 +8,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kSilent_s = 1;  // without a datagram: five answers a second come at least
+constexpr double kSilent_s = 1;       // without a datagram: five answers a second come at least
 constexpr double kClocksApart_s = 5;  // more than any delay of a link that is of use
 
 constexpr std::array<const char*, kDatagramFaultCount> kCountNames{

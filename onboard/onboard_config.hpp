@@ -21,10 +21,8 @@ struct OnboardConfig {
   bool halve = false;
   std::string camera_position_m = "[0, 0, 0]";
   std::string camera_rotation_deg = "[-90, 0, -90]";
-  bool every_frame = false;
   bool realtime_clock = false;
   std::string observer = "127.0.0.1:5580";
-  std::string poses;
   std::string pose_address = "127.0.0.1:5581";
   std::string telemetry_address;
   double telemetry_hz = 5;
@@ -34,6 +32,10 @@ struct OnboardConfig {
   int max_map_mb = 16;
   int working_mb = 12;
   bool lock_memory = false;
+
+  // Options of the program, no parameters: for flights that are played again.
+  bool every_frame = false;  ///< no image is dropped for a newer one (a FIFO; files never drop any)
+  std::string poses;         ///< file that gets the answers, too; empty: none
 
   /// Without a good record for so long answers say that the controller is silent. No parameter:
   /// only tests wait for longer.
@@ -57,9 +59,6 @@ void visitParameters(OnboardConfig& c, Visitor&& visit) {
                       "the camera's optical frame to base: roll about base's x first, then pitch "
                       "about its y, then yaw about its z"},
         c.camera_rotation_deg);
-  visit(ParameterInfo{"every_frame", "switch", 0, 0,
-                      "no image is dropped for a newer one (a FIFO; files never drop any)"},
-        c.every_frame);
   visit(ParameterInfo{"realtime_clock", "switch", 0, 0,
                       "the controller's stamps are of CLOCK_REALTIME, not CLOCK_MONOTONIC: a "
                       "V4L2 camera's images are stamped alike"},
@@ -69,8 +68,6 @@ void visitParameters(OnboardConfig& c, Visitor&& visit) {
                       "datagrams are received (0.0.0.0: from other computers, too), or a file or "
                       "FIFO"},
         c.observer);
-  visit(ParameterInfo{"poses", "name", 0, 0, "file that gets the answers, too; empty: none"},
-        c.poses);
   visit(ParameterInfo{"pose_address", "name", 0, 0,
                       "ADDRESS:PORT that the answers are sent to, by UDP; empty: to nobody"},
         c.pose_address);

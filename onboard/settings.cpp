@@ -53,8 +53,8 @@ class SectionReader {
   void refuseOthers() {
     for (const auto& section : sections_) {
       if (section.first.empty() && section.second.empty()) continue;
-      faults_.push_back("unknown section '" + section.first +
-                        "'" + whatBecameOf(OldName::Kind::kSection, section.first) +
+      faults_.push_back("unknown section '" + section.first + "'" +
+                        whatBecameOf(OldName::Kind::kSection, section.first) +
                         "; known are onboard, tracker, mapper and odometry_fusion");
     }
   }

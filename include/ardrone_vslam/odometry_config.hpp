@@ -40,8 +40,8 @@ void visitParameters(OdometryDriftConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"scale_sigma", "-", 1e-6, 1, "constant scale error of the odometry",
                       turnFirst(11)},
         c.scale_sigma);
-  visit(ParameterInfo{"tilt_sigma_deg", "deg", 0, 45,
-                      "slow error of the odometry's roll and pitch", turnFirst(12)},
+  visit(ParameterInfo{"tilt_sigma_deg", "deg", 0, 45, "slow error of the odometry's roll and pitch",
+                      turnFirst(12)},
         c.tilt_sigma_deg);
   visit(ParameterInfo{"yaw_walk_deg_per_sqrt_s", "deg/sqrt(s)", 0, 45,
                       "drift of the odometry's yaw with time", turnFirst(13)},
@@ -122,11 +122,10 @@ void visitParameters(OdometryAdapterConfig& c, Visitor&& visit) {
                     "place. The same in both sections",
                     turnFirst(3)},
       c.mode);
-  visit(
-      ParameterInfo{"odometry_height", "choice", 0, 0,
-                    "with `odometry_mode: twist`. pose: z is the pose's, without steps that no "
-                    "climb explains (a table below). twist: z is integrated like x and y"},
-      c.height);
+  visit(ParameterInfo{"odometry_height", "choice", 0, 0,
+                      "with `odometry_mode: twist`. pose: z is the pose's, without steps that no "
+                      "climb explains (a table below). twist: z is integrated like x and y"},
+        c.height);
 }
 
 /// What the package's own observer of the AR.Drone needs to know of the drone.

@@ -83,7 +83,7 @@ struct ThesisFilterConfig {
   /// Landmarks share the drift of the time they were made, so fresh ones correct little; false:
   /// independent, as printed.
   bool common_drift = true;
-  double initial_sigma_m = 0.01;        ///< of the position at the first image
+  double initial_sigma_m = 0.01;    ///< of the position at the first image
   double fix_sigma_floor_m = 0.01;  ///< errors that all landmarks share: no fix is better
   /// The same for errors that grow with the landmarks' distance: attitude and calibration.
   double fix_angle_floor_deg = 2.0;
@@ -140,8 +140,8 @@ struct MapperConfig {
 
 template <class Visitor>
 void visitParameters(MapperConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"max_depth_m", "m", 0.1, 1e5,
-                      "points further away do not become landmarks", turnFirst(21)},
+  visit(ParameterInfo{"max_depth_m", "m", 0.1, 1e5, "points further away do not become landmarks",
+                      turnFirst(21)},
         c.max_depth_m);
 }
 
@@ -208,8 +208,7 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
           "thesis's weighted mean and scalar fusion. odometry: the odometry is passed on",
           turnFirst(1)},
       c.estimator);
-  visit(ParameterInfo{"image_time_offset_s", "s", -5, 5,
-kImageTimeOffset, turnFirst(2)},
+  visit(ParameterInfo{"image_time_offset_s", "s", -5, 5, kImageTimeOffset, turnFirst(2)},
         c.image_time_offset_s);
   visit(
       ParameterInfo{"planar", "switch", 0, 0,

@@ -31,10 +31,10 @@ struct CornerDetectorConfig {
 
   // No parameters: what the thesis's experiments, benchmarks and tests vary. The defaults were the
   // best or the cheapest there.
-  int arc_length_px = 12;     ///< contiguous circle pixels that make a corner: 9 to 12
-  int threshold = 35;         ///< grey-level difference of a circle pixel; the start when it adapts
-  int threshold_max = 120;    ///< highest that adaptation chooses
-  int sampling_passes = 16;   ///< pixels tested in each 4x4 block, 1 to 16: 16 finds every corner
+  int arc_length_px = 12;    ///< contiguous circle pixels that make a corner: 9 to 12
+  int threshold = 35;        ///< grey-level difference of a circle pixel; the start when it adapts
+  int threshold_max = 120;   ///< highest that adaptation chooses
+  int sampling_passes = 16;  ///< pixels tested in each 4x4 block, 1 to 16: 16 finds every corner
   Suppression suppression = Suppression::kLocalClimb;
   bool adapt_threshold = true;  ///< each cell's threshold keeps its corner count in a band
 };
@@ -66,7 +66,7 @@ struct FrameTrackerConfig {
 
   // No parameters, but varied by tests.
   int max_hamming_bits = 100;  ///< largest descriptor distance within a track
-  double ratio = 0.85;  ///< the best distance must be below this share of the second best
+  double ratio = 0.85;         ///< the best distance must be below this share of the second best
 };
 
 template <class Visitor>

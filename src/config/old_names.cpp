@@ -52,7 +52,7 @@ const std::vector<OldName>& table() {
       renamed("mapper", "height_deviation_m", "height_sigma_m"),
       // Of the mapper, now constants.
       constant("mapper", "observer_max_gap_s"),
-      constant("mapper", "range_max_gap_s"),
+      constant("mapper", "range_max_gap_s", "a sensor with larger holes is too slow"),
       constant("mapper", "range_max_tilt_deg"),
       constant("mapper", "search_radius_px"),
       constant("mapper", "widening_s"),
@@ -71,7 +71,7 @@ const std::vector<OldName>& table() {
       constant("mapper", "attitude_states", "without them the pose is worse and no cheaper"),
       constant("mapper", "keyframe_px"),
       constant("mapper", "keyframe_s"),
-      constant("mapper", "min_track_views"),
+      constant("mapper", "min_track_views", "three are the fewest that tell a wrong track"),
       constant("mapper", "track_parallax_deviations"),
       constant("mapper", "baseline_uncertainty"),
       constant("mapper", "landmark_deviation"),
@@ -160,6 +160,8 @@ const std::vector<OldName>& table() {
       renamed("onboard", "pose_port", "pose_address", "as ADDRESS:PORT"),
       renamed("onboard", "telemetry_port", "telemetry_address", "as ADDRESS:PORT"),
       constant("onboard", "controller_silent_s", kRates),
+      constant("onboard", "every_frame", "give the option --every-frame"),
+      constant("onboard", "poses", "give the option --poses FILE"),
       renamed("onboard_bridge", "port", "address", "as ADDRESS:PORT"),
       constant("onboard_bridge", "silent_s", kRates),
       // What is no parameter.
@@ -191,7 +193,7 @@ std::string whatBecameOf(OldName::Kind kind, const std::string& name, const std:
   for (const OldName& old : table()) {
     if (old.kind != kind || old.name != name || (!owner.empty() && old.owner != owner)) continue;
     const std::string why = old.why;
-    if (*old.now == '\0') return "; it is a constant now: " + why;
+    if (*old.now == '\0') return "; it is no parameter any more: " + why;
     return "; " + name + " is called " + old.now + " now" + (why.empty() ? "" : ", " + why);
   }
   return {};

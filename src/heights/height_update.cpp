@@ -64,8 +64,8 @@ HeightOutcome HeightUpdate::apply(double height_m, WindowState& state) {
 }
 
 bool HeightUpdate::agreesWithRejected(double floor_map_m) const {
-  return is_rejecting_ && std::abs(floor_map_m - rejected_floor_map_m_) <
-                              kGateSigmas * config_.height_sigma_m;
+  return is_rejecting_ &&
+         std::abs(floor_map_m - rejected_floor_map_m_) < kGateSigmas * config_.height_sigma_m;
 }
 
 }  // namespace ardrone_vslam

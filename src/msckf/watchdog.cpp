@@ -8,9 +8,9 @@ namespace {
 
 // Of the velocity's bias: a drone's odometry in a strong wind stays below.
 constexpr double kMostBiasSigmas = 15;
-constexpr double kMostNis = 8;        // of fixes: what follows from their covariance is 1
+constexpr double kMostNis = 8;          // of fixes: what follows from their covariance is 1
 constexpr double kContradiction_s = 3;  // so long it must last: a person walks past in less
-constexpr double kLongest_s = 1e6;  // of a pause
+constexpr double kLongest_s = 1e6;      // of a pause
 
 }  // namespace
 

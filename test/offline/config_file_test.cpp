@@ -98,7 +98,8 @@ TEST_F(ConfigFile, UnknownKeysGetAHint) {
     const auto faults = faultsOf("mapper:\n  " + key + ": 1\n");
     return faults.size() == 1 ? faults[0] : std::string("no single fault");
   };
-  EXPECT_TRUE(contains(hintOf("landmark_treshold_px"), "did you mean mapper/landmark_threshold_px"));
+  EXPECT_TRUE(
+      contains(hintOf("landmark_treshold_px"), "did you mean mapper/landmark_threshold_px"));
   EXPECT_TRUE(contains(hintOf("max_depth"), "mapper/max_depth_m"));
   EXPECT_TRUE(contains(hintOf("features_per_frame"), "did you mean tracker/features_per_frame"));
   EXPECT_FALSE(contains(hintOf("xyzzy_plugh"), "did you mean"));
@@ -179,10 +180,13 @@ TEST(ParameterTable, NamesEveryParameterWithItsDefault) {
   visitParameters(config.mapper, expectRow);
   DelayedFusionConfig delayed_fusion;
   visitParameters(delayed_fusion, expectRow);
-  EXPECT_TRUE(contains(table, "| `estimator` | mapper | msckf | choice | thesis, msckf, odometry | "));
+  EXPECT_TRUE(
+      contains(table, "| `estimator` | mapper | msckf | choice | thesis, msckf, odometry | "));
   EXPECT_TRUE(contains(table, "| `planar` | mapper | false | switch | true, false | "));
-  EXPECT_TRUE(contains(table, "| `max_landmarks` | mapper | 200000 | landmarks | 10 to 10000000 | "));
-  EXPECT_TRUE(contains(table, "| `map_frame` | mapper, odometry_fusion, onboard_bridge | \"map\" | "));
+  EXPECT_TRUE(
+      contains(table, "| `max_landmarks` | mapper | 200000 | landmarks | 10 to 10000000 | "));
+  EXPECT_TRUE(
+      contains(table, "| `map_frame` | mapper, odometry_fusion, onboard_bridge | \"map\" | "));
   EXPECT_TRUE(contains(table, "| `queue_size` | tracker, mapper | 5 (tracker), 10 (mapper) | "));
 }
 

@@ -41,7 +41,8 @@ int expectArgumentsOfVslam(const std::string& outer, const std::vector<std::stri
 
 TEST(LaunchFiles, ReplayHasEveryArgumentOfVslam) {
   // No image of a bag is to be lost; no drone is to fly as it did in the bag.
-  EXPECT_GE(expectArgumentsOfVslam("replay.launch", {"queue_size", "cmd_vel", "observer_fusion"}), 13);
+  EXPECT_GE(expectArgumentsOfVslam("replay.launch", {"queue_size", "cmd_vel", "observer_fusion"}),
+            13);
 }
 
 TEST(LaunchFiles, ArdroneHasEveryArgumentOfVslam) {

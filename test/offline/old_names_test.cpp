@@ -128,7 +128,8 @@ TEST(OldNames, AConfigurationWithOneIsRefusedWithTheNewOne) {
   const std::vector<std::string> expected{
       "mapper/estimator is 'constraint' but must be one of: thesis, msckf, odometry; constraint is "
       "called msckf now",
-      "tracker/arc_length_px is not a parameter; it is a constant now: the thesis's experiments",
+      "tracker/arc_length_px is not a parameter; it is no parameter any more: the thesis's "
+      "experiments",
       "mapper/mounting_deviation_deg is not a parameter; mounting_deviation_deg is called "
       "extrinsics_sigma_deg now",
       "mapper/window_frames is not a parameter; window_frames is called max_clones now",

@@ -135,7 +135,7 @@ TEST(SettingsTest, AnOldNameIsRefusedWithTheNewOne) {
   EXPECT_NE(settingsFault({"observer_fusion/odometry_mode=pose"})
                 .find("observer_fusion is called odometry_fusion now"),
             std::string::npos);
-  EXPECT_NE(settingsFault({"mapper/watchdog_s=1"}).find("it is a constant now"),
+  EXPECT_NE(settingsFault({"mapper/watchdog_s=1"}).find("it is no parameter any more"),
             std::string::npos);
 }
 

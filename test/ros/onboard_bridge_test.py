@@ -114,8 +114,8 @@ class OnboardBridge(unittest.TestCase):
         cls.frames = [stream[at:at + size] for at in range(0, len(stream), size)]
         cls.began_s = time.time()
         program = subprocess.Popen(
-            cls.command(observer=packed / "observer.bin", poses=packed / "poses.bin", map=packed / "landmarks.csv",
-                        every_frame="true") + ["--frames", "-"], stdin=subprocess.PIPE)
+            cls.command(observer=packed / "observer.bin", map=packed / "landmarks.csv") +
+            ["--poses", packed / "poses.bin", "--every-frame", "--frames", "-"], stdin=subprocess.PIPE)
         for frame in cls.frames:  # about as fast as the drone
             program.stdin.write(frame)
             program.stdin.flush()

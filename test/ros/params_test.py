@@ -76,7 +76,7 @@ class Params(unittest.TestCase):
         output, _ = process.communicate(timeout=30)
         self.assertIn("/odd_tracker/thresold_min is not a parameter", output)
         self.assertIn("did you mean threshold_min?", output)
-        self.assertIn("/odd_tracker/arc_length_px is not a parameter and has no effect; it is a constant now", output)
+        self.assertIn("/odd_tracker/arc_length_px is not a parameter and has no effect; it is no parameter any more", output)
         self.assertIn("queue_size=7", output)
         self.assertIn("threshold_min=8", output)
 

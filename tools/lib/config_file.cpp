@@ -197,8 +197,8 @@ PipelineConfig loadConfig(const std::string& path, const std::vector<std::string
     readSection(kOnboard, sections, onboard, faults);
   }
   for (const auto& section : sections) {
-    faults.push_back("unknown section '" + section.first +
-                     "'" + whatBecameOf(OldName::Kind::kSection, section.first) +
+    faults.push_back("unknown section '" + section.first + "'" +
+                     whatBecameOf(OldName::Kind::kSection, section.first) +
                      "; known are tracker, mapper, odometry_fusion and onboard");
   }
   if (!faults.empty()) throw ConfigError(faults);

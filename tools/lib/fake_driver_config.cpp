@@ -61,8 +61,7 @@ World worldOf(const FakeDriverConfig& config) {
   options.flight = flight.name;
   if (!config.world.empty()) options.world = config.world;
   if (hasAutopilot(config)) return makeWorldFor(options);
-  return makeWorld(options.world.value_or(flight.world), flight.light,
-                   options.world_seed);
+  return makeWorld(options.world.value_or(flight.world), flight.light, options.world_seed);
 }
 
 FakeDroneOptions droneOf(const FakeDriverConfig& config) {

@@ -155,7 +155,8 @@ const char* kindOf(OldName::Kind kind) {
 
 void writeOldNames(std::ostringstream& out) {
   out << "\n## Old names\n\nRefused, or warned of where unknown names are, with the new one. All "
-         "other parameters of earlier versions are constants now, and the message says why.\n\n"
+         "other parameters of earlier versions are refused with the reason why they are none any "
+         "more.\n\n"
          "- old name, what it was, name now\n";
   for (const OldName& old : oldNames()) {
     if (*old.now == '\0') continue;
