@@ -107,7 +107,9 @@ class DroneObserver::State {
   OdometryFaultCounts faults_{};
 };
 
-DroneObserver::State::State(const DroneFilterConfig& config) : config_(config) {}
+DroneObserver::State::State(const DroneFilterConfig& config) : config_(config) {
+  validate(config);
+}
 
 void DroneObserver::State::beginAnew() {
   packets_.clear();

@@ -186,7 +186,7 @@ Matrix6d DelayedFusion::growth(const OdometryState& state, double displacement_m
   }
   position.diagonal().array() += squared(config_.velocity_bias_m_s * dt_s);
   position += squared(config_.scale_sigma) * step_map * step_map.transpose();
-  const double keep_tilt = std::exp(-dt_s / OdometryNoiseConfig{}.tilt_time_s);
+  const double keep_tilt = std::exp(-dt_s / config_.tilt_time_s);
   const double tilt_rad2 = squared(radians(config_.tilt_sigma_deg)) * (1 - keep_tilt * keep_tilt);
   const double yaw_rad2 = squared(radians(config_.yaw_walk_deg_per_sqrt_s)) * dt_s +
                           squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * displacement_m;

@@ -62,6 +62,7 @@ class Params(unittest.TestCase):
                                 ["cannot receive there", "a port that no other program receives at"])
 
     def test_unknown_parameter_is_warned_of(self):
+        rospy.set_param("/observer_fusion/odometry_mode", "twist")
         process = start("tracker_node", "__name:=odd_tracker", "_thresold_min:=30", "_arc_length_px:=9",
                         "_queue_size:=7")
         master = rosgraph.Master("/params_test")
@@ -77,6 +78,7 @@ class Params(unittest.TestCase):
         self.assertIn("/odd_tracker/thresold_min is not a parameter", output)
         self.assertIn("did you mean threshold_min?", output)
         self.assertIn("/odd_tracker/arc_length_px is not a parameter and has no effect; it is no parameter any more", output)
+        self.assertIn("/observer_fusion is not a section and has no effect; observer_fusion is called odometry_fusion now", output)
         self.assertIn("queue_size=7", output)
         self.assertIn("threshold_min=8", output)
 
