@@ -83,9 +83,11 @@ void visitParameters(OnboardConfig& c, Visitor&& visit) {
                       "file that gets the landmarks at the end, as replay's landmarks.csv; empty: "
                       "none"},
         c.map);
-  visit(ParameterInfo{"priority", "nice", -20, 19,
-                      "of the process; above 0: the controller goes first. Below 0 needs root"},
-        c.priority);
+  visit(
+      ParameterInfo{
+          "priority", "nice", -20, 19,
+          "nice value of the process; above 0: the controller goes first. Below 0 needs root"},
+      c.priority);
   visit(ParameterInfo{"cpu_share", "ratio", 0.01, 1,
                       "at most this share of the processor: after an image it waits as long as "
                       "that takes"},

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <vector>
 
+#include "map/landmark_locator.hpp"
 #include "measurements.hpp"
 #include "random_source.hpp"
-#include "map/landmark_locator.hpp"
 
 namespace ardrone_vslam::reproduction {
 namespace {

@@ -119,7 +119,7 @@ void visitParameters(OdometryAdapterConfig& c, Visitor&& visit) {
                     "the twist (axes of base) and the orientation, for drivers that integrate "
                     "wrongly (ardrone_autonomy's yaw is mirrored). navdata: the package's own "
                     "observer of the AR.Drone's topics `navdata` and `imu` takes the odometry's "
-                    "place. The same in both sections",
+                    "place. `mapper` and `odometry_fusion` need the same",
                     turnFirst(3)},
       c.mode);
   visit(ParameterInfo{"odometry_height", "choice", 0, 0,
@@ -157,7 +157,8 @@ void visitParameters(HeightInputConfig& c, Visitor&& visit) {
                       turnFirst(4)},
         c.use_range);
   visit(ParameterInfo{"use_navdata_height", "switch", 0, 0,
-                      "the same by the height in the AR.Drone's navdata (the topic `altitude`)",
+                      "the AR.Drone's navdata (the topic `altitude`) tell the height above the "
+                      "floor, and so the scale when it changes",
                       turnFirst(5)},
         c.use_navdata_height);
   visit(ParameterInfo{"known_height_m", "m", 0, 1000,

@@ -22,8 +22,7 @@ void Anchors::choose(const WindowState& state, double point_distance_m) {
     const double displacement_m = (newest.position_map - anchor.position_map).norm();
     const double rotation_rad =
         Eigen::AngleAxisd(newest.R_map_rig.transpose() * anchor.R_map_rig).angle();
-    if (displacement_m < kSpacing * point_distance_m &&
-        rotation_rad < kRotation_deg * M_PI / 180)
+    if (displacement_m < kSpacing * point_distance_m && rotation_rad < kRotation_deg * M_PI / 180)
       return;
   }
   current_id_ = newest.id;

@@ -73,7 +73,8 @@ std::vector<std::string> faultsOf(const std::string& yaml) {
 
 TEST(OldNames, EachIsUnknownNowAndTheNewOneExists) {
   const std::map<std::string, Names> known = namesOfSections();
-  const Names estimators(EnumNames<EstimatorKind>::kNames.begin(), EnumNames<EstimatorKind>::kNames.end());
+  const Names estimators(EnumNames<EstimatorKind>::kNames.begin(),
+                         EnumNames<EstimatorKind>::kNames.end());
   Names seen;
   for (const OldName& old : oldNames()) {
     SCOPED_TRACE(std::string(old.owner) + " " + old.name);

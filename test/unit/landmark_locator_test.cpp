@@ -150,7 +150,8 @@ TEST(LandmarkLocator, ExactMeanWeighsWrongMatchesDown) {
     for (std::size_t i = 0; i < 30; ++i)  // another thing to the left of what the landmarks show
       observations[i].direction_map =
           (observations[i].direction_map + Eigen::Vector3d(0, 0.1, 0)).normalized();
-    const auto fix = LandmarkLocator(config).locate(observations, Eigen::Vector3d::Zero(), kPixel_rad);
+    const auto fix =
+        LandmarkLocator(config).locate(observations, Eigen::Vector3d::Zero(), kPixel_rad);
     const auto drawn =
         LandmarkLocator(trusting).locate(observations, Eigen::Vector3d::Zero(), kPixel_rad);
     ASSERT_TRUE(fix && drawn);

@@ -38,19 +38,21 @@ void visitParameters(FakeDriverConfig& c, Visitor&& visit) {
                       "other side's"},
         c.camera);
   visit(
-      ParameterInfo{"faults", "names", 0, 0,
-                    "of the driver, with commas between them: docs/make_world.md lists them; none; "
-                    "released: those of every flight with ardrone_autonomy 1.4.1"},
+      ParameterInfo{
+          "faults", "names", 0, 0,
+          "faults of the driver, with commas between them: docs/make_world.md lists them; none; "
+          "released: those of every flight with ardrone_autonomy 1.4.1"},
       c.faults);
   visit(ParameterInfo{"odometry_profile", "name", 0, 0,
                       "how the drone's measurements drift (config/odometry_profiles.yaml)"},
         c.odometry_profile);
-  visit(ParameterInfo{"rate", "Hz", 0.1, 100, "of the images"}, c.rate);
+  visit(ParameterInfo{"rate", "Hz", 0.1, 100, "images a second"}, c.rate);
   visit(ParameterInfo{"wind", "m/s", 0, 3,
                       "standard deviation of the air's speed: a fifth of it moves a hovering "
                       "drone"},
         c.wind);
-  visit(ParameterInfo{"seed", "-", 0, 2147483647, "of all noise"}, c.seed);
+  visit(ParameterInfo{"seed", "-", 0, 2147483647, "of the noise in all that is measured and seen"},
+        c.seed);
 }
 
 /// @throws std::invalid_argument that names the parameter whose text is not known, and what is
