@@ -74,7 +74,7 @@ std::string explain(OdometryBuffer::Lookup miss, const std::string& odometry_top
              ": the clocks differ, or images come later than odometry_buffer_s";
     case Lookup::kGap:
       return "the odometry on " + odometry_topic +
-             " has a hole longer than odometry_max_gap_s at the images' stamps; check its rate "
+             " has a hole longer than half a second at the images' stamps; check its rate "
              "(`rostopic hz`)";
   }
   return {};

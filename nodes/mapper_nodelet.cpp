@@ -35,7 +35,7 @@ void MapperNodelet::onInit() {
   };
   tick_timer_ = every(kTick_s, [this] { processReady(); });
   second_timer_ = every(1.0, [this] { onSecond(); });
-  map_timer_ = every(1.0 / node_config_.outputs.map_publish_hz, [this] {
+  map_timer_ = every(MapperOutputs::kMapPeriod_s, [this] {
     if (slam_) outputs_->publishMap(slam_->landmarks(), frames_.map);
   });
   subscribeOdometry();

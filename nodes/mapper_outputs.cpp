@@ -5,6 +5,7 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr std::uint32_t kQueue = 100;
+constexpr std::size_t kMostPathPoses = 5000;  // a path is sent whole; the oldest go first
 
 }  // namespace
 
@@ -72,7 +73,7 @@ void MapperOutputs::remember(Poses& poses, const Eigen::Isometry3d& T_a_b, const
   pose.header.frame_id = frames.map;
   pose.pose = toPose(T_a_b);
   poses.push_back(pose);
-  if (poses.size() > static_cast<std::size_t>(config_.max_path_poses)) poses.pop_front();
+  if (poses.size() > kMostPathPoses) poses.pop_front();
 }
 
 nav_msgs::Path MapperOutputs::toPath(const Poses& poses) {

@@ -17,6 +17,9 @@ namespace ardrone_vslam {
 /// Everything that the mapper publishes beside its status; onboard_bridge, too.
 class MapperOutputs {
  public:
+  /// How often publishMap() is to be called: a large map twice a second leaves the link to others.
+  static constexpr double kMapPeriod_s = 0.5;
+
   MapperOutputs(ros::NodeHandle& nh, const OutputsConfig& config);
 
   /// Pose, odometry and correction of one image; remembers the path.

@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "ardrone_vslam/parameters.hpp"
+#include "../onboard/onboard_config.hpp"
+#include "ardrone_vslam/slam_config.hpp"
 
 /// What the nodelets read beside the stages' own parameters. Offline tools pass over these keys
 /// (tools/lib/config_file.cpp; a test holds the two lists together).
@@ -23,31 +24,40 @@ struct TrackerNodeConfig {
   int queue_size = 5;
 };
 
+/// Texts of parameters that several nodelets have.
+namespace effects {
+constexpr const char* kQueue =
+    "images (tracker) or their features (mapper) kept while it is busy; the oldest go first";
+constexpr const char* kMapFrame = "frame of the poses and of the map";
+constexpr const char* kOdomFrame = "frame of the odometry; empty: the odometry's header.frame_id";
+constexpr const char* kBaseFrame = "frame of the robot; empty: the odometry's child_frame_id";
+}  // namespace effects
+
 template <class Visitor>
 void visitParameters(TrackerNodeConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"image_transport", "choice", 0, 0,
-                      "raw: the topic `image`; compressed: `image`/compressed"},
-        c.image_transport);
+  visit(
+      ParameterInfo{"image_transport", "choice", 0, 0,
+                    "raw: the topic `image`. compressed: `image`/compressed (JPEG)", turnFirst(22)},
+      c.image_transport);
   visit(ParameterInfo{"rectified", "switch", 0, 0,
-                      "the images are rectified: use camera_info's P, no distortion"},
+                      "the images are rectified: use camera_info's P, no distortion. Also read by "
+                      "the offline tools, for bags",
+                      turnFirst(23)},
         c.rectified);
   visit(ParameterInfo{"rescale_calibration", "switch", 0, 0,
                       "camera_info's K may be of another size than the images (half, double), as "
-                      "ardrone_autonomy does not rescale it: its middle tells"},
+                      "ardrone_autonomy does not rescale it: its middle tells. Also read by the "
+                      "offline tools, for bags"},
         c.rescale_calibration);
-  visit(ParameterInfo{"image_time_offset_s", "s", -5, 5, "as the mapper's, for use_attitude"},
+  visit(ParameterInfo{"image_time_offset_s", "s", -5, 5, kImageTimeOffset, turnFirst(2)},
         c.image_time_offset_s);
-  visit(ParameterInfo{"queue_size", "images", 1, 10000,
-                      "images kept while the tracker is busy; the oldest go first"},
-        c.queue_size);
+  visit(ParameterInfo{"queue_size", "images", 1, 10000, effects::kQueue}, c.queue_size);
 }
 
 /// Of MapperOutputs.
 struct OutputsConfig {
   double transform_tolerance_s = 0.2;
   bool publish_tf = true;
-  double map_publish_hz = 2.0;
-  int max_path_poses = 5000;
 };
 
 template <class Visitor>
@@ -57,12 +67,6 @@ void visitParameters(OutputsConfig& c, Visitor&& visit) {
                       "the next one"},
         c.transform_tolerance_s);
   visit(ParameterInfo{"publish_tf", "switch", 0, 0, "send tf map -> odom"}, c.publish_tf);
-  visit(ParameterInfo{"map_publish_hz", "Hz", 0.01, 100.0,
-                      "largest rate of paths, landmark cloud and markers"},
-        c.map_publish_hz);
-  visit(ParameterInfo{"max_path_poses", "poses", 1, 1000000,
-                      "poses kept in each path; the oldest go first"},
-        c.max_path_poses);
 }
 
 struct MapperNodeConfig {
@@ -76,19 +80,17 @@ struct MapperNodeConfig {
 
 template <class Visitor>
 void visitParameters(MapperNodeConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"map_frame", "name", 0, 0, "frame of the poses and of the map"}, c.map_frame);
-  visit(ParameterInfo{"odom_frame", "name", 0, 0, "empty: the odometry's header.frame_id"},
+  visit(ParameterInfo{"map_frame", "name", 0, 0, effects::kMapFrame, turnFirst(24)}, c.map_frame);
+  visit(ParameterInfo{"odom_frame", "name", 0, 0, effects::kOdomFrame, turnFirst(25)},
         c.odom_frame);
-  visit(ParameterInfo{"base_frame", "name", 0, 0, "empty: the odometry's child_frame_id"},
+  visit(ParameterInfo{"base_frame", "name", 0, 0, effects::kBaseFrame, turnFirst(26)},
         c.base_frame);
   visit(
       ParameterInfo{"odometry_wait_s", "s", 0.0, 60.0,
                     "how long an image waits for its odometry and extrinsics before it is dropped"},
       c.odometry_wait_s);
   visitParameters(c.outputs, visit);
-  visit(ParameterInfo{"queue_size", "images", 1, 10000,
-                      "images' features kept while the mapper is busy; the oldest go first"},
-        c.queue_size);
+  visit(ParameterInfo{"queue_size", "images", 1, 10000, effects::kQueue}, c.queue_size);
 }
 
 struct OdometryFusionNodeConfig {
@@ -98,16 +100,14 @@ struct OdometryFusionNodeConfig {
 
 template <class Visitor>
 void visitParameters(OdometryFusionNodeConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"map_frame", "name", 0, 0, "as the mapper's"}, c.map_frame);
-  visit(ParameterInfo{"base_frame", "name", 0, 0, "empty: the odometry's child_frame_id"},
+  visit(ParameterInfo{"map_frame", "name", 0, 0, effects::kMapFrame, turnFirst(24)}, c.map_frame);
+  visit(ParameterInfo{"base_frame", "name", 0, 0, effects::kBaseFrame, turnFirst(26)},
         c.base_frame);
 }
 
 struct OnboardBridgeConfig {
-  std::string address = "0.0.0.0";
-  int port = 5582;
+  std::string address = "0.0.0.0:5582";
   bool same_clock = false;
-  double silent_s = 1.0;
   std::string camera;
   std::string camera_frame = "camera";
   std::string map_frame = "map";
@@ -120,49 +120,29 @@ struct OnboardBridgeConfig {
 template <class Visitor>
 void visitParameters(OnboardBridgeConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"address", "name", 0, 0,
-                      "what vslam_onboard sends is received at this address of the computer; "
-                      "0.0.0.0: at all"},
+                      "ADDRESS:PORT of this computer, at which vslam_onboard's datagrams are "
+                      "received (its `telemetry_address`). Address 0.0.0.0: at all; port 0: any "
+                      "that is free, the log and the diagnostics say which"},
         c.address);
-  visit(ParameterInfo{"port", "port", 0, 65535,
-                      "and UDP port: vslam_onboard's telemetry_port; 0: any that is free, the log "
-                      "and the diagnostics say which"},
-        c.port);
   visit(
       ParameterInfo{"same_clock", "switch", 0, 0,
                     "the drone's stamps are of this computer's time of day (`realtime_clock`, and "
                     "both synchronised): taken as they are; off: the fastest answers tell how far "
                     "the clocks are apart"},
       c.same_clock);
-  visit(ParameterInfo{"silent_s", "s", 0.001, 3600,
-                      "without a datagram for so long the status says that the drone is silent"},
-        c.silent_s);
-  visit(ParameterInfo{"camera", "name", 0, 0,
-                      "file of the camera's calibration, the same as vslam_onboard's: for bearings "
-                      "and the image's size; empty: neither `features` nor `debug_image`"},
-        c.camera);
+  visit(ParameterInfo{"camera", "name", 0, 0, kCalibrationFile}, c.camera);
   visit(ParameterInfo{"camera_frame", "name", 0, 0, "the camera's optical frame, of `features`"},
         c.camera_frame);
-  visit(ParameterInfo{"map_frame", "name", 0, 0, "frame of the poses and of the map"}, c.map_frame);
-  visit(ParameterInfo{"odom_frame", "name", 0, 0, "of the flight controller's own estimate"},
+  visit(ParameterInfo{"map_frame", "name", 0, 0, effects::kMapFrame, turnFirst(24)}, c.map_frame);
+  visit(ParameterInfo{"odom_frame", "name", 0, 0, effects::kOdomFrame, turnFirst(25)},
         c.odom_frame);
-  visit(ParameterInfo{"base_frame", "name", 0, 0, "of the drone"}, c.base_frame);
+  visit(ParameterInfo{"base_frame", "name", 0, 0, effects::kBaseFrame, turnFirst(26)},
+        c.base_frame);
   visit(ParameterInfo{"publish_odom_tf", "switch", 0, 0,
                       "send tf odom -> base, the estimate that the answer started from; off where "
                       "another node sends it"},
         c.publish_odom_tf);
   visitParameters(c.outputs, visit);
-}
-
-struct PathNodeConfig {
-  int max_poses = 100000;
-  double publish_hz = 2.0;
-};
-
-template <class Visitor>
-void visitParameters(PathNodeConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"max_poses", "poses", 1, 10000000, "the path begins anew beyond it"},
-        c.max_poses);
-  visit(ParameterInfo{"publish_hz", "Hz", 0.01, 100.0, "largest rate of the path"}, c.publish_hz);
 }
 
 }  // namespace ardrone_vslam

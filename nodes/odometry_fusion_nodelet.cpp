@@ -148,7 +148,7 @@ std::string OdometryFusionNodelet::explain(DelayedFusion::Answer answer,
                   " s older than the newest odometry, and the odometry of that time is not kept; "
                   "raise odometry_buffer_s, or let the mapper do less");
     case DelayedFusion::Answer::kGap:
-      return text("the odometry has a hole longer than odometry_max_gap_s at its stamp");
+      return text("the odometry has a hole longer than half a second at its stamp");
     case DelayedFusion::Answer::kNotAfter:
       return "its stamp is not after that of the correction in use";
     case DelayedFusion::Answer::kOtherOdometry:

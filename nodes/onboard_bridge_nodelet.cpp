@@ -20,6 +20,7 @@ namespace {
 constexpr int kStop_ms = 100;  // how late the thread may notice that it is to end
 constexpr std::size_t kLargestDatagram = 65536;
 constexpr std::uint32_t kQueue = 100;
+constexpr int kPort = 5582;
 
 }  // namespace
 
@@ -49,7 +50,7 @@ void OnboardBridgeNodelet::onInit() {
                               [action](const ros::WallTimerEvent&) { action(); });
   };
   second_timer_ = every(1.0, [this] { onSecond(); });
-  map_timer_ = every(1.0 / config_.outputs.map_publish_hz, [this] {
+  map_timer_ = every(MapperOutputs::kMapPeriod_s, [this] {
     const std::lock_guard<std::mutex> lock(mutex_);
     outputs_->publishMap(stream_.telemetry().landmarks(), frames_.map);
   });
@@ -81,15 +82,17 @@ void OnboardBridgeNodelet::readParameters() {
 }
 
 void OnboardBridgeNodelet::openSocket() {
+  UdpAddress address;
   try {
-    socket_ = receiveAt(config_.address, config_.port);
+    address = udpAddressOf(config_.address, kPort);
+    socket_ = receiveAt(address);
   } catch (const std::runtime_error& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what()
                                    << "; set `address` to one of this computer (0.0.0.0: all), and "
-                                      "`port` to one that no other program receives at");
+                                      "a port that no other program receives at");
     throw;
   }
-  receiving_at_ = config_.address + ":" + std::to_string(portOf(socket_.get()));
+  receiving_at_ = address.host + ":" + std::to_string(portOf(socket_.get()));
   NODELET_INFO_STREAM("receiving at " << receiving_at_);
 }
 

@@ -8,6 +8,7 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr double kSilent_s = 1;       // without a datagram: five answers a second come at least
 constexpr double kClocksApart_s = 5;  // more than any delay of a link that is of use
 
 constexpr std::array<const char*, kDatagramFaultCount> kCountNames{
@@ -48,7 +49,7 @@ void OnboardBridgeNodelet::publishStatus(Status& status) {
 /// One that has said that it ends is not silent.
 bool OnboardBridgeNodelet::isSilent() const {
   const double silent_s = static_cast<double>(now_ns() - heard_ns_) * 1e-9;
-  return heard_ns_ == 0 || (silent_s > config_.silent_s && latest_.state != Status::ENDED);
+  return heard_ns_ == 0 || (silent_s > kSilent_s && latest_.state != Status::ENDED);
 }
 
 void OnboardBridgeNodelet::onSecond() {

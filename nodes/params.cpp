@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "params.hpp"
 
+#include <ros/names.h>
+#include <ros/param.h>
+
 namespace ardrone_vslam {
 namespace {
 
@@ -65,6 +68,25 @@ void ParamReader::finish() const {
   if (!faults_.empty()) throw ConfigError(faults_);
 }
 
+std::string ParamReader::remedyOf(const std::string& name) const {
+  const std::string became = whatBecameOf(OldName::Kind::kParameter, name);
+  if (!became.empty()) return became;
+  const std::string nearest = nearestName(name, known_);
+  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+}
+
+std::vector<std::string> ParamReader::oldSections() const {
+  std::vector<std::string> sentences;
+  const std::string above = ros::names::parentNamespace(nh_.getNamespace());
+  for (const OldName& old : oldNames()) {
+    const std::string section = ros::names::append(above, old.name);
+    if (old.kind != OldName::Kind::kSection || !ros::param::has(section)) continue;
+    sentences.push_back(section + " is not a section and has no effect" +
+                        whatBecameOf(old.kind, old.name));
+  }
+  return sentences;
+}
+
 std::vector<std::string> ParamReader::unknownKeys() const {
   std::vector<std::string> all;
   std::vector<std::string> sentences;
@@ -74,11 +96,11 @@ std::vector<std::string> ParamReader::unknownKeys() const {
     if (full_name.compare(0, prefix.size(), prefix) != 0) continue;
     const std::string name = full_name.substr(prefix.size());
     if (known_.count(name) > 0 || keysOfRos().count(name) > 0) continue;
-    const std::string nearest = nearestName(name, known_);
-    sentences.push_back(full_name + " is not a parameter and has no effect" +
-                        (nearest.empty() ? "" : "; did you mean " + nearest + "?") +
+    sentences.push_back(full_name + " is not a parameter and has no effect" + remedyOf(name) +
                         " (docs/parameters.md lists all)");
   }
+  const std::vector<std::string> old = oldSections();
+  sentences.insert(sentences.end(), old.begin(), old.end());
   return sentences;
 }
 

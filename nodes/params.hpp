@@ -35,7 +35,7 @@ class ParamReader {
   void finish() const;
 
   /// One sentence for each key under the private namespace that no struct has, with the nearest
-  /// known name.
+  /// known name, and for each section beside it whose name is an old one.
   std::vector<std::string> unknownKeys() const;
 
   /// "name=value name=value ..." of all that was read.
@@ -75,7 +75,8 @@ class ParamReader {
       }
       choices += std::string(choices.empty() ? "" : ", ") + EnumNames<Enum>::kNames[i];
     }
-    wrongType(info, given, "one of: " + choices);
+    wrongType(info, given,
+              "one of: " + choices + whatBecameOf(OldName::Kind::kChoice, name, info.name));
   }
 
   /// @return false when the given value has another type; an integer is a valid double.
@@ -88,6 +89,8 @@ class ParamReader {
   static const char* typeName(double) { return "a number"; }
   static const char* typeName(const std::string&) { return "a text"; }
 
+  std::string remedyOf(const std::string& name) const;
+  std::vector<std::string> oldSections() const;
   void wrongType(const ParameterInfo& info, XmlRpc::XmlRpcValue& given,
                  const std::string& expected);
 

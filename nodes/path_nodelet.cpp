@@ -6,36 +6,35 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "node_config.hpp"
 #include "params.hpp"
 
 namespace ardrone_vslam {
+
+namespace {
+
+constexpr std::size_t kMostPoses = 100000;  // eight minutes at 200 a second; then it begins anew
+constexpr double kPeriod_s = 0.5;           // of publishing: a path is sent whole each time
+
+}  // namespace
 
 /// Poses in, their path out: rviz shows a path, but of a pose only the newest. For the truth that
 /// bags carry.
 class PathNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
-    ParamReader reader(getPrivateNodeHandle());
-    reader.read(config_);
+    const ParamReader reader(getPrivateNodeHandle());  // it has none
     for (const auto& sentence : reader.unknownKeys()) NODELET_WARN_STREAM(sentence);
-    try {
-      reader.finish();
-    } catch (const ConfigError& e) {
-      NODELET_FATAL_STREAM(getName() << ": " << e.what());
-      throw;
-    }
     ros::NodeHandle& nh = getNodeHandle();
     path_pub_ = nh.advertise<nav_msgs::Path>("path", 1);
     pose_sub_ = nh.subscribe("pose", 1000, &PathNodelet::onPose, this);
-    timer_ = nh.createWallTimer(ros::WallDuration(1.0 / config_.publish_hz),
+    timer_ = nh.createWallTimer(ros::WallDuration(kPeriod_s),
                                 [this](const ros::WallTimerEvent&) { publish(); });
   }
 
   void onPose(const geometry_msgs::PoseStampedConstPtr& pose) {
     auto& poses = path_.poses;
     const bool is_restart = !poses.empty() && pose->header.stamp < poses.back().header.stamp;
-    if (is_restart || poses.size() >= static_cast<std::size_t>(config_.max_poses)) poses.clear();
+    if (is_restart || poses.size() >= kMostPoses) poses.clear();
     poses.push_back(*pose);
     path_.header = pose->header;
     is_new_ = true;
@@ -48,7 +47,6 @@ class PathNodelet : public nodelet::Nodelet {
     subscribers_ = subscribers;
   }
 
-  PathNodeConfig config_;
   ros::Subscriber pose_sub_;
   ros::Publisher path_pub_;
   ros::WallTimer timer_;

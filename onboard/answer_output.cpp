@@ -15,6 +15,9 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr int kPosePort = 5581;
+constexpr int kTelemetryPort = 5582;
+
 void put(const Eigen::Isometry3d& T, double* position_m, double* quaternion) {
   const Eigen::Quaterniond q(T.linear());
   for (int axis = 0; axis < 3; ++axis) position_m[axis] = T.translation()[axis];
@@ -25,9 +28,10 @@ void put(const Eigen::Isometry3d& T, double* position_m, double* quaternion) {
 
 AnswerOutput::AnswerOutput(const OnboardConfig& config)
     : telemetry_period_ns_(std::llround(1e9 / config.telemetry_hz)) {
-  if (config.pose_port != 0) pose_socket_ = sendTo(config.pose_address, config.pose_port);
+  if (!config.pose_address.empty())
+    pose_socket_ = sendTo(udpAddressOf(config.pose_address, kPosePort));
   if (!config.telemetry_address.empty())
-    telemetry_socket_ = sendTo(config.telemetry_address, config.telemetry_port);
+    telemetry_socket_ = sendTo(udpAddressOf(config.telemetry_address, kTelemetryPort));
   if (config.poses.empty()) return;
   pose_file_ = FileDescriptor(::open(config.poses.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644));
   if (!pose_file_.isOpen())

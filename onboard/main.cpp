@@ -35,18 +35,22 @@ constexpr const char* kUsage =
     "Poses from a camera and a flight controller's observer, on the drone (docs/onboard.md).\n"
     "  --config     yaml with the sections onboard, tracker and mapper (docs/parameters.md)\n"
     "  --self-test  check processor, clock, kernels, memory and camera; exit code 1 if one fails\n"
+    "  --poses      file that gets the answers, too\n"
+    "  --every-frame  no image is dropped for a newer one (a FIFO; files never drop any)\n"
     "The other options are parameters of the section onboard. SIGTERM ends it and saves the map.\n";
 
 struct Arguments {
   std::string config;
   std::vector<std::string> overrides;
+  std::string poses;
+  bool every_frame = false;
   bool is_self_test = false;
 };
 
 /// @return an exit code to end with, negative to go on
 int parse(int argc, char** argv, Arguments& arguments) {
   // Values above any letter: options that are parameters.
-  enum { kConfig = 256, kSet, kSelfTest, kVersion, kHelp, kEveryFrame, kParameter };
+  enum { kConfig = 256, kSet, kSelfTest, kVersion, kHelp, kEveryFrame, kPoses, kParameter };
   static const option options[] = {{"config", required_argument, nullptr, kConfig},
                                    {"set", required_argument, nullptr, kSet},
                                    {"self-test", no_argument, nullptr, kSelfTest},
@@ -56,7 +60,7 @@ int parse(int argc, char** argv, Arguments& arguments) {
                                    {"frames", required_argument, nullptr, kParameter},
                                    {"camera", required_argument, nullptr, kParameter},
                                    {"observer", required_argument, nullptr, kParameter},
-                                   {"poses", required_argument, nullptr, kParameter},
+                                   {"poses", required_argument, nullptr, kPoses},
                                    {"map", required_argument, nullptr, kParameter},
                                    {"priority", required_argument, nullptr, kParameter},
                                    {"cpu-share", required_argument, nullptr, kParameter},
@@ -81,7 +85,10 @@ int parse(int argc, char** argv, Arguments& arguments) {
         arguments.is_self_test = true;
         break;
       case kEveryFrame:
-        arguments.overrides.emplace_back("onboard/every_frame=true");
+        arguments.every_frame = true;
+        break;
+      case kPoses:
+        arguments.poses = optarg;
         break;
       case kParameter: {
         std::string name = options[which].name;
@@ -137,7 +144,9 @@ int main(int argc, char** argv) {
     if (exit_code >= 0) return exit_code;
     const std::string& kernels_fault = instructionSetInUse().fault;
     if (!kernels_fault.empty()) std::fprintf(stderr, "vslam_onboard: %s\n", kernels_fault.c_str());
-    const Settings settings = loadSettings(arguments.config, arguments.overrides);
+    Settings settings = loadSettings(arguments.config, arguments.overrides);
+    settings.onboard.every_frame = arguments.every_frame;
+    settings.onboard.poses = arguments.poses;
     takeMemoryFor(settings);
     if (arguments.is_self_test) return selfTest(settings) ? 0 : kFault;
     return run(settings);

@@ -14,10 +14,15 @@
 #include "udp.hpp"
 
 namespace ardrone_vslam {
+namespace {
+
+constexpr int kObserverPort = 5580;
+
+}  // namespace
 
 ObserverSource::ObserverSource(const OnboardConfig& config, int stop_fd) {
-  if (config.observer.empty()) {
-    socket_ = receiveAt(config.observer_address, config.observer_port);
+  if (isUdpAddress(config.observer)) {
+    socket_ = receiveAt(udpAddressOf(config.observer, kObserverPort));
     return;
   }
   struct stat status {};

@@ -2,6 +2,7 @@
 #include "settings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "../nodes/node_config.hpp"  // the structs alone: no ROS
@@ -43,9 +44,8 @@ class SectionReader {
     (visitParameters(configs, ValueReader{name, &values, &faults_}), ...);
     (visitParameters(configs, NameCollector{&names}), ...);
     for (const auto& leftover : values) {
-      const std::string nearest = nearestName(leftover.first, names);
       faults_.push_back(name + "/" + leftover.first + " is not a parameter" +
-                        (nearest.empty() ? "" : "; did you mean " + name + "/" + nearest));
+                        remedyFor(name, leftover.first, names));
     }
     (addRangeFaults(configs), ...);
   }
@@ -53,8 +53,9 @@ class SectionReader {
   void refuseOthers() {
     for (const auto& section : sections_) {
       if (section.first.empty() && section.second.empty()) continue;
-      faults_.push_back("unknown section '" + section.first +
-                        "'; known are onboard, tracker, mapper and odometry_fusion");
+      faults_.push_back("unknown section '" + section.first + "'" +
+                        whatBecameOf(OldName::Kind::kSection, section.first) +
+                        "; known are onboard, tracker, mapper and odometry_fusion");
     }
   }
 
@@ -100,6 +101,20 @@ void besideFile(const std::string& path, std::string& name) {
     name = path.substr(0, slash + 1) + name;
 }
 
+void readVector(const std::string& name, const std::string& text, Eigen::Vector3d& value,
+                std::vector<std::string>& faults) {
+  constexpr double kMost = 1000;  // metres or degrees
+  const std::vector<std::string> items = listOf(text);
+  bool is_good = items.size() == 3;
+  for (std::size_t i = 0; is_good && i < 3; ++i) {
+    double& number = value[static_cast<int>(i)];
+    is_good = toNumber(items[i], number) && std::abs(number) <= kMost;
+  }
+  if (!is_good)
+    faults.push_back("onboard/" + name + " is '" + text +
+                     "' but must be three numbers between -1000 and 1000, as [0, -0.02, 0]");
+}
+
 }  // namespace
 
 Settings loadSettings(const std::string& path, const std::vector<std::string>& overrides) {
@@ -123,6 +138,9 @@ Settings loadSettings(const std::string& path, const std::vector<std::string>& o
   if (s.mapper.odometry_adapter.mode != OdometryMode::kPose)
     faults.push_back("mapper/odometry_mode must be pose: the controller's records hold no more");
   if (s.tracker.use_attitude) faults.push_back("tracker/use_attitude must be false on board");
+  Eigen::Vector3d unused;
+  readVector("camera_position_m", s.onboard.camera_position_m, unused, faults);
+  readVector("camera_rotation_deg", s.onboard.camera_rotation_deg, unused, faults);
   if (!faults.empty()) throw ConfigError(faults);
   s.odometry_wait_s = mapper_node.odometry_wait_s;
   int& landmarks = s.mapper.landmark_map.max_landmarks;
@@ -173,13 +191,18 @@ CameraIntrinsics readCalibration(const std::string& path) {
 }
 
 Eigen::Isometry3d mountingOf(const OnboardConfig& config) {
+  Eigen::Vector3d position_m;
+  Eigen::Vector3d rotation_deg;
+  std::vector<std::string> faults;
+  readVector("camera_position_m", config.camera_position_m, position_m, faults);
+  readVector("camera_rotation_deg", config.camera_rotation_deg, rotation_deg, faults);
+  if (!faults.empty()) throw ConfigError(faults);
   const auto turn = [](double angle_deg, const Eigen::Vector3d& axis) {
     return Eigen::AngleAxisd(angle_deg * M_PI / 180, axis);
   };
-  return Eigen::Translation3d(config.camera_x_m, config.camera_y_m, config.camera_z_m) *
-         turn(config.camera_yaw_deg, Eigen::Vector3d::UnitZ()) *
-         turn(config.camera_pitch_deg, Eigen::Vector3d::UnitY()) *
-         turn(config.camera_roll_deg, Eigen::Vector3d::UnitX());
+  return Eigen::Translation3d(position_m) * turn(rotation_deg.z(), Eigen::Vector3d::UnitZ()) *
+         turn(rotation_deg.y(), Eigen::Vector3d::UnitY()) *
+         turn(rotation_deg.x(), Eigen::Vector3d::UnitX());
 }
 
 }  // namespace ardrone_vslam

@@ -30,7 +30,7 @@ Settings loadSettings(const std::string& path, const std::vector<std::string>& o
 /// @throws ConfigError
 CameraIntrinsics readCalibration(const std::string& path);
 
-/// T_base_cam of the parameters camera_x_m .. camera_yaw_deg.
+/// T_base_cam of camera_position_m and camera_rotation_deg. @throws ConfigError
 Eigen::Isometry3d mountingOf(const OnboardConfig& config);
 
 /// What one landmark takes, indices and room to grow included: 800 to 1190 bytes were measured.

@@ -10,18 +10,22 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "yaml_sections.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
+[[noreturn]] void refuse(const std::string& text) {
+  throw std::runtime_error(text + ": is no address; write it as 192.168.1.1:5580");
+}
+
 template <class Use>
-FileDescriptor openSocket(const std::string& address, int port, const char* purpose,
-                          const Use& use) {
-  const std::string name = address + ":" + std::to_string(port);
+FileDescriptor openSocket(const UdpAddress& address, const char* purpose, const Use& use) {
+  const std::string name = address.host + ":" + std::to_string(address.port);
   sockaddr_in to{};
   to.sin_family = AF_INET;
-  to.sin_port = htons(static_cast<std::uint16_t>(port));
-  if (::inet_pton(AF_INET, address.c_str(), &to.sin_addr) != 1)
-    throw std::runtime_error(name + ": is no address; write it as 192.168.1.1");
+  to.sin_port = htons(static_cast<std::uint16_t>(address.port));
+  if (::inet_pton(AF_INET, address.host.c_str(), &to.sin_addr) != 1) refuse(name);
   FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM, 0));
   if (!socket.isOpen() || ::fcntl(socket.get(), F_SETFL, O_NONBLOCK) != 0 ||
       use(socket.get(), reinterpret_cast<const sockaddr*>(&to), socklen_t{sizeof to}) != 0)
@@ -31,12 +35,28 @@ FileDescriptor openSocket(const std::string& address, int port, const char* purp
 
 }  // namespace
 
-FileDescriptor receiveAt(const std::string& address, int port) {
-  return openSocket(address, port, "cannot receive there", ::bind);
+UdpAddress udpAddressOf(const std::string& text, int default_port) {
+  constexpr int kLargestPort = 65535;
+  const std::size_t colon = text.find(':');
+  UdpAddress address{text.substr(0, colon), default_port};
+  if (colon == std::string::npos) return address;
+  const std::string port = text.substr(colon + 1);
+  if (!toNumber(port, address.port) || address.port < 0 || address.port > kLargestPort)
+    refuse(text);
+  return address;
 }
 
-FileDescriptor sendTo(const std::string& address, int port) {
-  return openSocket(address, port, "cannot send there", ::connect);
+bool isUdpAddress(const std::string& text) {
+  in_addr address{};
+  return ::inet_pton(AF_INET, text.substr(0, text.find(':')).c_str(), &address) == 1;
+}
+
+FileDescriptor receiveAt(const UdpAddress& address) {
+  return openSocket(address, "cannot receive there", ::bind);
+}
+
+FileDescriptor sendTo(const UdpAddress& address) {
+  return openSocket(address, "cannot send there", ::connect);
 }
 
 int portOf(int socket) {

@@ -9,11 +9,22 @@
 
 namespace ardrone_vslam {
 
+/// Where datagrams come from or go to.
+struct UdpAddress {
+  std::string host;  ///< 192.168.1.1
+  int port = 0;
+};
+
+/// Of ADDRESS or ADDRESS:PORT. @throws std::runtime_error for anything else
+UdpAddress udpAddressOf(const std::string& text, int default_port);
+/// Whether it begins with an address, and is no file's name.
+bool isUdpAddress(const std::string& text);
+
 /// A non-blocking UDP socket that receives at an address. @throws std::runtime_error
-FileDescriptor receiveAt(const std::string& address, int port);
+FileDescriptor receiveAt(const UdpAddress& address);
 
 /// A non-blocking UDP socket that sends to an address. @throws std::runtime_error
-FileDescriptor sendTo(const std::string& address, int port);
+FileDescriptor sendTo(const UdpAddress& address);
 
 /// The port that a socket receives at (of one opened with port 0: any that is free).
 int portOf(int socket);

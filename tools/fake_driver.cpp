@@ -25,6 +25,7 @@ FakeDriverConfig readConfig(const ros::NodeHandle& private_nh) {
   reader.read(config);
   for (const auto& sentence : reader.unknownKeys()) ROS_WARN_STREAM(sentence);
   reader.finish();
+  config.tf_prefix = tfPrefixOf(private_nh);
   checkNames(config);
   ROS_INFO_STREAM("fake_driver: " << reader.summary());
   return config;

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <vector>
 
+#include "map/landmark_locator.hpp"
 #include "measurements.hpp"
 #include "random_source.hpp"
-#include "map/landmark_locator.hpp"
 
 namespace ardrone_vslam::reproduction {
 namespace {
@@ -52,7 +52,7 @@ double conventionalDeviation(const std::vector<double>& sigmas) {
 double packageDeviation(const std::vector<double>& sigmas) {
   ThesisFilterConfig config;
   config.min_landmarks = 1;
-  config.fix_deviation_floor_m = 0;
+  config.fix_sigma_floor_m = 0;
   config.fix_angle_floor_deg = 0;
   std::vector<Observation> observations;
   for (const double sigma : sigmas) observations.push_back({{5, 0, 0}, {1, 0, 0}, sigma, 0});
@@ -82,7 +82,7 @@ Fix fixOfWrongObserver(MeanKind mean, int runs) {
   ThesisFilterConfig config;
   config.mean = mean;
   config.min_landmarks = 1;
-  config.fix_deviation_floor_m = 0;
+  config.fix_sigma_floor_m = 0;
   config.fix_angle_floor_deg = 0;
   config.outlier_sigmas = 0;
   const LandmarkLocator locator(config);

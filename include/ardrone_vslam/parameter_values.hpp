@@ -42,7 +42,8 @@ struct SectionValues {
                                           : "number") +
                 " [" + info.unit + "]";
     }
-    faults->push_back(section_name + "/" + info.name + " is '" + text + "' but must be " + must_be);
+    faults->push_back(section_name + "/" + info.name + " is '" + text + "' but must be " + must_be +
+                      whatBecameOf(OldName::Kind::kChoice, text, info.name));
   }
 
  private:

@@ -12,6 +12,29 @@
 
 namespace ardrone_vslam {
 
+/// Where docs/parameters.md lists a parameter.
+enum class PagePart {
+  kUser,      ///< on its first part
+  kAdvanced,  ///< behind it
+  kArDrone,   ///< of the AR.Drone's own sensors alone
+  kThesis     ///< of `estimator: thesis` alone
+};
+
+/// And at which place there: the user's are ordered by what to turn first.
+struct PagePlace {
+  PagePart part = PagePart::kAdvanced;
+  int rank = 0;  ///< the others are in the order of the structs
+};
+
+/// One of the first part. @param rank  from 1 on
+constexpr PagePlace turnFirst(int rank) {
+  return {PagePart::kUser, rank};
+}
+/// One of another part.
+constexpr PagePlace ofPart(PagePart part) {
+  return {part, 0};
+}
+
 /// What a user needs to know of one parameter. Its default is the value in the freshly constructed
 /// struct, so that it is written only once.
 ///
@@ -19,15 +42,17 @@ namespace ardrone_vslam {
 /// @code
 /// template <class Visitor> void visitParameters(S& config, Visitor&& visit);
 /// @endcode
-/// that calls visit(const ParameterInfo&, member) for each member, nested structs included. Members
-/// are int, double, bool or an enumeration with EnumNames. Reading, validation, listing and the
-/// documentation all use it.
+/// that calls visit(const ParameterInfo&, member) for each parameter, nested structs included: an
+/// int, double, bool or an enumeration with EnumNames. Reading, validation, listing and the
+/// documentation all use it. Members that it leaves out are no parameters: only tests and
+/// benchmarks give them other values.
 struct ParameterInfo {
   const char* name;  ///< as in yaml files and in messages
   const char* unit;  ///< "px", "m", "rad", "-" ...; "choice" for enumerations, "switch" for bool
   double min;  ///< smallest and largest valid value of a number; unused for choices and switches
   double max;  ///< likewise
-  const char* effect;  ///< one line for docs/parameters.md and --list-parameters
+  const char* effect;    ///< complete in itself, for docs/parameters.md and --list-parameters
+  PagePlace place = {};  ///< there
 };
 
 /// Specialised for every enumeration that is a parameter: `static constexpr std::array<const char*,
@@ -86,6 +111,30 @@ void validate(const Config& config) {
   const auto faults = rangeFaults(config);
   if (!faults.empty()) throw ConfigError(faults);
 }
+
+/// A name of earlier versions, which is refused with what became of it.
+struct OldName {
+  /// What it was the name of.
+  enum class Kind { kParameter, kChoice, kSection, kOption, kLaunchArgument, kNode };
+  Kind kind;
+  /// The section of a parameter, the parameter of a choice, the program of an option, the file of a
+  /// launch argument.
+  const char* owner;
+  const char* name;
+  const char* now;  ///< empty when nothing has taken its place
+  const char* why;  ///< empty, or why it is a constant now, or what is different
+};
+
+/// All of them.
+const std::vector<OldName>& oldNames();
+/// The sentence for a message that refuses it, beginning with "; ". Empty when the name never was
+/// one. @param owner  empty: any
+std::string whatBecameOf(OldName::Kind kind, const std::string& name,
+                         const std::string& owner = "");
+/// The end of a message that refuses a parameter of a section: what became of it, or the nearest
+/// known name.
+std::string remedyFor(const std::string& section, const std::string& written,
+                      const std::set<std::string>& known);
 
 /// For the message that refuses an unknown name.
 /// @return the known name that takes the fewest letters to insert, remove or replace to become

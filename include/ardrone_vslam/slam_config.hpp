@@ -13,78 +13,47 @@ namespace ardrone_vslam {
 /// about 900 corners an image, FREAK, exact matching and no motion prior, one frame apart: the same
 /// point differs in a median of 56 bits (90 % within 131) on KITTI 03 and 40 (93) in the 7-Scenes
 /// kitchen; 3.4 % and 4.3 % of the matches are false, against 12 % and 9 % with the cross check
-/// alone.
+/// alone. No
+/// parameters: the values hold for the descriptor, not for a robot.
 struct MatcherConfig {
   int max_hamming_bits = 90;
   double ratio = 0.85;
   bool cross_check = true;
 };
 
-template <class Visitor>
-void visitParameters(MatcherConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"max_hamming_bits", "bits", 0, 512, "largest descriptor distance of a match"},
-        c.max_hamming_bits);
-  visit(ParameterInfo{"match_ratio", "-", 0.0, 1.0,
-                      "best distance must be below ratio times the second best; 1 is off"},
-        c.ratio);
-  visit(ParameterInfo{"match_cross_check", "switch", 0, 0,
-                      "a match must be the best one seen from both sides"},
-        c.cross_check);
-}
-
 /// How landmarks and map features are looked for, and what is a mismatch.
 struct AssociationConfig {
-  double search_radius_px = 30.0;
   double landmark_threshold_px = 8.0;
-  double epipolar_threshold_px = 2.0;
   double threshold_sigmas = 3.0;
-  double widening_s = 10.0;
+  double epipolar_threshold_px = 2.0;
+
+  // No parameters, but varied by tests. The pose's own deviation widens what follows.
+  double search_radius_px = 30.0;  ///< window around the predicted pixel
+  /// Landmarks last seen from a direction further off look different, so they are not searched.
   double max_view_angle_deg = 60.0;
-  double max_distance_ratio = 10.0;
+  double max_distance_ratio = 10.0;  ///< likewise from so many times nearer or further away
+  /// When the windows' radius (median) exceeds this share of the image's width, features are
+  /// compared with all landmarks, wherever they should be.
   double max_window_share = 0.5;
-  int index_from_landmarks = 10000;
-  int index_probes = 32;
+  int index_from_landmarks = 10000;  ///< such maps are then searched by an index
+  int index_probes = 32;             ///< of its lists: more find more, slower
   MatcherConfig matcher;
 };
 
 template <class Visitor>
 void visitParameters(AssociationConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"search_radius_px", "px", 1, 2000,
-                      "window around the predicted pixel in which descriptors are compared"},
-        c.search_radius_px);
   visit(ParameterInfo{"landmark_threshold_px", "px", 0.1, 2000,
-                      "a landmark match further from its prediction is a mismatch (5.36)"},
+                      "a landmark match further from its prediction is a mismatch (thesis 5.36)"},
         c.landmark_threshold_px);
-  visit(ParameterInfo{"epipolar_threshold_px", "px", 0.1, 2000,
-                      "a feature match further from its epipolar line is a mismatch (5.44)"},
-        c.epipolar_threshold_px);
   visit(ParameterInfo{"threshold_sigmas", "-", 0, 20,
-                      "adds this many deviations of the pose, seen at the landmark's distance, to "
-                      "window and threshold; 0: fixed"},
+                      "adds so many standard deviations of the pose, as seen at the landmark's "
+                      "distance, to `landmark_threshold_px` and to the search window; 0: fixed, "
+                      "which loses the map when the pose drifts"},
         c.threshold_sigmas);
-  visit(ParameterInfo{"widening_s", "s", 0.01, 1e6,
-                      "MSCKF: those deviations are taken for twice as large after so "
-                      "many seconds in which nothing was recognised, three times after twice as "
-                      "many, and so on"},
-        c.widening_s);
-  visit(ParameterInfo{"max_view_angle_deg", "deg", 1, 180,
-                      "landmarks last seen from a direction further off are not searched"},
-        c.max_view_angle_deg);
-  visit(ParameterInfo{"max_distance_ratio", "-", 1, 1e6,
-                      "landmarks are not searched from so many times nearer or further away than "
-                      "they were last seen"},
-        c.max_distance_ratio);
-  visit(ParameterInfo{"max_window_share", "-", 0, 1e6,
-                      "when the windows' radius (median) exceeds this share of the image width, "
-                      "features are compared with all landmarks, wherever they should be"},
-        c.max_window_share);
-  visit(ParameterInfo{"index_from_landmarks", "landmarks", 0, 10000000,
-                      "maps of so many are then searched by an index, smaller ones exactly"},
-        c.index_from_landmarks);
-  visit(ParameterInfo{"index_probes", "lists", 1, 1000000,
-                      "lists of the index compared with each feature: more find more, slower"},
-        c.index_probes);
-  visitParameters(c.matcher, visit);
+  visit(ParameterInfo{"epipolar_threshold_px", "px", 0.1, 2000,
+                      "a feature match further from its epipolar line is a mismatch (5.44)",
+                      ofPart(PagePart::kThesis)},
+        c.epipolar_threshold_px);
 }
 
 /// How landmarks give a position.
@@ -100,122 +69,88 @@ struct EnumNames<MeanKind> {
 
 /// How landmarks and odometry are weighed, and which fixes are rejected.
 struct ThesisFilterConfig {
-  MeanKind mean = MeanKind::kPrinted;
-  double outlier_sigmas = 3.0;
-  bool common_drift = true;
+  bool as_printed = false;
   int min_landmarks = 10;
-  double initial_sigma_m = 0.01;
   double odometry_noise_m_per_sqrt_m = 0.015;
   double odometry_noise_m_per_sqrt_s = 0.06;
-  double fix_deviation_floor_m = 0.01;
+
+  // No parameters, but varied by tests and by the reproduction of the thesis.
+  /// kExact is undamped along the rays: for odometry without drift of scale.
+  MeanKind mean = MeanKind::kPrinted;
+  /// With kExact: a landmark that lies so many robust deviations off its ray weighs a quarter,
+  /// further ones hardly anything; 0: all weigh fully.
+  double outlier_sigmas = 3.0;
+  /// Landmarks share the drift of the time they were made, so fresh ones correct little; false:
+  /// independent, as printed.
+  bool common_drift = true;
+  double initial_sigma_m = 0.01;    ///< of the position at the first image
+  double fix_sigma_floor_m = 0.01;  ///< errors that all landmarks share: no fix is better
+  /// The same for errors that grow with the landmarks' distance: attitude and calibration.
   double fix_angle_floor_deg = 2.0;
-  double gate_sigmas = 5.0;
-  double attitude_sigma_deg = 0.3;
+  double gate_sigmas = 5.0;  ///< a fix further off the prediction is rejected
 };
+
+/// The thesis's localisation without the package's own corrections: landmarks are independent, a
+/// fix may be as good as it claims, and none is rejected.
+inline ThesisFilterConfig asPrinted(ThesisFilterConfig config) {
+  constexpr double kNoGate = 1e6;
+  config.common_drift = false;
+  config.fix_sigma_floor_m = 0;
+  config.fix_angle_floor_deg = 0;
+  config.gate_sigmas = kNoGate;
+  return config;
+}
 
 template <class Visitor>
 void visitParameters(ThesisFilterConfig& c, Visitor&& visit) {
-  visit(
-      ParameterInfo{
-          "mean", "choice", 0, 0,
-          "printed: weighted mean (6.4), damped along the rays; exact: weighted least squares, "
-          "undamped, for odometry without drift of scale"},
-      c.mean);
-  visit(ParameterInfo{"outlier_sigmas", "-", 0, 1e6,
-                      "mean exact: a landmark that lies this many robust deviations off its ray "
-                      "weighs a quarter, further ones hardly anything; 0: all weigh fully"},
-        c.outlier_sigmas);
-  visit(ParameterInfo{"common_drift", "switch", 0, 0,
-                      "on: landmarks share the drift of the time they were made, so fresh ones "
-                      "correct little and old ones all; "
-                      "off: independent, as printed"},
-        c.common_drift);
-  visit(ParameterInfo{"min_landmarks", "landmarks", 1, 1000, "fewer matched landmarks give no fix"},
+  visit(ParameterInfo{"as_printed", "switch", 0, 0,
+                      "the localisation as the thesis prints it: landmarks are independent, a fix "
+                      "is taken as good as it claims, none is rejected",
+                      ofPart(PagePart::kThesis)},
+        c.as_printed);
+  visit(ParameterInfo{"min_landmarks", "landmarks", 1, 1000, "fewer matched landmarks give no fix",
+                      ofPart(PagePart::kThesis)},
         c.min_landmarks);
-  visit(ParameterInfo{"initial_sigma_m", "m", 1e-6, 100, "position deviation at the first image"},
-        c.initial_sigma_m);
-  visit(
-      ParameterInfo{
-          "odometry_noise_m_per_sqrt_m", "m/sqrt(m)", 0, 10,
-          "odometry noise per square root of the way, where the odometry gives no covariance"},
-      c.odometry_noise_m_per_sqrt_m);
-  visit(
-      ParameterInfo{
-          "odometry_noise_m_per_sqrt_s", "m/sqrt(s)", 0, 10,
-          "odometry noise per square root of time, where the odometry gives no covariance"},
-      c.odometry_noise_m_per_sqrt_s);
-  visit(ParameterInfo{"fix_deviation_floor_m", "m", 0, 10,
-                      "errors that all landmarks share: no fix is taken as better than this"},
-        c.fix_deviation_floor_m);
-  visit(
-      ParameterInfo{
-          "fix_angle_floor_deg", "deg", 0, 45,
-          "the same for errors that grow with the landmarks' distance: attitude and calibration"},
-      c.fix_angle_floor_deg);
-  visit(ParameterInfo{"gate_sigmas", "-", 0.5, 1e6,
-                      "a fix further off the prediction than this many deviations is rejected"},
-        c.gate_sigmas);
-  visit(ParameterInfo{"attitude_sigma_deg", "deg", 0, 90,
-                      "the odometry's attitude, for the published covariance"},
-        c.attitude_sigma_deg);
+  visit(ParameterInfo{"odometry_noise_m_per_sqrt_m", "m/sqrt(m)", 0, 10,
+                      "noise of the odometry's position per square root of distance, where the "
+                      "odometry gives no covariance",
+                      ofPart(PagePart::kThesis)},
+        c.odometry_noise_m_per_sqrt_m);
+  visit(ParameterInfo{"odometry_noise_m_per_sqrt_s", "m/sqrt(s)", 0, 10,
+                      "noise of the odometry's position per square root of time, where the "
+                      "odometry gives no covariance",
+                      ofPart(PagePart::kThesis)},
+        c.odometry_noise_m_per_sqrt_s);
 }
 
 /// When a feature becomes a landmark, how well it is known then, and when it is dropped.
 struct MapperConfig {
-  double angle_sigma_px = 1.0;
-  double position_sigma_m = 0.01;
-  double min_parallax_deg = 1.0;
-  double baseline_growth = 1.2;
   double max_depth_m = 1000.0;
-  int drop_unconfirmed_after = 5;
+
+  // No parameters, but varied by tests.
+  double angle_sigma_px = 1.0;     ///< of a measured direction: sigma_a times the focal length
+  double position_sigma_m = 0.01;  ///< smallest sigma_p of a landmark (5.19, 5.22)
+  double min_parallax_deg = 1.0;   ///< between first and present view: less tells no depth
+  double baseline_growth = 1.2;    ///< a young landmark is triangulated again at so much parallax
+  int drop_unconfirmed_after = 5;  ///< images in view without a match, when seen at most twice
+  /// So many failures for every time it was seen: not found while others of its place are, or off
+  /// an accepted fix.
   double drop_failing_ratio = 10;
 };
 
 template <class Visitor>
 void visitParameters(MapperConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"angle_sigma_px", "px", 0.01, 100,
-                      "deviation of a measured direction, sigma_a times the focal length"},
-        c.angle_sigma_px);
-  visit(ParameterInfo{"position_sigma_m", "m", 0, 10,
-                      "smallest sigma_p of a new or refined landmark (5.19, 5.22)"},
-        c.position_sigma_m);
-  visit(ParameterInfo{"min_parallax_deg", "deg", 0.01, 90,
-                      "angle between the first and the present view that makes a landmark"},
-        c.min_parallax_deg);
-  visit(
-      ParameterInfo{
-          "baseline_growth", "-", 1.0, 1e6,
-          "a young landmark is triangulated again when its parallax has grown by this factor"},
-      c.baseline_growth);
-  visit(ParameterInfo{"max_depth_m", "m", 0.1, 1e5, "points further away do not become landmarks"},
+  visit(ParameterInfo{"max_depth_m", "m", 0.1, 1e5, "points further away do not become landmarks",
+                      turnFirst(21)},
         c.max_depth_m);
-  visit(
-      ParameterInfo{
-          "drop_unconfirmed_after", "frames", 1, 1000000,
-          "a landmark seen at most twice is dropped after so many frames in view without a match"},
-      c.drop_unconfirmed_after);
-  visit(ParameterInfo{"drop_failing_ratio", "-", 0.1, 1e6,
-                      "MSCKF: a landmark is dropped after so many failures for every "
-                      "time it was seen: not found while others of its place are, or off an "
-                      "accepted fix"},
-        c.drop_failing_ratio);
 }
 
-/// How many features wait for depth, and how long.
+/// How many features wait for depth, and how long. No parameters: a camera that moves gives a
+/// feature its depth within seconds.
 struct FeatureMapConfig {
   int max_map_features = 4000;
   double max_feature_age_s = 10.0;
 };
-
-template <class Visitor>
-void visitParameters(FeatureMapConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"max_map_features", "features", 1, 1000000,
-                      "cap of the map of features without depth; the oldest go"},
-        c.max_map_features);
-  visit(ParameterInfo{"max_feature_age_s", "s", 0.01, 1e6,
-                      "features without a second view are dropped after this time"},
-        c.max_feature_age_s);
-}
 
 /// How large the map may become.
 struct LandmarkMapConfig {
@@ -225,7 +160,8 @@ struct LandmarkMapConfig {
 template <class Visitor>
 void visitParameters(LandmarkMapConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"max_landmarks", "landmarks", 10, 10000000,
-                      "cap of the map; the ones not seen for longest go first"},
+                      "cap of the map; landmarks that were not seen for longest go first",
+                      turnFirst(20)},
         c.max_landmarks);
 }
 
@@ -257,24 +193,28 @@ struct SlamConfig {
   LandmarkMapConfig landmark_map;
 };
 
+/// Of `image_time_offset_s`, also the tracker's.
+constexpr const char* kImageTimeOffset =
+    "an image is exposed at its stamp plus this on the odometry's clock: negative where the driver "
+    "stamps images late. `status` and `replay` tell what it seems to be. In the tracker for "
+    "`use_attitude`";
+
 template <class Visitor>
 void visitParameters(SlamConfig& c, Visitor&& visit) {
   visit(
       ParameterInfo{
           "estimator", "choice", 0, 0,
-          "thesis: weighted mean and scalar fusion; msckf: tracks and landmarks of earlier "
-          "visits correct pose and attitude; odometry: passes the odometry on"},
+          "msckf: tracks, and landmarks of earlier visits, correct pose and attitude. thesis: the "
+          "thesis's weighted mean and scalar fusion. odometry: the odometry is passed on",
+          turnFirst(1)},
       c.estimator);
-  visit(
-      ParameterInfo{
-          "planar", "switch", 0, 0,
-          "2-D mode: all z are zero, for a front camera when height and tilt are unknown"},
-      c.planar);
-  visit(ParameterInfo{"image_time_offset_s", "s", -5, 5,
-                      "an image is exposed at its stamp plus this on the odometry's clock; "
-                      "negative where the driver stamps images late (`status` and `replay` tell "
-                      "what it seems to be)"},
+  visit(ParameterInfo{"image_time_offset_s", "s", -5, 5, kImageTimeOffset, turnFirst(2)},
         c.image_time_offset_s);
+  visit(
+      ParameterInfo{"planar", "switch", 0, 0,
+                    "2-D mode: all z are zero, for a front camera when height and tilt are unknown",
+                    ofPart(PagePart::kThesis)},
+      c.planar);
   visitParameters(c.odometry, visit);
   visitParameters(c.odometry_adapter, visit);
   visitParameters(c.drone_filter, visit);
@@ -283,7 +223,6 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
   visitParameters(c.thesis_filter, visit);
   visitParameters(c.msckf, visit);
   visitParameters(c.mapper, visit);
-  visitParameters(c.feature_map, visit);
   visitParameters(c.landmark_map, visit);
 }
 

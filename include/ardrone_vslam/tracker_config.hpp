@@ -23,86 +23,59 @@ namespace ardrone_vslam {
 ///   and with up to 15 what stays need not be the strongest pixel of its cluster.
 enum class Suppression { kLocalClimb, kStrict3x3 };
 
-template <>
-struct EnumNames<Suppression> {
-  static constexpr std::array<const char*, 2> kNames{"climb", "strict"};
-};
-
 /// What is a corner, how many of them, and how the threshold follows the image.
 struct CornerDetectorConfig {
-  int arc_length_px = 12;
-  int threshold = 35;
-  int sampling_passes = 16;
-  Suppression suppression = Suppression::kLocalClimb;
   int features_per_frame = 1000;
   int cell_size_px = 80;
-  bool adapt_threshold = true;
   int threshold_min = 8;
-  int threshold_max = 120;
+
+  // No parameters: what the thesis's experiments, benchmarks and tests vary. The defaults were the
+  // best or the cheapest there.
+  int arc_length_px = 12;    ///< contiguous circle pixels that make a corner: 9 to 12
+  int threshold = 35;        ///< grey-level difference of a circle pixel; the start when it adapts
+  int threshold_max = 120;   ///< highest that adaptation chooses
+  int sampling_passes = 16;  ///< pixels tested in each 4x4 block, 1 to 16: 16 finds every corner
+  Suppression suppression = Suppression::kLocalClimb;
+  bool adapt_threshold = true;  ///< each cell's threshold keeps its corner count in a band
 };
 
 template <class Visitor>
 void visitParameters(CornerDetectorConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"arc_length_px", "px", 9, 12,
-                      "contiguous circle pixels that make a corner (FAST-9..12)"},
-        c.arc_length_px);
-  visit(ParameterInfo{"threshold", "grey", 1, 254,
-                      "grey-level difference of a circle pixel; the start value when it adapts"},
-        c.threshold);
-  visit(ParameterInfo{"sampling_passes", "passes", 1, 16,
-                      "pixels tested in each 4x4 block; 16 finds every corner; fewer save time "
-                      "without SIMD only"},
-        c.sampling_passes);
-  visit(ParameterInfo{"suppression", "choice", 0, 0,
-                      "climb: to the local maximum, found even when unsampled; strict: 3x3"},
-        c.suppression);
   visit(ParameterInfo{"features_per_frame", "corners", 1, 20000,
-                      "corner budget, spread over the image cells"},
+                      "most corners taken of one image, spread over its cells. More: better "
+                      "matches, slower",
+                      turnFirst(19)},
         c.features_per_frame);
   visit(ParameterInfo{"cell_size_px", "px", 16, 4096,
-                      "side of the cells that share the budget and adapt their threshold"},
+                      "side of the cells that share the corners and adapt their threshold; smaller "
+                      "where a part of the image is dark"},
         c.cell_size_px);
-  visit(ParameterInfo{"adapt_threshold", "switch", 0, 0,
-                      "let each cell's threshold keep its corner count in a band"},
-        c.adapt_threshold);
-  visit(
-      ParameterInfo{"threshold_min", "grey", 1, 254, "lowest threshold that adaptation may choose"},
-      c.threshold_min);
-  visit(ParameterInfo{"threshold_max", "grey", 1, 254,
-                      "highest threshold that adaptation may choose"},
-        c.threshold_max);
+  visit(ParameterInfo{"threshold_min", "grey", 1, 35,
+                      "lowest grey-level difference of a corner that a dark cell may go down to"},
+        c.threshold_min);
 }
 
-/// Whether the pattern turns with the patch.
+/// Whether the pattern turns with the patch. No parameter: upright patterns lose what turns.
 struct FreakConfig {
   bool oriented = true;
 };
 
-template <class Visitor>
-void visitParameters(FreakConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"oriented", "switch", 0, 0,
-                      "turn the pattern by the patch's own orientation (45 pairs); off: upright"},
-        c.oriented);
-}
-
 /// How far a track may go between two images, and how alike its descriptors must be.
 struct FrameTrackerConfig {
   double search_radius_px = 80.0;
-  int max_hamming_bits = 100;
-  double ratio = 0.85;
+
+  // No parameters, but varied by tests.
+  int max_hamming_bits = 100;  ///< largest descriptor distance within a track
+  double ratio = 0.85;         ///< the best distance must be below this share of the second best
 };
 
 template <class Visitor>
 void visitParameters(FrameTrackerConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"track_search_radius_px", "px", 1.0, 4096.0,
-                      "how far a feature may move between two frames"},
+                      "how far a feature may move between two images; more for fast turns and few "
+                      "images a second",
+                      turnFirst(17)},
         c.search_radius_px);
-  visit(ParameterInfo{"track_max_hamming_bits", "bits", 0, 512,
-                      "largest descriptor distance within a track"},
-        c.max_hamming_bits);
-  visit(ParameterInfo{"track_ratio", "-", 0.0, 1.0,
-                      "best distance must be below ratio times the second best; 1 is off"},
-        c.ratio);
 }
 
 /// All that makes features of an image.
@@ -110,28 +83,17 @@ struct TrackerConfig {
   CornerDetectorConfig corners;
   FreakConfig freak;
   FrameTrackerConfig tracks;
-  UndistortMethod undistort = UndistortMethod::kTable;
   bool use_attitude = false;
-};
-
-template <>
-struct EnumNames<UndistortMethod> {
-  static constexpr std::array<const char*, 3> kNames{"table", "exact", "closed_form"};
+  UndistortMethod undistort = UndistortMethod::kTable;  ///< no parameter: docs/lens_correction.md
 };
 
 template <class Visitor>
 void visitParameters(TrackerConfig& c, Visitor&& visit) {
   visitParameters(c.corners, visit);
-  visitParameters(c.freak, visit);
   visitParameters(c.tracks, visit);
-  visit(ParameterInfo{"undistort", "choice", 0, 0,
-                      "table: the exact inverse by table, within 1e-6 px; exact: by Newton; "
-                      "closed_form: Drap & Lefevre's three terms, pixels off for strong lenses"},
-        c.undistort);
   visit(ParameterInfo{"use_attitude", "switch", 0, 0,
-                      "turn FREAK's pattern by the odometry's attitude (nodelet: topic `attitude`) "
-                      "instead of 45 pairs a corner: cheaper and steadier; without attitude the 45 "
-                      "pairs"},
+                      "turn descriptors by the odometry's attitude (the nodelet's topic "
+                      "`attitude`) and not by each corner's own look: cheaper and steadier"},
         c.use_attitude);
 }
 

@@ -12,25 +12,18 @@ class Parameter:
     name: str
     default: str
     unit: str
-    section: str
+    sections: tuple
 
 
 def read_page(text):
     """All of them in their order; one name may be in several sections."""
-    result, section = [], ""
-    for line in text.splitlines():
-        if line.startswith("## "):
-            section = line[3:]
-        match = re.match(r"\| `(\w+)` \| (.*?) \| (.*?) \|", line)
-        if match:
-            result.append(Parameter(match[1], match[2], match[3], section))
-    return result
+    rows = re.findall(r"^\| `(\w+)` \| (.*?) \| (.*?) \| (.*?) \|", text, re.MULTILINE)
+    return [Parameter(name, default, unit, tuple(sections.split(", "))) for name, sections, default, unit in rows]
 
 
 def of_replay(parameters):
-    """{name: parameter} of those that `replay --set` knows, which takes the tracker's before the mapper's."""
-    known = [p for p in parameters if p.section.startswith(("tracker", "mapper"))]
-    return {p.name: p for p in reversed(known)}
+    """{name: parameter} of those that `replay --set` knows."""
+    return {p.name: p for p in parameters if {"tracker", "mapper"} & set(p.sections)}
 
 
 def configured(path):

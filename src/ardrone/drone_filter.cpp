@@ -51,24 +51,20 @@ const Eigen::Matrix3d kAcross = Eigen::Vector3d(1, 1, 0).asDiagonal();
 
 }  // namespace
 
-DroneFilter::DroneFilter(const DroneFilterConfig& config) : config_(config) {
-  validate(config);
-}
-
 void DroneFilter::begin(const DroneMeasurement& measured) {
   x_.setZero();
   x_[kPosition + 2] = std::max(measured.height_m, 0.0);
   x_.segment<3>(kVelocity) = measured.R_odom_base * Eigen::Vector3d(measured.flow_base_m_s.x(),
                                                                     measured.flow_base_m_s.y(), 0);
-  x_[kDrag] = config_.drag_per_s;
+  x_[kDrag] = errors_.drag_per_s;
   State deviation = State::Zero();
-  deviation[kPosition + 2] = config_.height_noise_m;
+  deviation[kPosition + 2] = errors_.height_noise_m;
   deviation.segment<3>(kVelocity).setConstant(kStartVelocity_m_s);
-  deviation.segment<2>(kTilt).setConstant(config_.tilt_sigma_deg * kRadPerDeg);
-  deviation.segment<2>(kFlowBias).setConstant(config_.flow_bias_m_s);
-  deviation[kFlowScale] = config_.flow_scale_sigma;
-  deviation.segment<3>(kForceBias).setConstant(config_.force_bias_m_s2);
-  deviation[kDrag] = config_.drag_sigma_per_s;
+  deviation.segment<2>(kTilt).setConstant(errors_.tilt_sigma_deg * kRadPerDeg);
+  deviation.segment<2>(kFlowBias).setConstant(errors_.flow_bias_m_s);
+  deviation[kFlowScale] = errors_.flow_scale_sigma;
+  deviation.segment<3>(kForceBias).setConstant(errors_.force_bias_m_s2);
+  deviation[kDrag] = errors_.drag_sigma_per_s;
   P_ = deviation.cwiseAbs2().cwiseMax(kLeastVariance).asDiagonal();
 }
 
@@ -155,7 +151,7 @@ void DroneFilter::predict(const DroneMeasurement& measured, double dt_s, Known k
                          : known == Known::kCommanded ? kCommandedNoise
                                                       : kInterpolatedNoise;
   const double measured_noise =
-      std::hypot(config_.gust_m_s2_per_sqrt_hz, config_.force_noise_m_s2_per_sqrt_hz);
+      std::hypot(errors_.gust_m_s2_per_sqrt_hz, errors_.force_noise_m_s2_per_sqrt_hz);
   addNoise(dt_s, std::max(measured_noise, guessed));
 }
 
@@ -170,17 +166,17 @@ void DroneFilter::rest(double dt_s) {
 /// White accelerations, and what the slow errors forget and gain in this time.
 void DroneFilter::addNoise(double dt_s, double acceleration_noise) {
   State keep = State::Ones();
-  keep.segment<2>(kTilt).setConstant(std::exp(-dt_s / config_.tilt_time_s));
-  keep.segment<2>(kFlowBias).setConstant(std::exp(-dt_s / config_.flow_bias_time_s));
+  keep.segment<2>(kTilt).setConstant(std::exp(-dt_s / errors_.tilt_time_s));
+  keep.segment<2>(kFlowBias).setConstant(std::exp(-dt_s / errors_.flow_bias_time_s));
   x_ = keep.cwiseProduct(x_);
   P_ = keep.asDiagonal() * P_ * keep.asDiagonal();
-  const double tilt = square(config_.tilt_sigma_deg * kRadPerDeg);
+  const double tilt = square(errors_.tilt_sigma_deg * kRadPerDeg);
   P_.diagonal().segment<2>(kTilt).array() += tilt * (1 - square(keep[kTilt]));
   P_.diagonal().segment<2>(kFlowBias).array() +=
-      square(config_.flow_bias_m_s) * (1 - square(keep[kFlowBias]));
+      square(errors_.flow_bias_m_s) * (1 - square(keep[kFlowBias]));
   P_.diagonal().segment<3>(kForceBias).array() +=
-      square(config_.force_bias_m_s2) * dt_s / kForceBiasTime_s;
-  P_(kYaw, kYaw) += square(config_.yaw_walk_deg_per_sqrt_s * kRadPerDeg) * dt_s;
+      square(errors_.force_bias_m_s2) * dt_s / kForceBiasTime_s;
+  P_(kYaw, kYaw) += square(errors_.yaw_walk_deg_per_sqrt_s * kRadPerDeg) * dt_s;
   const double q = square(acceleration_noise);
   P_.diagonal().segment<3>(kVelocity).array() += q * dt_s;
   P_.diagonal().segment<3>(kPosition).array() += q * dt_s * dt_s * dt_s / 3;
@@ -195,12 +191,12 @@ void DroneFilter::updateVelocity(const DroneMeasurement& measured, double dt_s) 
   for (int axis = 0; axis < 2; ++axis) {
     const Foreseen seen = flow(x_, measured.R_odom_base);
     update(measured.flow_base_m_s[axis] - seen.value[axis], seen.jacobian.row(axis),
-           square(config_.flow_noise_m_s_per_sqrt_hz) / sample_s);
+           square(errors_.flow_noise_m_s_per_sqrt_hz) / sample_s);
   }
   for (int axis = 0; axis < 2; ++axis) {
     const Foreseen felt = drag(x_, measured.R_odom_base);
     update(measured.force_base_m_s2[axis] - felt.value[axis], felt.jacobian.row(axis),
-           (square(config_.force_noise_m_s2_per_sqrt_hz) + square(config_.gust_m_s2_per_sqrt_hz)) /
+           (square(errors_.force_noise_m_s2_per_sqrt_hz) + square(errors_.gust_m_s2_per_sqrt_hz)) /
                sample_s);
   }
 }
@@ -212,7 +208,7 @@ double DroneFilter::heightInnovation_m(double height_m) const {
 double DroneFilter::heightSigma_m() const {
   constexpr int kZ = kPosition + 2;
   const double variance_m2 = P_(kZ, kZ) + P_(kFloor, kFloor) - 2 * P_(kZ, kFloor);
-  return std::sqrt(std::max(variance_m2, 0.0) + square(config_.height_noise_m));
+  return std::sqrt(std::max(variance_m2, 0.0) + square(errors_.height_noise_m));
 }
 
 void DroneFilter::updateHeight(double height_m, double dt_s) {
@@ -220,12 +216,12 @@ void DroneFilter::updateHeight(double height_m, double dt_s) {
   H[kPosition + 2] = 1;
   H[kFloor] = -1;
   update(heightInnovation_m(height_m), H,
-         square(config_.height_noise_m) * std::max(1.0, 1 / (kEchoes_hz * dt_s)));
+         square(errors_.height_noise_m) * std::max(1.0, 1 / (kEchoes_hz * dt_s)));
 }
 
 void DroneFilter::changeFloor(double floor_m) {
   constexpr int kZ = kPosition + 2;
-  const bool is_first = std::abs(floor_m) < std::max(kSameFloor_m, config_.table_step_m / 2);
+  const bool is_first = std::abs(floor_m) < std::max(kSameFloor_m, kTableStep_m / 2);
   P_.row(kFloor).setZero();
   P_.col(kFloor).setZero();
   x_[kFloor] = is_first ? 0 : floor_m;
@@ -234,7 +230,7 @@ void DroneFilter::changeFloor(double floor_m) {
     P_.col(kFloor) = P_.col(kZ);
     P_(kFloor, kFloor) = P_(kZ, kZ);
   }
-  P_(kFloor, kFloor) += is_first ? kLeastVariance : square(config_.height_noise_m);
+  P_(kFloor, kFloor) += is_first ? kLeastVariance : square(errors_.height_noise_m);
 }
 
 void DroneFilter::widen(double position_m, double velocity_m_s) {

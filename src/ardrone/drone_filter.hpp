@@ -6,9 +6,30 @@
 
 #include "ardrone_vslam/drone_observer.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
-#include "ardrone_vslam/odometry_config.hpp"
 
 namespace ardrone_vslam {
+
+/// A height that differs by more from what accelerometer and velocity foresee is another floor (a
+/// table), no climb.
+constexpr double kTableStep_m = 0.15;
+
+/// How the drone's sensors err and how it flies, as measured in recordings. No parameters: another
+/// AR.Drone errs alike, and the filter weighs what it finds.
+struct DroneErrors {
+  double flow_noise_m_s_per_sqrt_hz = 0.013;   ///< white, of the optical flow's velocities
+  double flow_bias_m_s = 0.03;                 ///< their slow error, per axis
+  double flow_bias_time_s = 20;                ///< its time constant
+  double flow_scale_sigma = 0.03;              ///< their constant scale error
+  double tilt_sigma_deg = 0.3;                 ///< slow error of the reported roll and pitch
+  double tilt_time_s = 30;                     ///< its time constant
+  double yaw_walk_deg_per_sqrt_s = 0.13;       ///< drift of the reported yaw
+  double force_noise_m_s2_per_sqrt_hz = 0.01;  ///< white, of the accelerometer
+  double force_bias_m_s2 = 0.05;               ///< its bias, per axis
+  double drag_per_s = 0.3;  ///< deceleration by the air, per speed: what is felt across the thrust
+  double drag_sigma_per_s = 0.1;        ///< how well that is known
+  double gust_m_s2_per_sqrt_hz = 0.03;  ///< accelerations that neither thrust nor drag explains
+  double height_noise_m = 0.02;         ///< of the height, of each of the sonar's echoes
+};
 
 /// Extended Kalman filter of the drone's motion. Thrust is along base's z, so its tilt tells the
 /// acceleration, and what the accelerometer feels across it is the air's drag, which tells the
@@ -52,8 +73,7 @@ class DroneFilter {
     Rows2 jacobian = Rows2::Zero();  ///< of value by the State
   };
 
-  /// @throws ConfigError listing every parameter out of its range
-  explicit DroneFilter(const DroneFilterConfig& config);
+  explicit DroneFilter(const DroneErrors& errors = {}) : errors_(errors) {}
 
   /// At x = y = 0, its height that above the floor.
   void begin(const DroneMeasurement& measured);
@@ -97,7 +117,7 @@ class DroneFilter {
   void addNoise(double dt_s, double acceleration_noise);
   void update(double innovation, const Eigen::Matrix<double, 1, kSize>& H, double variance);
 
-  DroneFilterConfig config_;
+  DroneErrors errors_;
   State x_ = State::Zero();
   Covariance P_ = Covariance::Zero();
 };

@@ -23,8 +23,9 @@ constexpr double kHole_s = 0.1;                       // in which nobody knows w
 constexpr double kCommandsKept_s = 5;
 constexpr double kCommandHolds_s = 0.5;  // the drone hovers when it is told nothing for longer
 constexpr double kRadPerDeg = M_PI / 180;
-constexpr double kLongestHole_s = 1;  // as the OdometryAdapter's
-constexpr double kLostSpeed_m_s = 1;  // that a drone may have flown at beyond it
+constexpr double kCommandTime_s = 0.12;  // in which roll and pitch follow, twice over
+constexpr double kLongestHole_s = 1;     // as the OdometryAdapter's
+constexpr double kLostSpeed_m_s = 1;     // that a drone may have flown at beyond it
 constexpr double kTurnNoise_rad_s = 0.01;
 constexpr double kLargestForce_m_s2 = 1e3;
 constexpr double kHighest_m = 1e4;
@@ -93,7 +94,7 @@ class DroneObserver::State {
 
   DroneFilterConfig config_;
   DroneFilter filter_;
-  FloorWatch floor_;
+  FloorWatch floor_{kTableStep_m};
   std::deque<NavdataReading> packets_;  // that wait; stamps do not go back
   std::deque<DroneImu> imu_;
   std::deque<DroneCommandReading> commands_;  // of late; stamps do not go back
@@ -106,8 +107,9 @@ class DroneObserver::State {
   OdometryFaultCounts faults_{};
 };
 
-DroneObserver::State::State(const DroneFilterConfig& config)
-    : config_(config), filter_(config), floor_(config.table_step_m) {}
+DroneObserver::State::State(const DroneFilterConfig& config) : config_(config) {
+  validate(config);
+}
 
 void DroneObserver::State::beginAnew() {
   packets_.clear();
@@ -289,8 +291,7 @@ void DroneObserver::State::bridge(const NavdataReading& packet, double flown_s) 
   auto next = std::find_if(commands_.begin(), commands_.end(),
                            [&](const DroneCommandReading& c) { return c.stamp_ns >= oldest_ns; });
   const bool is_told = next != commands_.end() && next->stamp_ns < packet.stamp_ns;
-  CommandedFlight commanded(last_->measured, config_.command_tilt_deg * kRadPerDeg,
-                            config_.command_time_s);
+  CommandedFlight commanded(last_->measured, config_.command_tilt_deg * kRadPerDeg, kCommandTime_s);
   const int steps = static_cast<int>(std::ceil(flown_s / kStep_s - 1e-9));
   const double dt_s = flown_s / steps;
   DroneCommandReading command{oldest_ns, Eigen::Vector2d::Zero()};

@@ -21,10 +21,6 @@ std::vector<std::string> faultsBetween(const SlamConfig& config) {
   if (config.estimator == EstimatorKind::kMsckf) {
     if (config.planar)
       faults.emplace_back("planar needs estimator thesis (or odometry): the MSCKF has no 2-D mode");
-    if (filter.min_track_views > filter.window_frames)
-      faults.emplace_back(
-          "min_track_views is above window_frames, so no track would be long enough to be used: "
-          "lower min_track_views, or raise window_frames");
   }
   if (config.estimator == EstimatorKind::kThesis) {
     const auto refuse = [&faults](const std::string& parameter, const std::string& without) {
@@ -35,7 +31,6 @@ std::vector<std::string> faultsBetween(const SlamConfig& config) {
     if (height.use_navdata_height) refuse("use_navdata_height", "use_navdata_height to false");
     if (height.known_height_m > 0) refuse("known_height_m", "known_height_m to 0");
     if (filter.height.floor_points) refuse("floor_points", "floor_points to false");
-    if (!filter.attitude_states) refuse("attitude_states false", "attitude_states to true");
   }
   return faults;
 }

@@ -8,6 +8,12 @@
 namespace ardrone_vslam {
 namespace {
 
+// A sonar's beam then meets a wall, or the floor beside the drone.
+constexpr double kMostTilt_deg = 20;
+// Readings are interpolated at the image's stamp across no longer a hole; at their end the nearest
+// one counts for as long.
+constexpr double kLongestGap_s = 0.1;
+
 double seconds(std::int64_t nanoseconds) {
   return static_cast<double>(nanoseconds) * 1e-9;
 }
@@ -46,7 +52,7 @@ std::optional<double> HeightInput::at(const OdometryState& odometry) {
     return std::nullopt;
   }
   const double cosine = odometry.T_odom_base.linear()(2, 2);  // between the two z axes
-  if (!(cosine >= std::cos(config_.range_max_tilt_deg * M_PI / 180))) {
+  if (!(cosine >= std::cos(kMostTilt_deg * M_PI / 180))) {
     ++tilted_;
     return std::nullopt;
   }
@@ -58,7 +64,7 @@ std::optional<double> HeightInput::rangeAt(std::int64_t stamp_ns) const {
       std::lower_bound(readings_.begin(), readings_.end(), stamp_ns,
                        [](const RangeReading& r, std::int64_t t) { return r.stamp_ns < t; });
   const auto isNear = [&](const RangeReading& r) {
-    return seconds(std::abs(r.stamp_ns - stamp_ns)) <= config_.range_max_gap_s;
+    return seconds(std::abs(r.stamp_ns - stamp_ns)) <= kLongestGap_s;
   };
   if (after == readings_.end() || after == readings_.begin()) {
     if (readings_.empty()) return std::nullopt;
@@ -68,7 +74,7 @@ std::optional<double> HeightInput::rangeAt(std::int64_t stamp_ns) const {
   }
   const RangeReading& before = *std::prev(after);
   const double gap_s = seconds(after->stamp_ns - before.stamp_ns);
-  if (gap_s <= config_.range_max_gap_s) {
+  if (gap_s <= kLongestGap_s) {
     const double share = seconds(stamp_ns - before.stamp_ns) / gap_s;
     return before.range_m + share * (after->range_m - before.range_m);
   }

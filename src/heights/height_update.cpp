@@ -6,6 +6,8 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr double kGateSigmas = 3;  // a height that disagrees by more is rejected
+
 double seconds(std::int64_t nanoseconds) {
   return static_cast<double>(nanoseconds) * 1e-9;
 }
@@ -39,7 +41,7 @@ HeightOutcome HeightUpdate::apply(double height_m, WindowState& state) {
   constexpr int kFloor = WindowState::kFloor;
   const double innovation_m = state.floor_map_m() - floor_map_m;
   const double expected_m2 = P(z, z) + P(kFloor, kFloor) - 2 * P(z, kFloor) + variance_m2;
-  const double gate = config_.height_gate_sigmas;
+  const double gate = kGateSigmas;
   if (innovation_m * innovation_m < gate * gate * expected_m2) {
     is_rejecting_ = false;
     // height = z - floor
@@ -62,8 +64,8 @@ HeightOutcome HeightUpdate::apply(double height_m, WindowState& state) {
 }
 
 bool HeightUpdate::agreesWithRejected(double floor_map_m) const {
-  return is_rejecting_ && std::abs(floor_map_m - rejected_floor_map_m_) <
-                              config_.height_gate_sigmas * config_.height_sigma_m;
+  return is_rejecting_ &&
+         std::abs(floor_map_m - rejected_floor_map_m_) < kGateSigmas * config_.height_sigma_m;
 }
 
 }  // namespace ardrone_vslam

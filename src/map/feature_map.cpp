@@ -5,10 +5,6 @@
 
 namespace ardrone_vslam {
 
-FeatureMap::FeatureMap(const FeatureMapConfig& config) : config_(config) {
-  validate(config);
-}
-
 void FeatureMap::add(const MapFeature& feature) {
   const int stale = indexOfTrack(feature.track_id);
   if (stale >= 0) features_[static_cast<std::size_t>(stale)].track_id = kNoTrack;

@@ -25,8 +25,7 @@ struct MapFeature {
 /// Storage of features in the order they came, with look-up by track.
 class FeatureMap {
  public:
-  /// @throws ConfigError listing every parameter out of its range
-  explicit FeatureMap(const FeatureMapConfig& config);
+  explicit FeatureMap(const FeatureMapConfig& config) : config_(config) {}
 
   /// Stores a feature. An entry of the same track that is there already loses its track for good
   /// (the track left its point: a mismatch) and waits for a match by descriptor.

@@ -59,6 +59,10 @@ enum class FixOutcome {
   kRejected    ///< they disagree with the pose by more than the gate
 };
 
+/// Fewer landmarks of earlier visits that agree give no fix: three fix a pose, three more say that
+/// they are no mistake.
+constexpr int kFewestFixLandmarks = 6;
+
 /// @param independent  the landmarks' errors are alike in groups: their fix is not taken as better
 /// than so many independent ones make it
 MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,

@@ -12,6 +12,16 @@ namespace {
 /// Wrong matches from narrower windows do little harm.
 constexpr double kHarmlessWindow_rad = 0.05;
 constexpr double kMostByChance = 0.1;
+// Of landmarks that were looked for further around their prediction a few may fix the pose, too,
+// when more agree than chance explains: the pose was lost.
+constexpr double kRelocationWindow_deg = 15;
+// After a blind stretch the odometry has often drifted more than it claims.
+constexpr double kRelocationGateSigmas = 5;
+// In the mean of a fix's six coordinates: a fix that disagrees by more is a wrong one.
+constexpr double kGateSigmas = 2;
+// A fix waits until the drift's variance is so many times its own, so that the same landmarks do
+// not count again and again.
+constexpr double kDriftShare = 1;
 
 double medianWindow_rad(const std::vector<MapObservation>& observations) {
   std::vector<double> windows_rad;
@@ -67,7 +77,7 @@ std::optional<double> MapUpdate::comparedNis() const {
 }
 
 FixOutcome MapUpdate::fix(const std::vector<LandmarkObservation>& observations, Frame& frame) {
-  const double widest_rad = config_.relocation_window_deg * M_PI / 180;
+  const double widest_rad = kRelocationWindow_deg * M_PI / 180;
   const auto& anchors = frame.state.anchors();
   std::vector<MapObservation> old;
   std::vector<MapObservation> wide;
@@ -94,24 +104,24 @@ FixOutcome MapUpdate::fix(const std::vector<LandmarkObservation>& observations, 
 }
 
 FixOutcome MapUpdate::fixByFew(const std::vector<MapObservation>& observations, Frame& frame) {
-  if (static_cast<int>(observations.size()) < config_.min_fix_landmarks) return FixOutcome::kNone;
+  if (static_cast<int>(observations.size()) < kFewestFixLandmarks) return FixOutcome::kNone;
   const auto consensus =
       relocate(frame.state.newest(), frame.camera_base, observations, frame.angle_sigma_rad,
                attitudeSigma_rad(observations, frame.state));
-  if (!consensus || static_cast<int>(consensus->observations.size()) < config_.min_fix_landmarks)
+  if (!consensus || static_cast<int>(consensus->observations.size()) < kFewestFixLandmarks)
     return FixOutcome::kNone;
-  const FixOutcome outcome = update(*consensus, config_.relocation_gate_sigmas, frame);
+  const FixOutcome outcome = update(*consensus, kRelocationGateSigmas, frame);
   if (outcome != FixOutcome::kRejected) judge(observations, *consensus);
   return outcome == FixOutcome::kApplied ? FixOutcome::kRelocated : outcome;
 }
 
 FixOutcome MapUpdate::fixByMost(const std::vector<MapObservation>& observations, Frame& frame) {
-  if (static_cast<int>(observations.size()) < config_.min_fix_landmarks) return FixOutcome::kNone;
+  if (static_cast<int>(observations.size()) < kFewestFixLandmarks) return FixOutcome::kNone;
   const Clone& newest = frame.state.newest();
   const ObservationConsensus consensus =
       agreeOnPosition(newest, frame.camera_base, observations, frame.angle_sigma_rad);
   // In windows some wrong matches agree by chance, but not most of all.
-  if (static_cast<int>(consensus.observations.size()) < config_.min_fix_landmarks ||
+  if (static_cast<int>(consensus.observations.size()) < kFewestFixLandmarks ||
       2 * consensus.observations.size() < observations.size())
     return FixOutcome::kNone;
   // Of a place that was hardly seen before there are few matches, and then most may agree as well.
@@ -121,7 +131,7 @@ FixOutcome MapUpdate::fixByMost(const std::vector<MapObservation>& observations,
       chanceExplains(agreed, frame.camera_base, observations, consensus.observations.size(),
                      frame.angle_sigma_rad, kMostByChance))
     return FixOutcome::kNone;
-  const FixOutcome outcome = update(consensus, config_.fix_gate_sigmas, frame);
+  const FixOutcome outcome = update(consensus, kGateSigmas, frame);
   if (outcome != FixOutcome::kRejected) judge(observations, consensus);
   return outcome;
 }
@@ -134,7 +144,7 @@ FixOutcome MapUpdate::update(const ObservationConsensus& consensus, double gate_
   was_compared_ = true;
   frame.state.inflate(consistency_.odometryFactor());
   if (fix.drift.topLeftCorner<3, 3>().trace() <
-      config_.fix_drift_share * fix.covariance.topLeftCorner<3, 3>().trace())
+      kDriftShare * fix.covariance.topLeftCorner<3, 3>().trace())
     return FixOutcome::kNotNeeded;
   if (!(fix.distance() < coordinates() * gate_sigmas * gate_sigmas)) return FixOutcome::kRejected;
   fix.information.matrix /= consistency_.mapFactor();

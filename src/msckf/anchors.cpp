@@ -6,6 +6,14 @@
 #include <limits>
 
 namespace ardrone_vslam {
+namespace {
+
+// Landmarks share the error of the frame they belong to. A new one begins when the view differs so
+// much that they would not: after this share of the landmarks' distance, or this rotation.
+constexpr double kSpacing = 0.3;
+constexpr double kRotation_deg = 20;
+
+}  // namespace
 
 void Anchors::choose(const WindowState& state, double point_distance_m) {
   const Clone& newest = state.newest();
@@ -14,8 +22,7 @@ void Anchors::choose(const WindowState& state, double point_distance_m) {
     const double displacement_m = (newest.position_map - anchor.position_map).norm();
     const double rotation_rad =
         Eigen::AngleAxisd(newest.R_map_rig.transpose() * anchor.R_map_rig).angle();
-    if (displacement_m < config_.anchor_spacing * point_distance_m &&
-        rotation_rad < config_.anchor_turn_deg * M_PI / 180)
+    if (displacement_m < kSpacing * point_distance_m && rotation_rad < kRotation_deg * M_PI / 180)
       return;
   }
   current_id_ = newest.id;

@@ -8,6 +8,9 @@
 namespace ardrone_vslam {
 namespace {
 
+// A track's point is worth a landmark when it is known to this share of its distance.
+constexpr double kLandmarkSigma = 0.2;
+
 /// Of points seen along a baseline that the odometry's velocity error may have made (a drone that
 /// turns on the spot, the camera at its nose): all of them are so much nearer or further, which
 /// shows only from elsewhere.
@@ -42,9 +45,9 @@ Landmark landmarkOf(const UsedTrack& used, const FrameView& view) {
   return landmark;
 }
 
-bool isWellKnown(const UsedTrack& one, const FrameView& view, const MsckfConfig& config) {
+bool isWellKnown(const UsedTrack& one, const FrameView& view) {
   const double distance_m = (one.point.position_map - view.origin_map()).norm();
-  return std::sqrt(one.covariance_m2.trace()) < config.landmark_sigma * distance_m;
+  return std::sqrt(one.covariance_m2.trace()) < kLandmarkSigma * distance_m;
 }
 
 void renew(const UsedTrack& one, const FrameView& view, const MsckfConfig& config,

@@ -20,7 +20,7 @@ namespace ardrone_vslam {
 Landmark landmarkOf(const UsedTrack& used, const FrameView& view);
 
 /// Whether its point is known to landmark_sigma of its distance.
-bool isWellKnown(const UsedTrack& one, const FrameView& view, const MsckfConfig& config);
+bool isWellKnown(const UsedTrack& one, const FrameView& view);
 
 /// Gives a young landmark its track's newer point, where that is clearly better.
 void renew(const UsedTrack& one, const FrameView& view, const MsckfConfig& config,

@@ -8,6 +8,10 @@
 namespace ardrone_vslam {
 namespace {
 
+// The image has to move on before a frame adds anything: by a fortieth of its width.
+constexpr double kKeyframe_px = 15;
+constexpr double kKeyframe_s = 2;  // a slow camera drifts meanwhile, so it gets one all the same
+
 double squared(double value) {
   return value * value;
 }
@@ -23,8 +27,7 @@ Msckf::Msckf(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam)
       map_update_(config),
       zero_motion_(config),
       height_(config.height),
-      anchors_(config),
-      watchdog_(config.watchdog) {
+      anchors_(config) {
   validate(config);
 }
 
@@ -88,7 +91,7 @@ const std::vector<UsedTrack>& Msckf::track(const ImageFeatures& features) {
   tracks_.add(keyframe_id_, features, order_);
   anchors_.choose(state_, track_update_.pointDistance_m());
   const int others = zero_motion_.keepsExtraFrame(state_) ? 1 : 0;
-  const bool is_full = static_cast<int>(state_.frames().size()) - others > config_.window_frames;
+  const bool is_full = static_cast<int>(state_.frames().size()) - others > config_.max_clones;
   track_update_.apply(tracks_.takeFinished(state_.frames(), is_full), T_rig_cam_.translation(),
                       features.focal_length_px, anchors_.current(), tracks_, state_);
   if (!track_update_.used().empty()) anchors_.use();
@@ -104,7 +107,7 @@ void Msckf::holdPosition(const ImageFeatures& features) {
   const bool is_located = map_update_.isLocated();
   const double seen_m = track_update_.pointDistance_m();
   zero_motion_.apply(features, T_rig_cam_, is_located,
-                     seen_m > 0 ? seen_m : config_.rest.rest_depth_m, state_);
+                     seen_m > 0 ? seen_m : config_.zero_motion_depth_m, state_);
   if (is_located || motion() == CameraMotion::kResting) return;
   limitByScene(features, order_, tracks_, T_rig_cam_.linear().col(2), config_, state_);
 }
@@ -115,10 +118,10 @@ bool Msckf::needsKeyframe(const ImageFeatures& features) {
   if (motion() == CameraMotion::kResting) return false;
   const Clone& last = state_.frames()[*keyframe];
   if (motion() != CameraMotion::kRotating &&
-      static_cast<double>(newest().stamp_ns - last.stamp_ns) * 1e-9 > config_.keyframe_s)
+      static_cast<double>(newest().stamp_ns - last.stamp_ns) * 1e-9 > kKeyframe_s)
     return true;
   const TrackWindow::Motion moved = tracks_.motionSince(last, newest(), features, order_);
-  return moved.lost > moved.common || moved.common == 0 || moved.median_px > config_.keyframe_px;
+  return moved.lost > moved.common || moved.common == 0 || moved.median_px > kKeyframe_px;
 }
 
 void Msckf::dropOldest() {

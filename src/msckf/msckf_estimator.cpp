@@ -6,6 +6,13 @@
 #include "msckf/landmark_upkeep.hpp"
 
 namespace ardrone_vslam {
+namespace {
+
+// Odometry drifts otherwise than it claims: after so long without a fix the pose's deviation counts
+// twice in the search, after twice as long three times.
+constexpr double kWidening_s = 10;
+
+}  // namespace
 
 MsckfEstimator::MsckfEstimator(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam)
     : config_(config),
@@ -38,7 +45,7 @@ CameraPose MsckfEstimator::camera() {
   camera.T_map_cam.translation() = now.position_map + now.R_map_rig * T_rig_cam_.translation();
   camera.position_variance_m2 = filter_.covariance().topLeftCorner<3, 3>().trace() / 3;
   camera.drifts = driftsOf(filter_.state());
-  time_since_fix_.widen(camera.drifts, config_.association.widening_s);
+  time_since_fix_.widen(camera.drifts, kWidening_s);
   return camera;
 }
 
@@ -98,7 +105,7 @@ void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& 
         (verdict == ObservationVerdict::kContradicts && state_ == SlamState::kRelocated);
     if (!is_wrong) trusted_.push_back(match);
   }
-  const bool is_blind = static_cast<int>(trusted_.size()) < config_.msckf.min_fix_landmarks;
+  const bool is_blind = static_cast<int>(trusted_.size()) < kFewestFixLandmarks;
   if (is_blind) time_since_fix_.passFrame();
   time_since_fix_.link(anchors);
 }
@@ -127,7 +134,7 @@ MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView
   for (const UsedTrack& one : used_tracks) {
     if (const Landmark* landmark = map.find(one.track.landmark_id)) {
       renew(one, view, config_.msckf, *landmark, map);
-    } else if (isWellKnown(one, view, config_.msckf)) {
+    } else if (isWellKnown(one, view)) {
       filter_.assignLandmark(one.track.track_id, map.add(landmarkOf(one, view)));
       ++changes.new_landmarks;
     }

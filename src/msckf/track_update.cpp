@@ -16,6 +16,13 @@ struct TrackUpdate::Candidate {
 
 namespace {
 
+constexpr int kFewestViews = 3;        // two tell a point, but nothing of the frames
+constexpr double kParallaxSigmas = 6;  // of a ray: below, the depth is not Gaussian
+// A baseline that is known worse across than by this share of its length tells no depth.
+constexpr double kBaselineUncertainty = 0.5;
+// Of a point from the floor; the height's own error is in it, and what lies about.
+constexpr double kFloorPointSigma_m = 0.1;
+
 double squared(double value) {
   return value * value;
 }
@@ -61,7 +68,7 @@ bool agree(const WindowState& state, std::vector<Candidate>& candidates, Informa
 }
 
 /// Whether the way between a track's first and last view is well enough known to triangulate.
-bool hasKnownBaseline(TrackViews views, double uncertainty, const WindowState& state) {
+bool hasKnownBaseline(TrackViews views, const WindowState& state) {
   const std::size_t first = views.front().frame;
   const std::size_t last = views.back().frame;
   const Eigen::Matrix3d relative =
@@ -72,7 +79,7 @@ bool hasKnownBaseline(TrackViews views, double uncertainty, const WindowState& s
   const double length_m2 = baseline.squaredNorm();
   // Along it, it is a matter of scale, which does no harm.
   const double across_m2 = relative.trace() - baseline.dot(relative * baseline) / length_m2;
-  return across_m2 < squared(uncertainty) * length_m2;
+  return across_m2 < squared(kBaselineUncertainty) * length_m2;
 }
 
 /// UsedTrack::stretch_sigma.
@@ -98,7 +105,7 @@ std::optional<FloorHeight> floorOf(TrackViews views, const HeightConfig& config,
   const Clone& frame = state.frames()[views.back().frame];
   const double down = -(frame.R_map_rig * views.back().bearing_base).z();
   if (!frame.height_m || down < kDown) return std::nullopt;
-  return FloorHeight{*frame.height_m, config.floor_point_sigma_m};
+  return FloorHeight{*frame.height_m, kFloorPointSigma_m};
 }
 
 }  // namespace
@@ -134,11 +141,11 @@ std::vector<TrackUpdate::Candidate> TrackUpdate::gate(const std::vector<Finished
   const double sigma_a = camera.angle_sigma_rad;
   std::vector<Candidate> candidates;
   for (const FinishedTrack& track : finished) {
-    if (static_cast<int>(track.views.size()) < config_.min_track_views ||
-        !hasKnownBaseline(track.views, config_.baseline_uncertainty, state))
+    if (static_cast<int>(track.views.size()) < kFewestViews ||
+        !hasKnownBaseline(track.views, state))
       continue;
     const auto point = triangulateTrack(state.frames(), camera_base, track.views, sigma_a);
-    if (!point || point->parallax_rad < config_.track_parallax_sigmas * sigma_a) continue;
+    if (!point || point->parallax_rad < kParallaxSigmas * sigma_a) continue;
     auto residual = residualOf(state, camera_base, track.views, *point, sigma_a);
     if (!residual) continue;
     ++candidates_;

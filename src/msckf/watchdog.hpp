@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <optional>
 
-#include "ardrone_vslam/msckf_config.hpp"
-
 namespace ardrone_vslam {
+
+/// How long the pose is the odometry's when trust has ended for the first time: long enough to get
+/// out of a mirror's or a crowd's view.
+constexpr double kFirstPause_s = 10;
 
 /// How far camera and odometry contradict each other at one image.
 struct Contradiction {
@@ -21,12 +23,9 @@ struct Contradiction {
 /// nobody knows, but without the camera the pose is never worse than the odometry.
 class Watchdog {
  public:
-  /// @throws ConfigError listing every parameter out of its range
-  explicit Watchdog(const WatchdogConfig& config);
-
   /// @return whether trust ends with this image
   bool see(std::int64_t stamp_ns, const Contradiction& contradiction);
-  /// For watchdog_pause_s after trust ended, and twice as long each time it ends again.
+  /// For kFirstPause_s after trust ended, and twice as long each time it ends again.
   bool isDistrustful(std::int64_t stamp_ns) const;
   /// Nothing hints at a contradiction: camera and odometry are a good deal closer than the limits.
   bool isCalm() const { return calm_; }
@@ -43,9 +42,8 @@ class Watchdog {
   const Eigen::Isometry3d& calmT_map_odom() const { return calm_T_map_odom_; }
 
  private:
-  WatchdogConfig config_;
   std::optional<std::int64_t> last_ns_;
-  double pause_s_;                        // the next one
+  double pause_s_ = kFirstPause_s;        // the next one
   std::optional<std::int64_t> until_ns_;  // the end of the pause
   double bias_s_ = 0;                     // how long each has been beyond its limit
   double fixes_s_ = 0;

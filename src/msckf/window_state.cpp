@@ -9,6 +9,10 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr double kStartSigma_m = 0.001;  // where the first frame is, map begins
+// Above this speed an error along the way counts as one of scale, which one camera cannot see.
+constexpr double kSlowSpeed_m_s = 0.1;
+
 constexpr double kVelocitySpan_s = 2;
 
 double squared(double value) {
@@ -73,7 +77,7 @@ void WindowState::start(const OdometryState& odometry) {
   P.block<3, 3>(kExtrinsics, attitude) = P.block<3, 3>(attitude, kExtrinsics).transpose();
   P.diagonal().segment<3>(attitude).array() +=
       squared(radians(config_.attitude_noise_deg)) + squared(radians(config_.extrinsics_sigma_deg));
-  P.diagonal().segment<3>(kGlobals).setConstant(squared(config_.start_sigma_m));
+  P.diagonal().segment<3>(kGlobals).setConstant(squared(kStartSigma_m));
 }
 
 void WindowState::returnTo(const Eigen::Isometry3d& T_map_odom) {
@@ -127,7 +131,7 @@ void WindowState::propagate(const OdometryState& odometry,
   next.stamp_ns = odometry.stamp_ns;
   next.height_m = odometry.height_m;
   next.stretch_by_bias_s_m =
-      velocity_base_m_s / (velocity_base_m_s.squaredNorm() + squared(config_.slow_speed_m_s));
+      velocity_base_m_s / (velocity_base_m_s.squaredNorm() + squared(kSlowSpeed_m_s));
   const Eigen::Vector3d step =
       R_map_odom_ * step_odom *
       (1 - scale_error_ - next.stretch_by_bias_s_m.dot(velocity_bias_m_s_));

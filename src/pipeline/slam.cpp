@@ -98,7 +98,9 @@ Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
   const std::vector<std::string> faults = faultsBetween(config);
   if (!faults.empty()) throw ConfigError(faults);
   refuseExtrinsics(T_base_cam);
-  state_ = std::make_unique<State>(config, T_base_cam);
+  SlamConfig used = config;
+  if (used.thesis_filter.as_printed) used.thesis_filter = asPrinted(used.thesis_filter);
+  state_ = std::make_unique<State>(used, T_base_cam);
 }
 
 Slam::~Slam() = default;
@@ -184,8 +186,8 @@ const char* explain(SlamState state) {
       return "fewer landmarks recognised than min_landmarks: the view is new, blurred, dark or "
              "plain; the pose follows the odometry";
     case SlamState::kFixRejected:
-      return "the landmarks' position disagrees with the odometry by more than gate_sigmas "
-             "(MSCKF: fix_gate_sigmas); the pose follows the odometry";
+      return "the landmarks' position disagrees with the odometry by more than both "
+             "claim; the pose follows the odometry";
     case SlamState::kOdometryOnly:
       return "estimator is set to odometry: the odometry is passed on without correction";
     case SlamState::kTracking:
@@ -199,11 +201,9 @@ const char* explain(SlamState state) {
       return "a place seen before was found again after the pose had become uncertain; the pose "
              "may have jumped there";
     case SlamState::kDistrusted:
-      return "camera and odometry contradict each other by far more than configured "
-             "(watchdog_sigmas, watchdog_nis), so the pose follows the odometry for "
-             "watchdog_pause_s: check calibration and mounting, whether the scene itself moves, "
-             "and "
-             "velocity_bias_m_s";
+      return "camera and odometry contradict each other by far more than configured, so the "
+             "pose follows the odometry for 10 s, each time twice as long: check calibration and "
+             "mounting, whether the scene itself moves, and velocity_bias_m_s";
     case SlamState::kNotFinite:
       return "the pose is not finite and is not published; the map begins anew: check odometry, "
              "calibration and mounting for absurd values";

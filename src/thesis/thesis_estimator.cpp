@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace ardrone_vslam {
+namespace {
+
+// Of the odometry's attitude, which the thesis takes as it is: for the published covariance alone.
+constexpr double kAttitudeSigma_deg = 0.3;
+
+}  // namespace
 
 ThesisEstimator::ThesisEstimator(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam)
     : config_(config),
@@ -78,7 +84,7 @@ Estimate ThesisEstimator::estimate() const {
   estimate.T_map_base.translation() = filter_.position_map();
   // Only the positions differ; this form stays exact far from the origin.
   estimate.T_map_odom.translation() = filter_.position_map() - T_odom_base_.translation();
-  const double attitude_rad = config_.thesis_filter.attitude_sigma_deg * M_PI / 180;
+  const double attitude_rad = kAttitudeSigma_deg * M_PI / 180;
   estimate.covariance.topLeftCorner<3, 3>() = filter_.covariance();
   estimate.covariance.bottomRightCorner<3, 3>() =
       attitude_rad * attitude_rad * Eigen::Matrix3d::Identity();

@@ -39,8 +39,8 @@ void limitDisplacement(std::size_t frame, double across_m, const Eigen::Vector3d
 void limitByScene(const ImageFeatures& features, const TrackOrder& order, TrackWindow& tracks,
                   const Eigen::Vector3d& view_rig, const MsckfConfig& config, WindowState& state) {
   // Not the landmarks' distance: what drift made is as much too far away.
-  const double depth_m = config.rest.rest_depth_m;
-  const double least_rad = config.rest.rest_sigma_px / features.focal_length_px;
+  const double depth_m = config.zero_motion_depth_m;
+  const double least_rad = kCornerJump_px / features.focal_length_px;
   const Clone& newest = state.newest();
   // The oldest frame that shows the same: since then most drift has added up.
   for (std::size_t frame = 0; frame + 1 < state.frames().size(); ++frame) {

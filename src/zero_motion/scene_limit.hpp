@@ -12,7 +12,7 @@
 namespace ardrone_vslam {
 
 /// Where nothing else tells the drift: the camera has moved by no more than the image shows in a
-/// scene that is rest_depth_m away, so a hovering drone stays though its odometry drifts.
+/// scene that is zero_motion_depth_m away, so a hovering drone stays though its odometry drifts.
 /// O(frames x tracks).
 /// @param order  of the newest frame's features
 /// @param tracks  of the window

@@ -25,6 +25,9 @@ constexpr double kShiftGate = 16;       // chi-square with three degrees of free
 // Jumps of neighbouring corners are alike (compression, interpolation): more tracks than this say
 // no more.
 constexpr double kIndependentTracks = 20;
+// A drone that turns round in its path is still for less than this.
+constexpr double kAfter_s = 1;
+constexpr double kRotating_deg_per_s = 3;  // a resting camera turns slower
 constexpr double kTurnWindow_s = 0.5;
 constexpr double kPatience_s = 0.2;   // single images are bad: a compressed stream's key frames
 constexpr int kSameCorner_bits = 90;  // descriptors of one corner at rest
@@ -55,7 +58,7 @@ CameraMotion ZeroMotionDetector::see(const ImageFeatures& features,
   const double left_rad = medianLeft(R_reference_now);
   // Half of the tracks are further off than a turn that is the odometry's within its deviation,
   // and a corner's jump, could bring them: whatever turn they agree on, the camera moves.
-  const double farthest_rad = kInlierSigmas * config_.rest_sigma_px / features.focal_length_px +
+  const double farthest_rad = kInlierSigmas * kCornerJump_px / features.focal_length_px +
                               kAttitudeSigmas * attitude_sigma_rad;
   const bool surely_moves =
       still_s_ == 0 && pairs_.size() >= kFewestTracks && left_rad > farthest_rad + kRounding_rad;
@@ -93,7 +96,7 @@ CameraMotion ZeroMotionDetector::see(const ImageFeatures& features,
   followTurn(features.stamp_ns);
   // Until it rests the first reference stays while it can: what passes meanwhile is taken back
   // then.
-  const bool is_fading = still_s_ < config_.rest_after_s
+  const bool is_fading = still_s_ < kAfter_s
                              ? pairs_.size() < kFewestTracks + 5
                              : 3 * pairs_.size() < std::min(reference_.size(), features.size()) ||
                                    2 * reference_.size() < features.size();
@@ -101,7 +104,7 @@ CameraMotion ZeroMotionDetector::see(const ImageFeatures& features,
     R_rest_reference_ = R_rest_reference_ * stillness_.R_reference_now;
     refer(features);
   }
-  if (still_s_ < config_.rest_after_s) return CameraMotion::kUnknown;
+  if (still_s_ < kAfter_s) return CameraMotion::kUnknown;
   return is_turning_ ? CameraMotion::kRotating : CameraMotion::kResting;
 }
 
@@ -136,7 +139,7 @@ void ZeroMotionDetector::findAgain(const ImageFeatures& features,
                      reference_[corner].track_id) != features.track_id.end();
   };
   lost.erase(std::remove_if(lost.begin(), lost.end(), isThere), lost.end());
-  const double reach_rad = 10 * config_.rest_sigma_px / features.focal_length_px;
+  const double reach_rad = 10 * kCornerJump_px / features.focal_length_px;
   const double nearest_cosine = std::cos(reach_rad);
   std::vector<Corner> found;
   for (std::size_t i = 0; i < features.size() && !lost.empty(); ++i) {
@@ -170,7 +173,7 @@ Stillness ZeroMotionDetector::compare(const Eigen::Matrix3d& R_reference_now,
   s.common = static_cast<int>(pairs_.size());
   s.enough_tracks = pairs_.size() >= kFewestTracks;
   if (!s.enough_tracks) return s;
-  const double jump_rad = config_.rest_sigma_px / focal_length_px;
+  const double jump_rad = kCornerJump_px / focal_length_px;
 
   // The turn that most tracks agree on: weights fall with what is left (Geman and McClure), and
   // what counts as much left shrinks to the corners' own noise.
@@ -243,7 +246,7 @@ void ZeroMotionDetector::followTurn(std::int64_t stamp_ns) {
   if (passed_s < kTurnWindow_s) return;
   const Eigen::Matrix3d R_rest_now = R_rest_reference_ * stillness_.R_reference_now;
   const double turned_rad = Eigen::AngleAxisd(R_rest_before_.transpose() * R_rest_now).angle();
-  is_turning_ = turned_rad > config_.rest_turn_deg_per_s * M_PI / 180 * passed_s;
+  is_turning_ = turned_rad > kRotating_deg_per_s * M_PI / 180 * passed_s;
   R_rest_before_ = R_rest_now;
   before_ns_ = stamp_ns;
 }

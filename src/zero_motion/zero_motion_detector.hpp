@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "ardrone_vslam/msckf_config.hpp"
 #include "msckf/track_order.hpp"
 
 namespace ardrone_vslam {
+
+/// How far a corner at rest jumps between two images, per axis: noise, and the corner's own pixel.
+constexpr double kCornerJump_px = 0.8;
 
 /// What the image alone says of the camera's motion.
 enum class CameraMotion {
@@ -37,9 +39,6 @@ struct Stillness {
 /// again in the reference by their descriptors.
 class ZeroMotionDetector {
  public:
-  /// @param config  is taken as valid: the filter that holds it has checked it
-  explicit ZeroMotionDetector(const ZeroMotionConfig& config) : config_(config) {}
-
   /// @param R_reference_now  the camera's turn since the reference by the odometry
   /// @param attitude_sigma_rad  of that, per axis
   CameraMotion see(const ImageFeatures& features, const Eigen::Matrix3d& R_reference_now,
@@ -71,7 +70,6 @@ class ZeroMotionDetector {
                     double focal_length_px) const;
   void followTurn(std::int64_t stamp_ns);
 
-  ZeroMotionConfig config_;
   TrackOrder order_;               // of the newest reference's features
   std::vector<Corner> reference_;  // ascending in track id
   std::vector<Pair> pairs_;

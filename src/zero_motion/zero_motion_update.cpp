@@ -19,7 +19,7 @@ void ZeroMotionUpdate::apply(const ImageFeatures& features, const Eigen::Isometr
   const auto reference = indexOf(state.frames(), reference_id_);
   Eigen::Matrix3d R_reference_now = Eigen::Matrix3d::Identity();
   double attitude_sigma_rad = 0;
-  if (!reference) detector_ = ZeroMotionDetector(config_.rest);
+  if (!reference) detector_ = ZeroMotionDetector();
   if (reference && reference_id_ != state.newest().id) {
     const Eigen::Matrix3d R_rig_cam = T_rig_cam.linear();
     attitude_sigma_rad = rotationSigma_rad(state, config_, *reference);
@@ -69,7 +69,7 @@ void ZeroMotionUpdate::changeCamera(WindowState& state) {
 }
 
 void ZeroMotionUpdate::reset() {
-  detector_ = ZeroMotionDetector(config_.rest);
+  detector_ = ZeroMotionDetector();
   reference_id_ = 0;
   reference_is_keyframe_ = false;
 }

@@ -19,7 +19,7 @@ double rotationSigma_rad(const WindowState& state, const MsckfConfig& config, st
 class ZeroMotionUpdate {
  public:
   /// @param config  is taken as valid: the filter that holds it has checked it
-  explicit ZeroMotionUpdate(const MsckfConfig& config) : config_(config), detector_(config.rest) {}
+  explicit ZeroMotionUpdate(const MsckfConfig& config) : config_(config) {}
 
   /// Looks at the newest frame, and holds its position when the camera rests or turns on the spot.
   /// @param is_located  landmarks say where the camera is, so that nothing is held

@@ -50,12 +50,11 @@ TEST(OnboardAllocation, NoneForRecordsGoodAndBad) {
 }
 
 TEST(OnboardAllocation, NoneForAnswersAndTelemetry) {
-  const FileDescriptor controller = receiveAt("127.0.0.1", 0);
-  const FileDescriptor workstation = receiveAt("127.0.0.1", 0);
+  const FileDescriptor controller = receiveAt({"127.0.0.1", 0});
+  const FileDescriptor workstation = receiveAt({"127.0.0.1", 0});
   OnboardConfig config;
-  config.pose_port = portOf(controller.get());
-  config.telemetry_port = portOf(workstation.get());
-  config.telemetry_address = "127.0.0.1";
+  config.pose_address = "127.0.0.1:" + std::to_string(portOf(controller.get()));
+  config.telemetry_address = "127.0.0.1:" + std::to_string(portOf(workstation.get()));
   AnswerOutput output(config);
   LandmarkMap map{LandmarkMapConfig{}};
   for (int i = 0; i < 500; ++i) map.add(Landmark{});

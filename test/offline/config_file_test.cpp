@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 
 #include "ardrone_vslam/delayed_fusion.hpp"
 #include "parameter_table.hpp"
@@ -37,15 +40,15 @@ bool contains(const std::string& text, const std::string& part) {
 
 TEST_F(ConfigFile, ReadsBothSectionsAndKeepsDefaults) {
   const PipelineConfig config = load(
-      "tracker:\n  features_per_frame: 321\n  adapt_threshold: off\n  track_ratio: 0.7\n"
-      "mapper:\n  mean: exact\n  planar: true\n  max_depth_m: 50\n");
+      "tracker:\n  features_per_frame: 321\n  use_attitude: on\n  track_search_radius_px: 70.5\n"
+      "mapper:\n  estimator: thesis\n  planar: true\n  max_depth_m: 50\n");
   EXPECT_EQ(config.tracker.corners.features_per_frame, 321);
-  EXPECT_FALSE(config.tracker.corners.adapt_threshold);
-  EXPECT_EQ(config.tracker.tracks.ratio, 0.7);
-  EXPECT_EQ(config.mapper.thesis_filter.mean, MeanKind::kExact);
+  EXPECT_TRUE(config.tracker.use_attitude);
+  EXPECT_EQ(config.tracker.tracks.search_radius_px, 70.5);
+  EXPECT_EQ(config.mapper.estimator, EstimatorKind::kThesis);
   EXPECT_TRUE(config.mapper.planar);
   EXPECT_EQ(config.mapper.mapper.max_depth_m, 50);
-  EXPECT_EQ(config.mapper.mapper.min_parallax_deg, MapperConfig{}.min_parallax_deg);
+  EXPECT_EQ(config.mapper.landmark_map.max_landmarks, LandmarkMapConfig{}.max_landmarks);
 }
 
 TEST_F(ConfigFile, EmptyPathFileAndSectionsAreTheDefaults) {
@@ -66,20 +69,20 @@ TEST_F(ConfigFile, OverridesStandAboveTheFile) {
 
 TEST_F(ConfigFile, EveryFaultIsListedAtOnce) {
   const auto faults = faultsOf(
-      "tracker:\n  features_per_frame: many\n  threshold: 12.5\n  frobnicate: 1\n"
-      "mapper:\n  mean: median\n  planar: perhaps\n  max_depth_m: -3\n  search_radius_px: .nan\n"
+      "tracker:\n  features_per_frame: many\n  cell_size_px: 12.5\n  frobnicate: 1\n"
+      "mapper:\n  estimator: median\n  planar: perhaps\n  max_depth_m: -3\n  track_sigma_px: .nan\n"
       "recorder:\n  rate: 3\n",
       {"no_equals_sign", "=3", "min_landmarks=0"});
   const std::vector<std::string> expected{
       "--set 'no_equals_sign' must be key=value",
       "--set '=3' must be key=value",
       "tracker/features_per_frame is 'many' but must be a whole number",
-      "tracker/threshold is '12.5' but must be a whole number",
+      "tracker/cell_size_px is '12.5' but must be a whole number",
       "tracker/frobnicate is not a parameter",
-      "mapper/mean is 'median' but must be one of: printed, exact",
+      "mapper/estimator is 'median' but must be one of: thesis, msckf, odometry",
       "mapper/planar is 'perhaps' but must be a switch (true or false)",
       "max_depth_m is -3 but must be between",
-      "search_radius_px is nan but must be between",
+      "track_sigma_px is nan but must be between",
       "min_landmarks is 0 but must be between",
       "unknown section 'recorder'"};
   ASSERT_EQ(faults.size(), expected.size()) << ::testing::PrintToString(faults);
@@ -95,7 +98,8 @@ TEST_F(ConfigFile, UnknownKeysGetAHint) {
     const auto faults = faultsOf("mapper:\n  " + key + ": 1\n");
     return faults.size() == 1 ? faults[0] : std::string("no single fault");
   };
-  EXPECT_TRUE(contains(hintOf("serach_radius_px"), "did you mean mapper/search_radius_px"));
+  EXPECT_TRUE(
+      contains(hintOf("landmark_treshold_px"), "did you mean mapper/landmark_threshold_px"));
   EXPECT_TRUE(contains(hintOf("max_depth"), "mapper/max_depth_m"));
   EXPECT_TRUE(contains(hintOf("features_per_frame"), "did you mean tracker/features_per_frame"));
   EXPECT_FALSE(contains(hintOf("xyzzy_plugh"), "did you mean"));
@@ -124,8 +128,8 @@ TEST_F(ConfigFile, KeysOfTheNodeletsArePassedOver) {
 
 TEST_F(ConfigFile, TheSectionOfOdometryFusionIsCheckedThoughNotUsed) {
   EXPECT_NO_THROW(
-      load("odometry_fusion:\n  map_frame: world\n  odometry_buffer_s: 3\n  scale_sigma: 0\n"));
-  const auto faults = faultsOf("odometry_fusion:\n  observer_bufer_s: 3\n  scale_sigma: 2\n");
+      load("odometry_fusion:\n  map_frame: world\n  odometry_buffer_s: 3\n  scale_sigma: 0.1\n"));
+  const auto faults = faultsOf("odometry_fusion:\n  odometry_bufer_s: 3\n  scale_sigma: 2\n");
   ASSERT_EQ(faults.size(), 2U) << ::testing::PrintToString(faults);
   EXPECT_TRUE(contains(faults[0], "did you mean odometry_fusion/odometry_buffer_s"));
   EXPECT_TRUE(contains(faults[1], "scale_sigma is 2 but must be between"));
@@ -153,7 +157,7 @@ TEST_F(ConfigFile, FilesThatAreNoConfiguration) {
   EXPECT_EQ(faultsOf("just some words\n").size(), 1U);
   EXPECT_EQ(faultsOf("- a\n- list\n").size(), 1U);
   EXPECT_EQ(faultsOf("tracker: 5\n").size(), 1U);
-  const auto broken = faultsOf("mapper:\n  mean: [exact\n");
+  const auto broken = faultsOf("mapper:\n  estimator: [exact\n");
   ASSERT_EQ(broken.size(), 1U);
   EXPECT_TRUE(contains(broken[0], "not valid YAML"));
   for (const std::string& path : {folder_.file("missing.yaml"), folder_.path()}) {
@@ -176,9 +180,38 @@ TEST(ParameterTable, NamesEveryParameterWithItsDefault) {
   visitParameters(config.mapper, expectRow);
   DelayedFusionConfig delayed_fusion;
   visitParameters(delayed_fusion, expectRow);
-  EXPECT_TRUE(contains(table, "| `mean` | printed | choice | printed, exact | "));
-  EXPECT_TRUE(contains(table, "| `planar` | false | switch | true, false | "));
-  EXPECT_TRUE(contains(table, "| `max_landmarks` | 200000 | landmarks | 10 to 10000000 | "));
+  EXPECT_TRUE(
+      contains(table, "| `estimator` | mapper | msckf | choice | thesis, msckf, odometry | "));
+  EXPECT_TRUE(contains(table, "| `planar` | mapper | false | switch | true, false | "));
+  EXPECT_TRUE(
+      contains(table, "| `max_landmarks` | mapper | 200000 | landmarks | 10 to 10000000 | "));
+  EXPECT_TRUE(
+      contains(table, "| `map_frame` | mapper, odometry_fusion, onboard_bridge | \"map\" | "));
+  EXPECT_TRUE(contains(table, "| `queue_size` | tracker, mapper | 5 (tracker), 10 (mapper) | "));
+}
+
+TEST(ParameterTable, ThePageIsTheTable) {
+  std::ifstream file(ARDRONE_VSLAM_SOURCE_DIR "/docs/parameters.md");
+  const std::string page((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_EQ(page, parameterTable()) << "replay --list-parameters > docs/parameters.md";
+}
+
+/// @return the rows of a heading's table, or of all
+int rowsOf(const std::string& table, const std::string& heading = "") {
+  std::istringstream lines(table);
+  std::string section;
+  int rows = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("## ", 0) == 0) section = line.substr(3);
+    rows += line.rfind("| `", 0) == 0 && (heading.empty() || section == heading) ? 1 : 0;
+  }
+  return rows;
+}
+
+TEST(ParameterTable, DoesNotGrow) {
+  EXPECT_LE(rowsOf(parameterTable()), 80) << "what nobody turns is a constant beside its use";
+  EXPECT_LE(rowsOf(parameterTable(), "What to turn first"), 26);
+  EXPECT_GE(rowsOf(parameterTable(), "What to turn first"), 20) << "the heading is another one";
 }
 
 }  // namespace

@@ -110,12 +110,16 @@ TEST_F(ToolUsage, FaultsOfTheInputAreNoWrongUsage) {
 
 TEST_F(ToolUsage, WhatIsNamedOnTheCommandLineWronglyIsWrongUsage) {
   makeKittiFolder(folder_, 3);
-  EXPECT_EQ(replay(folder_.path() + " --set threshold"), 2);
-  expectOutput({"replay: ", "'threshold'", "key=value"});
+  EXPECT_EQ(replay(folder_.path() + " --set max_clones"), 2);
+  expectOutput({"replay: ", "'max_clones'", "key=value"});
   EXPECT_EQ(replay(folder_.path() + " --set no_such_key=1"), 2);
   expectOutput({"no_such_key"});
   EXPECT_EQ(replay(folder_.path() + " --estimator foo"), 2);
   expectOutput({"--estimator", "thesis"});
+  EXPECT_EQ(replay(folder_.path() + " --estimator constraint"), 2);
+  expectOutput({"replay: constraint is called msckf now"});
+  EXPECT_EQ(replay(folder_.path() + " --observer-profile drone"), 2);
+  expectOutput({"replay: --observer-profile is called --odometry-profile now"});
   EXPECT_EQ(replay(folder_.path() + " --odometry-profile foo"), 2);
   expectOutput({"replay: --odometry-profile", "'foo'", "drone"});
   EXPECT_EQ(

@@ -33,8 +33,8 @@ class FlightFixture : public ::testing::Test {
     settings_.onboard.camera = file("camera.yaml");
     settings_.onboard.frames = file("frames");
     settings_.onboard.poses = file("poses");
-    settings_.onboard.pose_port = 0;
-    settings_.onboard.observer_port = 0;  // any
+    settings_.onboard.pose_address = "";
+    settings_.onboard.observer = "127.0.0.1:0";  // any port
     settings_.onboard.cpu_share = 1;
     settings_.odometry_wait_s = 0.01;
   }

@@ -41,7 +41,7 @@ TEST_F(OnboardLoopTest, AnswersEachImageOfAFileFromAFileOfRecords) {
 
 TEST_F(OnboardLoopTest, TakesDatagramsAndCountsTheBadOnes) {
   OnboardLoop loop(settings_, stop_.ends[0]);
-  const FileDescriptor controller = sendTo("127.0.0.1", loop.observerPort());
+  const FileDescriptor controller = sendTo({"127.0.0.1", loop.observerPort()});
   const auto send = [&](const std::string& bytes) {
     ASSERT_EQ(::write(controller.get(), bytes.data(), bytes.size()),
               static_cast<ssize_t>(bytes.size()));
@@ -237,7 +237,7 @@ TEST_F(OnboardLoopTest, WhatCannotBeOpenedIsSaidAtOnce) {
   EXPECT_NE(faultWith(&OnboardConfig::poses, file("none/poses")).find("none/poses"),
             std::string::npos);
   EXPECT_NE(faultWith(&OnboardConfig::observer, file("none")).find("none"), std::string::npos);
-  EXPECT_NE(faultWith(&OnboardConfig::observer_address, "drone").find("drone"), std::string::npos);
+  EXPECT_NE(faultWith(&OnboardConfig::pose_address, "drone").find("drone"), std::string::npos);
   EXPECT_NE(faultWith(&OnboardConfig::camera, file("none.yaml")).find("none.yaml"),
             std::string::npos);
 }

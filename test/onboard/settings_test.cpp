@@ -7,6 +7,7 @@
 
 #include "flight_records.hpp"
 #include "test_paths.hpp"
+#include "udp.hpp"
 #include "yaml_sections.hpp"
 
 namespace ardrone_vslam::test {
@@ -114,8 +115,39 @@ TEST(SettingsTest, EveryFaultIsNamed) {
   EXPECT_NE(settingsFault({"mapper/odometry_mode=twist"}).find("pose"), std::string::npos);
   EXPECT_NE(settingsFault({"planar=true"}).find("section/key=value"), std::string::npos);
   EXPECT_NE(settingsFault({"maper/planar=true"}).find("unknown section"), std::string::npos);
+  EXPECT_NE(settingsFault({"onboard/camera_position_m=[0, 0]"}).find("three numbers"),
+            std::string::npos);
+  EXPECT_NE(settingsFault({"onboard/camera_rotation_deg=0, 0, x"}).find("three numbers"),
+            std::string::npos);
   EXPECT_EQ(settingsFault({"mapper/map_frame=m", "odometry_fusion/odometry_mode=twist"}), "");
   EXPECT_THROW(loadSettings("/nowhere/config.yaml", {}), ConfigError);
+}
+
+TEST(SettingsTest, AnOldNameIsRefusedWithTheNewOne) {
+  EXPECT_NE(settingsFault({"mapper/rest_depth_m=3"})
+                .find("mapper/rest_depth_m is not a parameter; rest_depth_m is called "
+                      "zero_motion_depth_m now"),
+            std::string::npos);
+  EXPECT_NE(settingsFault({"onboard/camera_y_m=1"}).find("is called camera_position_m now"),
+            std::string::npos);
+  EXPECT_NE(settingsFault({"mapper/estimator=constraint"}).find("constraint is called msckf now"),
+            std::string::npos);
+  EXPECT_NE(settingsFault({"observer_fusion/odometry_mode=pose"})
+                .find("observer_fusion is called odometry_fusion now"),
+            std::string::npos);
+  EXPECT_NE(settingsFault({"mapper/watchdog_s=1"}).find("it is no parameter any more"),
+            std::string::npos);
+}
+
+TEST(UdpAddress, IsAnAddressAndAPort) {
+  EXPECT_EQ(udpAddressOf("192.168.1.2", 5582).port, 5582);
+  EXPECT_EQ(udpAddressOf("192.168.1.2:80", 5582).port, 80);
+  EXPECT_EQ(udpAddressOf("192.168.1.2:80", 5582).host, "192.168.1.2");
+  for (const char* text : {"192.168.1.2:", "192.168.1.2:x", "192.168.1.2:65536", "192.168.1.2:-1"})
+    EXPECT_THROW(udpAddressOf(text, 1), std::runtime_error) << text;
+  EXPECT_TRUE(isUdpAddress("0.0.0.0:0"));
+  for (const char* text : {"", "observer.bin", "/tmp/fifo", "drone:5580"})
+    EXPECT_FALSE(isUdpAddress(text)) << text;
 }
 
 TEST(SettingsTest, FilesThatAreNoneAreRefused) {
@@ -164,8 +196,9 @@ TEST(SettingsTest, TheMountingsAreThoseOfTheDriversTf) {
   forward << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   EXPECT_TRUE(T.linear().isApprox(forward, 1e-12));
   OnboardConfig bottom;
-  bottom.camera_roll_deg = 180;
-  bottom.camera_yaw_deg = 90;
+  bottom.camera_position_m = "[0, -0.02, 0]";
+  bottom.camera_rotation_deg = "[180, 0, 90]";
+  EXPECT_EQ(mountingOf(bottom).translation(), Eigen::Vector3d(0, -0.02, 0));
   EXPECT_TRUE((mountingOf(bottom).linear() * Eigen::Vector3d::UnitZ())
                   .isApprox(-Eigen::Vector3d::UnitZ(), 1e-12))
       << "it looks down";

@@ -102,7 +102,7 @@ TEST_P(FilterProperty, CovarianceStaysSymmetricAndPositiveDefinite) {
     config.mean = GetParam();
     config.min_landmarks = 2;
     config.common_drift = random.chance(0.7);
-    config.fix_deviation_floor_m = random.chance(0.5) ? 0 : 0.01;
+    config.fix_sigma_floor_m = random.chance(0.5) ? 0 : 0.01;
     config.fix_angle_floor_deg = 0;
     ThesisFilter filter(config);
     const LandmarkLocator locator(config);

@@ -80,7 +80,7 @@ TEST(NodeConfig, TheBridgesLaunchFileSetsItsParameters) {
     EXPECT_EQ(std::count(known.begin(), known.end(), (*it)[1].str()), 1) << (*it)[1];
     ++count;
   }
-  EXPECT_GE(count, 9);
+  EXPECT_GE(count, 8);
 }
 
 TEST(NodeConfig, ShippedFilesLoad) {

@@ -94,9 +94,9 @@ class OnboardBridge(unittest.TestCase):
     @classmethod
     def command(cls, **sets):
         """The controller is the second bridge."""
-        sets = {"camera_x_m": 0, "camera_y_m": 0, "camera_roll_deg": -90, "camera_yaw_deg": -90, "cpu_share": 1, "lock_memory": "false", "map": '""',
-                "observer_port": 0, "pose_port": cls.port_of("estimated"), "telemetry_address": "127.0.0.1",
-                "telemetry_port": cls.port, "telemetry_hz": 100, **sets}
+        sets = {"camera_position_m": "[0, 0, 0]", "camera_rotation_deg": "[-90, 0, -90]", "cpu_share": 1, "lock_memory": "false", "map": '""',
+                "observer": "127.0.0.1:0", "pose_address": f"127.0.0.1:{cls.port_of('estimated')}",
+                "telemetry_address": f"127.0.0.1:{cls.port}", "telemetry_hz": 100, **sets}
         sets = [f"onboard/{name}={value}" for name, value in sets.items()]
         sets += ["tracker/features_per_frame=200", "tracker/cell_size_px=80", "tracker/track_search_radius_px=80"]
         return [rospy.get_param("~onboard"), "--config", str(SOURCE / "config" / "ardrone_onboard.yaml"),
@@ -114,8 +114,8 @@ class OnboardBridge(unittest.TestCase):
         cls.frames = [stream[at:at + size] for at in range(0, len(stream), size)]
         cls.began_s = time.time()
         program = subprocess.Popen(
-            cls.command(odometry=packed / "odometry.bin", poses=packed / "poses.bin", map=packed / "landmarks.csv",
-                        every_frame="true") + ["--frames", "-"], stdin=subprocess.PIPE)
+            cls.command(observer=packed / "observer.bin", map=packed / "landmarks.csv") +
+            ["--poses", packed / "poses.bin", "--every-frame", "--frames", "-"], stdin=subprocess.PIPE)
         for frame in cls.frames:  # about as fast as the drone
             program.stdin.write(frame)
             program.stdin.flush()

@@ -29,19 +29,19 @@ class Params(unittest.TestCase):
 
     def test_tracker_lists_all_faults(self):
         self.assert_refused("tracker_node", [
-            "__name:=bad_tracker", "_threshold:=high", "_features_per_frame:=10.5",
-            "_suppression:=none", "_arc_length_px:=4", "_rectified:=1"], [
-                "/bad_tracker/threshold is 'high' but must be a whole number",
+            "__name:=bad_tracker", "_cell_size_px:=high", "_features_per_frame:=10.5",
+            "_image_transport:=none", "_threshold_min:=0", "_rectified:=1"], [
+                "/bad_tracker/cell_size_px is 'high' but must be a whole number",
                 "/bad_tracker/features_per_frame is '10.5' but must be a whole number",
-                "/bad_tracker/suppression is 'none' but must be one of: climb, strict",
-                "arc_length_px is 4 but must be between 9 and 12",
+                "/bad_tracker/image_transport is 'none' but must be one of: raw, compressed",
+                "threshold_min is 0 but must be between 1 and 35",
                 "/bad_tracker/rectified is '1' but must be true or false"])
 
     def test_mapper_lists_all_faults(self):
         self.assert_refused("mapper_node", [
-            "__name:=bad_mapper", "_odometry_wait_s:=-1", "_estimator:=kalman"], [
+            "__name:=bad_mapper", "_odometry_wait_s:=-1", "_estimator:=constraint"], [
                 "odometry_wait_s is -1 but must be between 0 and 60",
-                "/bad_mapper/estimator is 'kalman' but must be one of: thesis, msckf, odometry"])
+                "/bad_mapper/estimator is 'constraint' but must be one of: thesis, msckf, odometry; constraint is called msckf now"])
 
     def test_odometry_fusion_lists_all_faults(self):
         self.assert_refused("odometry_fusion_node", [
@@ -51,19 +51,19 @@ class Params(unittest.TestCase):
 
     def test_onboard_bridge_names_what_it_cannot_do(self):
         self.assert_refused("onboard_bridge_node", [
-            "__name:=bad_bridge", "_port:=70000", "_silent_s:=0", "_same_clock:=1"], [
-                "port is 70000 but must be between 0 and 65535",
-                "silent_s is 0 but must be between 0.001 and 3600",
+            "__name:=bad_bridge", "_transform_tolerance_s:=-1", "_same_clock:=1"], [
+                "transform_tolerance_s is -1 but must be between 0 and 10",
                 "/bad_bridge/same_clock is '1' but must be true or false"])
         self.assert_refused("onboard_bridge_node", ["__name:=bad_camera", "_camera:=/none/of/this.yaml"], ["camera: ", "/none/of/this.yaml: cannot be read; check the path"])
         self.assert_refused("onboard_bridge_node", ["__name:=bad_address", "_address:=drone"], ["drone:5582: is no address", "set `address` to"])
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
             other.bind(("127.0.0.1", 0))
-            self.assert_refused("onboard_bridge_node", ["__name:=bad_port", "_address:=127.0.0.1", "_port:=%d" % other.getsockname()[1]],
-                                ["cannot receive there", "`port` to one that no other program receives at"])
+            self.assert_refused("onboard_bridge_node", ["__name:=bad_port", "_address:=127.0.0.1:%d" % other.getsockname()[1]],
+                                ["cannot receive there", "a port that no other program receives at"])
 
     def test_unknown_parameter_is_warned_of(self):
-        process = start("tracker_node", "__name:=odd_tracker", "_thresold:=30",
+        rospy.set_param("/observer_fusion/odometry_mode", "twist")
+        process = start("tracker_node", "__name:=odd_tracker", "_thresold_min:=30", "_arc_length_px:=9",
                         "_queue_size:=7")
         master = rosgraph.Master("/params_test")
         end_s = time.monotonic() + 30
@@ -75,10 +75,12 @@ class Params(unittest.TestCase):
         time.sleep(0.5)
         process.send_signal(signal.SIGINT)  # what roslaunch sends
         output, _ = process.communicate(timeout=30)
-        self.assertIn("/odd_tracker/thresold is not a parameter", output)
-        self.assertIn("did you mean threshold?", output)
+        self.assertIn("/odd_tracker/thresold_min is not a parameter", output)
+        self.assertIn("did you mean threshold_min?", output)
+        self.assertIn("/odd_tracker/arc_length_px is not a parameter and has no effect; it is no parameter any more", output)
+        self.assertIn("/observer_fusion is not a section and has no effect; observer_fusion is called odometry_fusion now", output)
         self.assertIn("queue_size=7", output)
-        self.assertIn("threshold=35", output)
+        self.assertIn("threshold_min=8", output)
 
     def test_launch_file_leaves_the_transport_to_the_configuration(self):
         with tempfile.NamedTemporaryFile("w", suffix=".yaml") as config:
@@ -107,6 +109,8 @@ class Params(unittest.TestCase):
         for arguments, said in [
                 (["fake:=yes"], "fake:=yes: it is a switch: give true or false"),
                 (["rviz:=2"], "rviz:=2: it is a switch"),
+                (["observer_mode:=twist"], "observer_mode:=twist: observer_mode is called odometry_mode now"),
+                (["observer_fusion:=true"], "observer_fusion:=true: observer_fusion is called odometry_fusion now"),
                 (["fake:=true", "driver:=1"], "driver:=true fake:=true: the one is a real drone's driver"),
                 (["navdata:=/ardrone/navdata", "odometry_mode:=twist"],
                  "odometry_mode:=twist: navdata is used by odometry_mode navdata alone")]:

@@ -60,18 +60,18 @@ int weakest(const std::vector<Corner>& corners) {
 
 TEST(CornerDetectorConfig, ListsEveryFault) {
   CornerDetectorConfig config;
-  config.arc_length_px = 8;
-  config.sampling_passes = 17;
-  config.threshold_min = 50;
-  config.threshold_max = 40;
+  config.features_per_frame = 0;
+  config.cell_size_px = 8;
+  config.threshold_min = 30;
+  config.threshold_max = 20;
   try {
     const CornerDetector detector(config);
     FAIL() << "accepted";
   } catch (const ConfigError& error) {
     ASSERT_EQ(error.faults().size(), 3U) << error.what();
-    EXPECT_NE(error.faults()[0].find("arc_length_px is 8"), std::string::npos);
-    EXPECT_NE(error.faults()[1].find("sampling_passes is 17"), std::string::npos);
-    EXPECT_NE(error.faults()[2].find("threshold_min is 50 but threshold_max is only 40"),
+    EXPECT_NE(error.faults()[0].find("features_per_frame is 0"), std::string::npos);
+    EXPECT_NE(error.faults()[1].find("cell_size_px is 8"), std::string::npos);
+    EXPECT_NE(error.faults()[2].find("threshold_min is 30 but threshold_max is only 20"),
               std::string::npos);
   }
 }

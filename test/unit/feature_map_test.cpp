@@ -68,12 +68,5 @@ TEST(FeatureMap, ATrackThatLeftItsPointNeverFindsTheOldEntryAgain) {
   EXPECT_EQ(map.indexOfTrack(kNoTrack), -1);
 }
 
-TEST(FeatureMap, RefusesInvalidParameters) {
-  FeatureMapConfig config;
-  config.max_map_features = 0;
-  config.max_feature_age_s = -1;
-  EXPECT_THROW(FeatureMap{config}, ConfigError);
-}
-
 }  // namespace
 }  // namespace ardrone_vslam

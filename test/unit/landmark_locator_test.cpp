@@ -119,7 +119,7 @@ TEST(LandmarkLocator, DeviationOfThePrintedMeanShrinksWithTheRootOfTheNumber) {
 
 TEST(LandmarkLocator, FloorsHoldErrorsThatAllLandmarksShare) {
   ThesisFilterConfig config = printedOnly();
-  config.fix_deviation_floor_m = 0.03;
+  config.fix_sigma_floor_m = 0.03;
   config.fix_angle_floor_deg = 1;
   const LandmarkLocator locator(config);
   const std::vector<Observation> many(10000, Observation{{4, 0, 0}, {1, 0, 0}, 0.1, 0});
@@ -150,7 +150,8 @@ TEST(LandmarkLocator, ExactMeanWeighsWrongMatchesDown) {
     for (std::size_t i = 0; i < 30; ++i)  // another thing to the left of what the landmarks show
       observations[i].direction_map =
           (observations[i].direction_map + Eigen::Vector3d(0, 0.1, 0)).normalized();
-    const auto fix = LandmarkLocator(config).locate(observations, Eigen::Vector3d::Zero(), kPixel_rad);
+    const auto fix =
+        LandmarkLocator(config).locate(observations, Eigen::Vector3d::Zero(), kPixel_rad);
     const auto drawn =
         LandmarkLocator(trusting).locate(observations, Eigen::Vector3d::Zero(), kPixel_rad);
     ASSERT_TRUE(fix && drawn);
@@ -176,7 +177,7 @@ TEST(LandmarkLocator, DegenerateObservationsGiveNoNumberThatIsNotFinite) {
 TEST(LandmarkLocator, RefusesInvalidParameters) {
   ThesisFilterConfig config;
   config.min_landmarks = 0;
-  config.gate_sigmas = std::nan("");
+  config.odometry_noise_m_per_sqrt_s = std::nan("");
   try {
     const LandmarkLocator locator(config);
     FAIL() << "must throw";

@@ -75,10 +75,10 @@ TYPED_TEST(ParametersOf, EveryFaultIsListedOnce) {
 
 TEST(Parameters, AFaultSaysNameValueAndRange) {
   SlamConfig config;
-  config.mapper.min_parallax_deg = 91;
+  config.mapper.max_depth_m = 0;
   const auto faults = rangeFaults(config);
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0], "min_parallax_deg is 91 but must be between 0.01 and 90 [deg]");
+  EXPECT_EQ(faults[0], "max_depth_m is 0 but must be between 0.1 and 100000 [m]");
 }
 
 TEST(Parameters, BothEndsOfARangeAreValid) {
@@ -91,7 +91,7 @@ TEST(Parameters, BothEndsOfARangeAreValid) {
 
 TEST(Parameters, StagesRefuseInvalidConfigurations) {
   SlamConfig config;
-  config.association.search_radius_px = 0;
+  config.association.landmark_threshold_px = 0;
   config.odometry.buffer_s = -1;
   EXPECT_THROW(Associator{config.association}, ConfigError);
   EXPECT_THROW(OdometryBuffer{config.odometry}, ConfigError);
@@ -106,8 +106,7 @@ TEST(Parameters, StagesRefuseInvalidConfigurations) {
 TEST(Parameters, NamesOfChoices) {
   EXPECT_STREQ(nameOf(EstimatorKind::kThesis), "thesis");
   EXPECT_STREQ(nameOf(EstimatorKind::kOdometry), "odometry");
-  EXPECT_STREQ(nameOf(MeanKind::kPrinted), "printed");
-  EXPECT_STREQ(nameOf(MeanKind::kExact), "exact");
+  EXPECT_STREQ(nameOf(EstimatorKind::kMsckf), "msckf");
 }
 
 TEST(Parameters, NearestName) {

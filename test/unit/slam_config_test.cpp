@@ -34,8 +34,7 @@ TEST(SlamConfig, TheThesisFilterRefusesWhatItWouldNotUse) {
   config.height_input.known_height_m = 1.65;
   expectFault(config, {"known_height_m", "estimator to msckf", "known_height_m to 0"});
   config.height_input.known_height_m = 0;
-  config.msckf.attitude_states = false;
-  expectFault(config, {"attitude_states", "estimator to msckf", "attitude_states to true"});
+  config.msckf.height.floor_points = true;
   config.height_input.use_range = true;
   EXPECT_EQ(faultsOf(config).size(), 2U) << "all faults are told at once";
 }
@@ -44,19 +43,7 @@ TEST(SlamConfig, TheObserverIsARowBesideTheOthersWithTheirParameters) {
   SlamConfig config;
   config.estimator = EstimatorKind::kOdometry;
   config.height_input.use_range = true;
-  config.msckf.attitude_states = false;
   EXPECT_TRUE(faultsOf(config).empty());
-}
-
-TEST(SlamConfig, TracksMustFitIntoTheWindow) {
-  SlamConfig config;
-  config.msckf.window_frames = 5;
-  config.msckf.min_track_views = 5;
-  EXPECT_TRUE(faultsOf(config).empty());
-  config.msckf.min_track_views = 6;
-  expectFault(config, {"lower min_track_views", "raise window_frames"});
-  config.estimator = EstimatorKind::kThesis;
-  EXPECT_TRUE(faultsOf(config).empty()) << "it has no window";
 }
 
 TEST(SlamConfig, OneHeightIsEnough) {

@@ -23,33 +23,33 @@ Contradiction biased(double deviations) {
 }
 
 TEST(Watchdog, EndsTrustWhenTheBiasStaysBeyondItsLimit) {
-  Watchdog watchdog({});
+  Watchdog watchdog;
   EXPECT_NEAR(secondsOfTrust(watchdog, biased(15.1)).value(), 3, 0.11);
-  Watchdog other({});
+  Watchdog other;
   EXPECT_FALSE(secondsOfTrust(other, biased(14.9)));
   EXPECT_FALSE(other.isCalm());
 }
 
 TEST(Watchdog, APlaceSeenBeforeConfirmsTheBias) {
-  Watchdog watchdog({});
+  Watchdog watchdog;
   Contradiction contradiction = biased(50);
   contradiction.is_confirmed = true;
   EXPECT_FALSE(secondsOfTrust(watchdog, contradiction));
 }
 
 TEST(Watchdog, EndsTrustWhenFixesStayFurtherOffThanTheyClaim) {
-  Watchdog watchdog({});
+  Watchdog watchdog;
   Contradiction contradiction;
   contradiction.fix_nis = 8.1;
   contradiction.is_confirmed = true;
   EXPECT_NEAR(secondsOfTrust(watchdog, contradiction).value(), 3, 0.11);
-  Watchdog other({});
+  Watchdog other;
   contradiction.fix_nis = 7.9;
   EXPECT_FALSE(secondsOfTrust(other, contradiction));
 }
 
 TEST(Watchdog, ImagesWithoutOldLandmarksSayNothingOfFixes) {
-  Watchdog watchdog({});
+  Watchdog watchdog;
   Contradiction bad;
   bad.fix_nis = 9;
   int trusted_images = 0;
@@ -60,7 +60,7 @@ TEST(Watchdog, ImagesWithoutOldLandmarksSayNothingOfFixes) {
 }
 
 TEST(Watchdog, IsCalmWellBelowTheLimits) {
-  Watchdog watchdog({});
+  Watchdog watchdog;
   watchdog.see(0, biased(4));
   EXPECT_TRUE(watchdog.isCalm());
   watchdog.see(kStep_ns, biased(6));
@@ -68,7 +68,7 @@ TEST(Watchdog, IsCalmWellBelowTheLimits) {
 }
 
 TEST(Watchdog, PausesTwiceAsLongEachTime) {
-  Watchdog watchdog({});
+  Watchdog watchdog;
   std::int64_t now_ns = 0;
   for (const double pause_s : {10.0, 20.0, 40.0}) {
     EXPECT_FALSE(watchdog.isDistrustful(now_ns));

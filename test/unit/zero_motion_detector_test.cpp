@@ -99,7 +99,7 @@ TEST(ZeroMotionDetector, AStillCameraRestsAfterASecond) {
   // Wrong in one of two images: 0, 15 and 30 % of the tracks.
   for (const double wrong_share : {0.0, 0.08, 0.163}) {
     Film film(150, wrong_share);
-    ZeroMotionDetector detector((ZeroMotionConfig()));
+    ZeroMotionDetector detector;
     EXPECT_NE(film.see(detector, Eigen::Vector3d::Zero()), CameraMotion::kResting);
     EXPECT_TRUE(detector.isReference());
     const Counts counts = watch(film, detector, 10, nowhere, straightOn);
@@ -111,7 +111,7 @@ TEST(ZeroMotionDetector, AStillCameraRestsAfterASecond) {
 
 TEST(ZeroMotionDetector, WhatItHidesIsAPixelAcrossAndMoreAlongTheView) {
   Film film;
-  ZeroMotionDetector detector((ZeroMotionConfig()));
+  ZeroMotionDetector detector;
   watch(film, detector, 3, nowhere, straightOn);
   const Eigen::Vector3d hidden_px =
       detector.stillness().hidden.diagonal().cwiseSqrt() * kFocalLength_px;
@@ -123,7 +123,7 @@ TEST(ZeroMotionDetector, WhatItHidesIsAPixelAcrossAndMoreAlongTheView) {
 
 TEST(ZeroMotionDetector, TurningOnTheSpotIsRotating) {
   Film film(600);
-  ZeroMotionDetector detector((ZeroMotionConfig()));
+  ZeroMotionDetector detector;
   const Counts counts =
       watch(film, detector, 4, nowhere, [](double t_s) { return 0.1 * (t_s - 2); });
   EXPECT_GT(counts.rotating, 60);
@@ -140,7 +140,7 @@ TEST(ZeroMotionDetector, CreepingIsSeenBeforeItHasGoneFar) {
   for (const Case& c :
        {Case{{0.01, 0, 0}, 0.1}, Case{{0, 0.01, 0}, 0.1}, Case{{0, 0, 0.01}, 0.1}}) {
     Film film;
-    ZeroMotionDetector detector((ZeroMotionConfig()));
+    ZeroMotionDetector detector;
     double reference_t_s = 0;
     double farthest_m = 0;
     for (double t_s = 0; t_s < 30; t_s += 1 / kRate_hz) {
@@ -157,7 +157,7 @@ TEST(ZeroMotionDetector, AFlyingCameraIsNeverAtRest) {
       {0.3, 0, 0}, {0, 0.3, 0}, {0, 0, 0.3}, {0.1, 0.1, 0.1}, {0, 0, -0.15}};
   for (const Eigen::Vector3d& velocity_m_s : velocities_m_s) {
     Film film(400);
-    ZeroMotionDetector detector((ZeroMotionConfig()));
+    ZeroMotionDetector detector;
     const Counts counts = watch(
         film, detector, 4, [&](double t_s) -> Eigen::Vector3d { return velocity_m_s * (t_s - 2); },
         straightOn);
@@ -169,7 +169,7 @@ TEST(ZeroMotionDetector, AFlyingCameraIsNeverAtRest) {
 TEST(ZeroMotionDetector, ATurnThatTheObserverDoesNotSeeIsMotion) {
   // Sideways past a wall looks like a turn.
   Film film(600);
-  ZeroMotionDetector detector((ZeroMotionConfig()));
+  ZeroMotionDetector detector;
   for (double t_s = 0; t_s < 2; t_s += 1 / kRate_hz) film.see(detector, Eigen::Vector3d::Zero());
   CameraMotion motion = CameraMotion::kUnknown;
   for (double t_s = 0; t_s < 0.5 && motion != CameraMotion::kMoving; t_s += 1 / kRate_hz)
@@ -179,14 +179,14 @@ TEST(ZeroMotionDetector, ATurnThatTheObserverDoesNotSeeIsMotion) {
 
 TEST(ZeroMotionDetector, FewTracksSayNothing) {
   Film film(10);
-  ZeroMotionDetector detector((ZeroMotionConfig()));
+  ZeroMotionDetector detector;
   const Counts counts = watch(film, detector, 3, nowhere, straightOn);
   EXPECT_EQ(counts.resting + counts.rotating + counts.moving, 0);
 }
 
 TEST(ZeroMotionDetector, OneBadImageDoesNotEndIt) {
   Film film;
-  ZeroMotionDetector detector((ZeroMotionConfig()));
+  ZeroMotionDetector detector;
   watch(film, detector, 2, nowhere, straightOn);
   EXPECT_EQ(film.see(detector, {0.5, 0, 0}), CameraMotion::kUnknown);
   EXPECT_FALSE(detector.isReference());

@@ -117,7 +117,7 @@ TEST(RestWorld, ASlowFlightBeforeAFarSceneIsNotHeld) {
   PointWorld world(1);
   world.addRoom({200, 200, 60}, 3000);
   SlamConfig config = msckfConfig();
-  config.msckf.rest.rest_depth_m = 100;
+  config.msckf.zero_motion_depth_m = 100;
   const FlightRun run = test::fly(world, flight, test::observeExactly(flight), config);
   EXPECT_LT(lastError_m(flight, run), 0.05);
 }

@@ -116,9 +116,10 @@ std::string hintFor(const std::string& section, const std::string& written) {
   std::set<std::string> names;
   if (section == kOdometryFusion || section == kOnboard) {
     section == kOnboard ? addNames(OnboardConfig{}, names) : addNames(DelayedFusionConfig{}, names);
-    const std::string nearest = nearestName(written, names);
-    return nearest.empty() ? nearest : "; did you mean " + section + "/" + nearest;
+    return remedyFor(section, written, names);
   }
+  const std::string became = whatBecameOf(OldName::Kind::kParameter, written);
+  if (!became.empty()) return became;
   addNames(TrackerConfig{}, names);
   addNames(SlamConfig{}, names);
   const std::string nearest = nearestName(written, names);
@@ -196,8 +197,9 @@ PipelineConfig loadConfig(const std::string& path, const std::vector<std::string
     readSection(kOnboard, sections, onboard, faults);
   }
   for (const auto& section : sections) {
-    faults.push_back("unknown section '" + section.first +
-                     "'; known are tracker, mapper, odometry_fusion and onboard");
+    faults.push_back("unknown section '" + section.first + "'" +
+                     whatBecameOf(OldName::Kind::kSection, section.first) +
+                     "; known are tracker, mapper, odometry_fusion and onboard");
   }
   if (!faults.empty()) throw ConfigError(faults);
   return config;

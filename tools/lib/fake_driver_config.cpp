@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fake_driver_config.hpp"
 
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -36,11 +35,6 @@ void naming(const std::string& parameter, const std::string& also_known, Read re
   }
 }
 
-template <class T>
-std::optional<T> unlessEmpty(const std::string& text, const T& value) {
-  return text.empty() ? std::nullopt : std::optional<T>(value);
-}
-
 }  // namespace
 
 void checkNames(const FakeDriverConfig& config) {
@@ -65,37 +59,19 @@ World worldOf(const FakeDriverConfig& config) {
   const FlightInfo& flight = flightInfo(hasAutopilot(config) ? config.autopilot : "laps");
   WorldOptions options;
   options.flight = flight.name;
-  options.world_seed = static_cast<std::uint64_t>(config.world_seed);
-  options.world = unlessEmpty(config.world, config.world);
-  options.light = unlessEmpty(config.light, config.light);
+  if (!config.world.empty()) options.world = config.world;
   if (hasAutopilot(config)) return makeWorldFor(options);
-  return makeWorld(options.world.value_or(flight.world), options.light.value_or(flight.light),
-                   options.world_seed);
+  return makeWorld(options.world.value_or(flight.world), flight.light, options.world_seed);
 }
 
 FakeDroneOptions droneOf(const FakeDriverConfig& config) {
   FakeDroneOptions options;
   if (hasAutopilot(config)) options.autopilot = config.autopilot;
-  if (!config.start.empty()) options.start = parseStart("start", config.start);
   options.profile =
       loadOdometryProfile(config.odometry_profile, findConfigFile("odometry_profiles.yaml"));
   options.wind_m_s = config.wind;
   options.seed = static_cast<std::uint64_t>(config.seed);
   return options;
-}
-
-CameraEffects effectsOf(const FakeDriverConfig& config) {
-  CameraEffects effects;
-  effects.shutter_s = config.shutter / 1000;
-  effects.readout_s = config.readout / 1000;
-  if (config.gain > 0) {
-    effects.gain = config.gain;
-  } else {
-    effects.gain.reset();
-  }
-  effects.noise_grey = config.image_noise;
-  effects.quantiser = config.artefacts;
-  return effects;
 }
 
 std::string prefixOf(const FakeDriverConfig& config, const DriverFaults& faults) {

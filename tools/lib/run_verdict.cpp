@@ -14,7 +14,7 @@ void throwIfNothingCame(const std::string& name, const RunResult& run) {
     throw std::runtime_error(name +
                              ": no image has odometry at its stamp; the stamps of images and "
                              "odometry do not overlap, or the "
-                             "odometry's gaps are longer than odometry_max_gap_s");
+                             "odometry's gaps are longer than half a second");
   }
   const auto isEmpty = [](const RunFrame& frame) { return frame.result.features == 0; };
   if (std::all_of(run.frames.begin(), run.frames.end(), isEmpty)) {

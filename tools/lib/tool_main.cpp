@@ -5,8 +5,32 @@
 #include <iostream>
 
 #include "ardrone_vslam/instruction_set.hpp"
+#include "ardrone_vslam/parameters.hpp"
 
 namespace ardrone_vslam {
+
+namespace {
+
+/// What became of options and values of earlier versions that the arguments hold.
+std::vector<std::string> oldArguments(int argc, char** argv) {
+  std::vector<std::string> sentences;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::string option = argument.substr(0, argument.find('='));
+    const std::string before = std::string(argv[i - 1]).substr(0, 2) == "--" ? argv[i - 1] + 2 : "";
+    for (const OldName& old : oldNames()) {
+      const bool is_option = old.kind == OldName::Kind::kOption && option == old.name;
+      const bool is_choice =
+          old.kind == OldName::Kind::kChoice && before == old.owner && argument == old.name;
+      if (!is_option && !is_choice) continue;
+      sentences.push_back(std::string(old.name) + " is called " + old.now + " now");
+      break;
+    }
+  }
+  return sentences;
+}
+
+}  // namespace
 
 int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& run) {
   const auto fault = [&app](const std::exception& e, int exit_code) {
@@ -19,7 +43,10 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& ru
     if (!kernels_fault.empty()) std::cerr << app.get_name() << ": " << kernels_fault << '\n';
     return run();
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    if (app.exit(e) == 0) return 0;
+    for (const std::string& sentence : oldArguments(argc, argv))
+      std::cerr << app.get_name() << ": " << sentence << '\n';
+    return 2;
   } catch (const UsageError& e) {
     return fault(e, 2);
   } catch (const std::exception& e) {

@@ -43,10 +43,10 @@ FakeDriver::FakeDriver(ros::NodeHandle nh, const FakeDriverConfig& config)
       map_frame_(mapFrame(prefixOf(config, faults_))),
       is_bottom_(config.camera == kBottom),
       link_(!has(DriverFault::kBursts), static_cast<std::uint64_t>(config.seed)),
-      camera_(drone_.world(), effectsOf(config), {front_, kBottom}),
+      camera_(drone_.world(), CameraEffects{}, {front_, kBottom}),
       flight_s_(hasAutopilot(config) ? flightInfo(config.autopilot).duration_s : 0),
       transport_(nh) {
-  cv::setNumThreads(config.render_threads);
+  cv::setNumThreads(1);  // the other cores are the nodelets'
   advertise();
   listen();
   diagnostics_.setHardwareID("fake AR.Drone");
