@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "measurements.hpp"
-#include "random_source.hpp"
 #include "map/landmark_locator.hpp"
+#include "simulation/random_source.hpp"
 
 namespace ardrone_vslam::reproduction {
 namespace {

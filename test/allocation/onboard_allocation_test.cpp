@@ -2,13 +2,13 @@
 // vslam_onboard's own code, beside the core: nothing is allocated once it runs.
 #include <gtest/gtest.h>
 
-#include "answer_output.hpp"
+#include "loop/answer_output.hpp"
 #include "counted_allocations.hpp"
-#include "frame_stream.hpp"
-#include "observer_input.hpp"
+#include "input/frame_stream.hpp"
+#include "input/observer_input.hpp"
 #include "onboard/flight_records.hpp"
-#include "telemetry.hpp"
-#include "udp.hpp"
+#include "protocol/telemetry.hpp"
+#include "protocol/udp.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "counted_allocations.hpp"
 #include "onboard/flight_fixture.hpp"
-#include "onboard_loop.hpp"
+#include "loop/onboard_loop.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The check of a bag's bytes, on bags written here by the format's description; no ROS.
-#include "bag_check.hpp"
+#include "bags/check/bag_check.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "bag_records.hpp"
+#include "bags/check/bag_records.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {

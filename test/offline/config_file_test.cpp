@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "config_file.hpp"
+#include "config_files/config_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "ardrone_vslam/delayed_fusion.hpp"
-#include "parameter_table.hpp"
+#include "parameters/parameter_table.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {

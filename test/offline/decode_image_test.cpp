@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../../nodes/decode_image.hpp"
+#include "input_checks/decode_image.hpp"
 
 #include "support/sequence_folders.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor_camera.hpp"
+#include "doctor/camera/doctor_camera.hpp"
 
 #include <gtest/gtest.h>
 
-#include "doctor_examination.hpp"
-#include "doctor_frames.hpp"
+#include "doctor/doctor_examination.hpp"
+#include "doctor/camera/doctor_frames.hpp"
 #include "support/doctor_recordings.hpp"
-#include "world_camera.hpp"
+#include "world/world_camera.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor_mounting.hpp"
+#include "doctor/camera/doctor_mounting.hpp"
 
 #include <gtest/gtest.h>
 
-#include "doctor_motion.hpp"
+#include "doctor/camera/doctor_motion.hpp"
 #include "support/doctor_recordings.hpp"
 
 namespace ardrone_vslam {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // doctor on the AR.Drone's navdata and IMU: each fault named, and nothing else.
-#include "doctor_navdata.hpp"
+#include "doctor/streams/doctor_navdata.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <set>
 
-#include "doctor_examination.hpp"
-#include "doctor_streams.hpp"
+#include "doctor/doctor_examination.hpp"
+#include "doctor/streams/doctor_streams.hpp"
 #include "support/doctor_recordings.hpp"
 
 namespace ardrone_vslam {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor_odometry.hpp"
+#include "doctor/streams/doctor_odometry.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "doctor_height.hpp"
+#include "doctor/streams/doctor_height.hpp"
 #include "support/doctor_recordings.hpp"
 
 namespace ardrone_vslam {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor_streams.hpp"
+#include "doctor/streams/doctor_streams.hpp"
 
 #include <gtest/gtest.h>
 
-#include "doctor_examination.hpp"
-#include "doctor_topics.hpp"
-#include "doctor_tracks.hpp"
+#include "doctor/doctor_examination.hpp"
+#include "doctor/recording/doctor_topics.hpp"
+#include "doctor/camera/doctor_tracks.hpp"
 #include "support/doctor_recordings.hpp"
 
 namespace ardrone_vslam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "drone_model.hpp"
+#include "driver/drone_model.hpp"
 
 #include <gtest/gtest.h>
 

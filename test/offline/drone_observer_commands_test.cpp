@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ardrone_vslam/drone_observer.hpp"
-#include "drone_flight.hpp"
-#include "drone_model.hpp"
+#include "driver/drone_flight.hpp"
+#include "driver/drone_model.hpp"
 
 namespace ardrone_vslam {
 namespace {

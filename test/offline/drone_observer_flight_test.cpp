@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "ardrone_vslam/drone_observer.hpp"
-#include "config_path.hpp"
-#include "drone_flight.hpp"
-#include "world.hpp"
+#include "config_files/config_path.hpp"
+#include "driver/drone_flight.hpp"
+#include "world/world.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "earlier_run.hpp"
+#include "report/earlier_run.hpp"
 
 #include <set>
 
-#include "run_files.hpp"
-#include "run_report.hpp"
+#include "report/run_files.hpp"
+#include "report/run_report.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fake_drone.hpp"
+#include "driver/fake_drone.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fake_driver_config.hpp"
+#include "driver/fake_driver_config.hpp"
 
 namespace ardrone_vslam {
 namespace {

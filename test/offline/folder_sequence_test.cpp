@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // KITTI and TUM-like folders as sequences, and what is said of wrong ones.
 
-#include "sequence.hpp"
+#include "sequences/sequence.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {

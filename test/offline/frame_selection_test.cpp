@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // --frames A:B:STEP and --ping-pong.
 
-#include "sequence.hpp"
+#include "sequences/sequence.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "camera_yaml.hpp"
-#include "fake_driver_config.hpp"
+#include "sequences/camera_yaml.hpp"
+#include "driver/fake_driver_config.hpp"
 #include "test_paths.hpp"
-#include "world_camera.hpp"
+#include "world/world_camera.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "live_camera.hpp"
+#include "world/live_camera.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,8 +12,8 @@
 #include <stdexcept>
 
 #include "test_paths.hpp"
-#include "tum_folder_writer.hpp"
-#include "world_sequence.hpp"
+#include "sequences/tum_folder_writer.hpp"
+#include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {
 namespace {

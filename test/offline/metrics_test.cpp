@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "metrics.hpp"
+#include "trajectory/metrics.hpp"
 
 #include <gtest/gtest.h>
 

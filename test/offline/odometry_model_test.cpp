@@ -2,7 +2,7 @@
 // The drift of each profile against what its numbers say analytically, over many seeds. A sample
 // deviation of n draws scatters by 1 / sqrt(2 n), which is 3.5 % here; the bounds are four of that
 // and more where the draws are not normal.
-#include "odometry_model.hpp"
+#include "simulation/odometry_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "odometry_model.hpp"
+#include "simulation/odometry_model.hpp"
 #include "test_paths.hpp"
 
 namespace ardrone_vslam {

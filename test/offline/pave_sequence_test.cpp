@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Streams of pictures that can be decoded: another camera or size in mid-stream, a restarted drone,
 // a clock that stands still.
-#include "pave_sequence.hpp"
+#include "pave/pave_sequence.hpp"
 
 #include <algorithm>
 

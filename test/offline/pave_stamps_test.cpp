@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The drone's clock: sound, begun anew, standing still, damaged.
-#include "pave_stamps.hpp"
+#include "pave/pave_stamps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The AR.Drone's video stream: whole, damaged, and as a sequence.
 
-#include "pave.hpp"
+#include "pave/pave.hpp"
 
 #include <algorithm>
 #include <iterator>
 
-#include "pave_sequence.hpp"
-#include "random_source.hpp"
+#include "pave/pave_sequence.hpp"
+#include "simulation/random_source.hpp"
 #include "support/pave_packets.hpp"
 #include "support/sequence_folders.hpp"
 

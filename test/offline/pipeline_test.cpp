@@ -6,15 +6,15 @@
 #include <memory>
 #include <string>
 
-#include "config_file.hpp"
-#include "metrics.hpp"
-#include "odometry_model.hpp"
-#include "offline_run.hpp"
-#include "pave_sequence.hpp"
-#include "run_report.hpp"
-#include "sequence.hpp"
+#include "config_files/config_file.hpp"
+#include "trajectory/metrics.hpp"
+#include "simulation/odometry_model.hpp"
+#include "run/offline_run.hpp"
+#include "pave/pave_sequence.hpp"
+#include "report/run_report.hpp"
+#include "sequences/sequence.hpp"
 #include "test_paths.hpp"
-#include "world_sequence.hpp"
+#include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {
 namespace {

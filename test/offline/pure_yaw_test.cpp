@@ -9,10 +9,10 @@
 #include <set>
 #include <vector>
 
-#include "odometry_model.hpp"
-#include "offline_run.hpp"
+#include "simulation/odometry_model.hpp"
+#include "run/offline_run.hpp"
 #include "test_paths.hpp"
-#include "world_sequence.hpp"
+#include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {
 namespace {

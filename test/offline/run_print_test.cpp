@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run_print.hpp"
+#include "report/run_print.hpp"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "run_report.hpp"
+#include "report/run_report.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run_report.hpp"
+#include "report/run_report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <limits>
 #include <sstream>
 
-#include "run_files.hpp"
-#include "run_verdict.hpp"
+#include "report/run_files.hpp"
+#include "report/run_verdict.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // When a run sends its user to doctor, and when it does not.
-#include "run_verdict.hpp"
+#include "report/run_verdict.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Landmarks beside a path, and the MSCKF between them.
-#include "simulated_street.hpp"
+#include "landmarks/simulated_street.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "config_path.hpp"
-#include "metrics.hpp"
-#include "run_all.hpp"
-#include "run_report.hpp"
+#include "config_files/config_path.hpp"
+#include "trajectory/metrics.hpp"
+#include "run/run_all.hpp"
+#include "report/run_report.hpp"
 #include "support/sequence_folders.hpp"
 #include "test_paths.hpp"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slow_computer.hpp"
+#include "run/slow_computer.hpp"
 
 #include <gtest/gtest.h>
 
 #include <utility>
 
-#include "run_all.hpp"
-#include "run_report.hpp"
-#include "world_sequence.hpp"
+#include "run/run_all.hpp"
+#include "report/run_report.hpp"
+#include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../../nodes/speed_watch.hpp"
+#include "input_checks/speed_watch.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "offline_run.hpp"
+#include "run/offline_run.hpp"
 
 namespace ardrone_vslam {
 namespace {

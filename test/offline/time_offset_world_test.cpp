@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "ardrone_vslam/time_offset.hpp"
-#include "odometry_model.hpp"
-#include "offline_run.hpp"
+#include "simulation/odometry_model.hpp"
+#include "run/offline_run.hpp"
 #include "test_paths.hpp"
-#include "world_sequence.hpp"
+#include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {
 namespace {

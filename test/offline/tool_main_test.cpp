@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool_main.hpp"
+#include "program/tool_main.hpp"
 
 #include <gtest/gtest.h>
 

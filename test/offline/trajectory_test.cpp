@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trajectory.hpp"
+#include "trajectory/trajectory.hpp"
 
 #include <gtest/gtest.h>
 

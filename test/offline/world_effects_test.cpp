@@ -6,11 +6,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "block_artefacts.hpp"
-#include "sequence.hpp"
-#include "world.hpp"
-#include "world_camera.hpp"
-#include "world_sequence.hpp"
+#include "world/block_artefacts.hpp"
+#include "sequences/sequence.hpp"
+#include "world/world.hpp"
+#include "world/world_camera.hpp"
+#include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {
 namespace {

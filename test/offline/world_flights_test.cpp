@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world.hpp"
-#include "world_corridor.hpp"
-#include "world_flight.hpp"
-#include "world_furniture.hpp"
+#include "world/world.hpp"
+#include "world/scene/world_corridor.hpp"
+#include "world/flight/world_flight.hpp"
+#include "world/scene/world_furniture.hpp"
 
 namespace ardrone_vslam {
 namespace {

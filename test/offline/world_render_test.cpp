@@ -7,8 +7,8 @@
 
 #include "ardrone_vslam/camera_model.hpp"
 #include "support/projected_marks.hpp"
-#include "world_camera.hpp"
-#include "world_renderer.hpp"
+#include "world/world_camera.hpp"
+#include "world/render/world_renderer.hpp"
 
 namespace ardrone_vslam {
 namespace {

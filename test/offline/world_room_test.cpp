@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the room is made of: textures, painting, the box of its surfaces.
-#include "world_room.hpp"
+#include "world/scene/world_room.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-#include "world_paint.hpp"
-#include "world_sequence.hpp"
+#include "world/scene/world_paint.hpp"
+#include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {
 namespace {

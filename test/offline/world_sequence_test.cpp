@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The flight, the sequence that it makes, and whether there is enough to see on it.
-#include "world_sequence.hpp"
+#include "world/world_sequence.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <opencv2/features2d.hpp>
 #include <stdexcept>
 
-#include "random_source.hpp"
+#include "simulation/random_source.hpp"
 #include "test_paths.hpp"
-#include "world_room.hpp"
+#include "world/scene/world_room.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "support/projected_marks.hpp"
-#include "world.hpp"
-#include "world_camera.hpp"
-#include "world_renderer.hpp"
+#include "world/world.hpp"
+#include "world/world_camera.hpp"
+#include "world/render/world_renderer.hpp"
 
 namespace ardrone_vslam {
 namespace {

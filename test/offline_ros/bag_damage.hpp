@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "bag_open.hpp"
+#include "bags/messages/bag_open.hpp"
 #include "bag_recipe.hpp"
-#include "bag_records.hpp"
-#include "bag_sequence.hpp"
+#include "bags/check/bag_records.hpp"
+#include "bags/bag_sequence.hpp"
 
 namespace ardrone_vslam {
 

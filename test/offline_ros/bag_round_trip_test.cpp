@@ -13,9 +13,9 @@
 #include <set>
 
 #include "ardrone_vslam/height_input.hpp"
-#include "bag_sequence.hpp"
-#include "bag_writer.hpp"
-#include "pave_sequence.hpp"
+#include "bags/bag_sequence.hpp"
+#include "bags/bag_writer.hpp"
+#include "pave/pave_sequence.hpp"
 #include "support/pave_capture.hpp"
 #include "support/sequence_folders.hpp"
 

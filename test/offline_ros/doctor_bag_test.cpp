@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // doctor on bags: names each fault of the driver, and nothing else; stands bags that lack things.
-#include "doctor_bag.hpp"
+#include "doctor/collection/doctor_bag.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 
 #include "ardrone_vslam/rotation.hpp"
 #include "bag_recipe.hpp"
-#include "config_file.hpp"
-#include "config_path.hpp"
-#include "doctor_examination.hpp"
+#include "config_files/config_file.hpp"
+#include "config_files/config_path.hpp"
+#include "doctor/doctor_examination.hpp"
 #include "doctor_flights.hpp"
 
 namespace ardrone_vslam {

@@ -2,8 +2,8 @@
 // The package's own observer of what the driver recorded.
 #include <gtest/gtest.h>
 
-#include "../../nodes/navdata_conversion.hpp"
-#include "bag_sequence.hpp"
+#include "from_ros/navdata_conversion.hpp"
+#include "bags/bag_sequence.hpp"
 #include "driver_recording.hpp"
 
 namespace ardrone_vslam {

@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "bag_damage.hpp"
-#include "bag_messages.hpp"
-#include "bag_topics.hpp"
-#include "driver_bag.hpp"
+#include "bags/messages/bag_messages.hpp"
+#include "bags/bag_topics.hpp"
+#include "driver/emulation/driver_bag.hpp"
 #include "support/sequence_folders.hpp"
 #include "test_paths.hpp"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "support/generated_image.hpp"
-#include "vslam_protocol.h"
+#include "protocol/vslam_protocol.h"
 
 namespace ardrone_vslam::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "onboard_loop.hpp"
+#include "loop/onboard_loop.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "flight_fixture.hpp"
-#include "map_file.hpp"
-#include "udp.hpp"
+#include "loop/map_file.hpp"
+#include "protocol/udp.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

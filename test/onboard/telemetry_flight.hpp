@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "telemetry.hpp"
-#include "telemetry_reader.hpp"
+#include "protocol/telemetry.hpp"
+#include "protocol/telemetry_reader.hpp"
 
 namespace ardrone_vslam::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "telemetry_reader.hpp"
+#include "protocol/telemetry_reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <initializer_list>
 
 #include "telemetry_flight.hpp"
-#include "vslam_protocol.h"
+#include "protocol/vslam_protocol.h"
 
 namespace ardrone_vslam::test {
 namespace {

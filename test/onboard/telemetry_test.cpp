@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "telemetry.hpp"
+#include "protocol/telemetry.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "vslam_protocol.h"
+#include "protocol/vslam_protocol.h"
 
 namespace ardrone_vslam::test {
 namespace {

@@ -7,11 +7,11 @@
 #include <iomanip>
 #include <sstream>
 
-#include "camera_yaml.hpp"
-#include "config_file.hpp"
-#include "settings.hpp"
+#include "sequences/camera_yaml.hpp"
+#include "config_files/config_file.hpp"
+#include "settings/settings.hpp"
 #include "test_paths.hpp"
-#include "yaml_sections.hpp"
+#include "yaml/yaml_sections.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -8,7 +8,7 @@
 #include <deque>
 #include <random>
 
-#include "../../tools/lib/random_source.hpp"
+#include "simulation/random_source.hpp"
 #include "ardrone_vslam/rotation.hpp"
 
 namespace ardrone_vslam {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "../../tools/lib/random_source.hpp"
+#include "simulation/random_source.hpp"
 #include "ardrone_vslam/camera_model.hpp"
 
 namespace ardrone_vslam {

@@ -2,8 +2,8 @@
 // What must not mix when the camera or the tracker is another one: maps and track ids.
 #include <gtest/gtest.h>
 
-#include "camera_identity.hpp"
-#include "track_ids.hpp"
+#include "inputs/camera_identity.hpp"
+#include "tracker/track_ids.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "conversions.hpp"
+#include "conversions/conversions.hpp"
 
 namespace ardrone_vslam {
 namespace {

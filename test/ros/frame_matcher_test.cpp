@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "frame_matcher.hpp"
+#include "inputs/frame_matcher.hpp"
 
 #include <gtest/gtest.h>
 
 #include <boost/make_shared.hpp>
 
-#include "conversions.hpp"
-#include "frame_names.hpp"
-#include "stamp_guard.hpp"
-#include "warning_limiter.hpp"
+#include "conversions/conversions.hpp"
+#include "conversions/frame_names.hpp"
+#include "timing/stamp_guard.hpp"
+#include "timing/warning_limiter.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "image_input.hpp"
+#include "inputs/image_input.hpp"
 
 #include <gtest/gtest.h>
 
 #include <boost/make_shared.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "debug_image.hpp"
+#include "outputs/debug_image.hpp"
 
 namespace ardrone_vslam {
 namespace {

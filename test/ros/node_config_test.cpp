@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The yaml files are read by the nodelets and by the offline tools: both must know the same keys.
-#include "node_config.hpp"
+#include "configs/node_config.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <regex>
 
 #include "ardrone_vslam/delayed_fusion.hpp"
-#include "config_file.hpp"
-#include "params.hpp"
+#include "config_files/config_file.hpp"
+#include "from_ros/params.hpp"
 #include "test_paths.hpp"
 
 namespace ardrone_vslam {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "onboard_conversion.hpp"
+#include "conversions/onboard_conversion.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "conversions.hpp"
+#include "conversions/conversions.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "conversions.hpp"
+#include "conversions/conversions.hpp"
 
 namespace ardrone_vslam {
 namespace {

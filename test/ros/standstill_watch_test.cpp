@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "standstill_watch.hpp"
+#include "input_checks/standstill_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tf_buffer.hpp"
+#include "inputs/tf_buffer.hpp"
 
 #include <console_bridge/console.h>
 #include <gtest/gtest.h>

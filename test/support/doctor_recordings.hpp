@@ -11,9 +11,9 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/rotation.hpp"
-#include "doctor_recording.hpp"
-#include "doctor_report.hpp"
-#include "sequence.hpp"
+#include "doctor/recording/doctor_recording.hpp"
+#include "doctor/recording/doctor_report.hpp"
+#include "sequences/sequence.hpp"
 
 namespace ardrone_vslam::test {
 

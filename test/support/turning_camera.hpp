@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "../../tools/lib/random_source.hpp"
+#include "simulation/random_source.hpp"
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
 #include "support/point_world.hpp"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../../tools/lib/random_source.hpp"
+#include "simulation/random_source.hpp"
 
 namespace ardrone_vslam {
 namespace {

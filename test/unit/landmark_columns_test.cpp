@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../../tools/lib/random_source.hpp"
+#include "simulation/random_source.hpp"
 #include "map/landmark_map.hpp"
 #include "support/view_builder.hpp"
 

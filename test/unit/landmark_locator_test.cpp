@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "../../tools/lib/random_source.hpp"
+#include "simulation/random_source.hpp"
 #include "support/printed_filter.hpp"
 
 namespace ardrone_vslam {

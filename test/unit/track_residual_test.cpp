@@ -5,7 +5,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "../../tools/lib/random_source.hpp"
+#include "simulation/random_source.hpp"
 #include "ardrone_vslam/rotation.hpp"
 
 namespace ardrone_vslam {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "../../tools/lib/random_source.hpp"
+#include "simulation/random_source.hpp"
 
 namespace ardrone_vslam {
 namespace {

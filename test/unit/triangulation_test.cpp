@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "../../tools/lib/random_source.hpp"
+#include "simulation/random_source.hpp"
 
 namespace ardrone_vslam {
 namespace {
