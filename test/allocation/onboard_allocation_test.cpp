@@ -2,10 +2,11 @@
 // vslam_onboard's own code, beside the core: nothing is allocated once it runs.
 #include <gtest/gtest.h>
 
-#include "loop/answer_output.hpp"
 #include "counted_allocations.hpp"
 #include "input/frame_stream.hpp"
 #include "input/observer_input.hpp"
+#include "loop/answer_output.hpp"
+#include "map/landmark_map.hpp"
 #include "onboard/flight_records.hpp"
 #include "protocol/telemetry.hpp"
 #include "protocol/udp.hpp"

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "bags/messages/bag_messages.hpp"
 #include "bags/bag_sequence.hpp"
+#include "bags/messages/bag_messages.hpp"
 #include "bags/messages/camera_info.hpp"
 #include "support/sequence_folders.hpp"
 

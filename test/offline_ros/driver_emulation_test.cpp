@@ -13,6 +13,7 @@
 
 #include "bags/messages/camera_info.hpp"
 #include "driver/emulation/driver_video.hpp"
+#include "sequences/drone_cameras.hpp"
 #include "world/world_camera.hpp"
 
 namespace ardrone_vslam {

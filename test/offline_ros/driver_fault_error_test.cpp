@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "bags/bag_sequence.hpp"
-#include "driver/emulation/driver_bag.hpp"
 #include "driver/driver_link.hpp"
-#include "run/offline_run.hpp"
+#include "driver/emulation/driver_bag.hpp"
 #include "landmarks/point_world.hpp"
+#include "run/offline_run.hpp"
 #include "support/sequence_folders.hpp"
 #include "test_paths.hpp"
 

@@ -8,9 +8,9 @@
 #include <deque>
 #include <vector>
 
-#include "protocol/clocks.hpp"
 #include "input/frame_input.hpp"
 #include "input/v4l2_buffer.hpp"
+#include "protocol/clocks.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
