@@ -6,7 +6,6 @@
 #include "input/frame_stream.hpp"
 #include "input/observer_input.hpp"
 #include "loop/answer_output.hpp"
-#include "map/landmark_map.hpp"
 #include "onboard/flight_records.hpp"
 #include "protocol/telemetry.hpp"
 #include "protocol/udp.hpp"
@@ -58,15 +57,14 @@ TEST(OnboardAllocation, NoneForAnswersAndTelemetry) {
   config.telemetry_port = portOf(workstation.get());
   config.telemetry_address = "127.0.0.1";
   AnswerOutput output(config);
-  LandmarkMap map{LandmarkMapConfig{}};
-  for (int i = 0; i < 500; ++i) map.add(Landmark{});
+  const std::vector<Landmark> landmarks(500);
   const FrameResult result;
   const ImageFeatures features;
   EXPECT_EQ(during([&] {
               for (int i = 1; i <= kImages; ++i) {
                 output.sendPose(result, {});
                 output.sendState(VSLAM_NO_OBSERVER, i, {});
-                output.sendTelemetry(features, map, std::int64_t{i} * 1'000'000'000);
+                output.sendTelemetry(features, landmarks, std::int64_t{i} * 1'000'000'000);
               }
             }),
             0);
