@@ -11,6 +11,7 @@
 
 #include "flight_fixture.hpp"
 #include "loop/map_file.hpp"
+#include "map/landmark_map.hpp"
 #include "protocol/udp.hpp"
 
 namespace ardrone_vslam::test {
@@ -251,10 +252,11 @@ TEST(MapFile, IsWrittenWholeOrNotAtAll) {
   landmark.position_map.x() = std::numeric_limits<double>::quiet_NaN();
   map.add(landmark);
   const std::string path = ::testing::TempDir() + "onboard_landmarks.csv";
-  EXPECT_EQ(writeLandmarks(path, map), "");
+  EXPECT_EQ(writeLandmarks(path, map.all()), "");
   EXPECT_EQ(readFile(path), "id,x_m,y_m,z_m,sigma_m,depth_sigma_m,times_seen\n1,1,2,3,0.25,0,0\n");
   std::remove(path.c_str());
-  EXPECT_NE(writeLandmarks("/nowhere/landmarks.csv", map).find("/nowhere"), std::string::npos);
+  EXPECT_NE(writeLandmarks("/nowhere/landmarks.csv", map.all()).find("/nowhere"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "bags/messages/bag_messages.hpp"
 #include "sequences/drone_cameras.hpp"
+#include "world/flight/world_flight.hpp"
 
 namespace ardrone_vslam {
 namespace {
