@@ -3,16 +3,11 @@
 
 #include <cmath>
 
+#include "linear/scalars.hpp"
 #include "zero_motion/scene_limit.hpp"
 
 namespace ardrone_vslam {
-namespace {
-
-double squared(double value) {
-  return value * value;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Msckf::Msckf(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam)
     : config_(config),

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "linear/scalars.hpp"
+
 namespace ardrone_vslam {
 
 /// A track that passed its gate, and how far it is trusted.
@@ -15,10 +17,6 @@ struct TrackUpdate::Candidate {
 };
 
 namespace {
-
-double squared(double value) {
-  return value * value;
-}
 
 template <class Candidate>
 void sum(const std::vector<Candidate>& candidates, Information& information) {

@@ -5,19 +5,12 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr double kVelocitySpan_s = 2;
-
-double squared(double value) {
-  return value * value;
-}
-
-double radians(double degrees) {
-  return degrees * M_PI / 180;
-}
 
 Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
   return Eigen::Matrix3d::Identity() - unit * unit.transpose();
