@@ -6,8 +6,8 @@
 
 #include "ardrone_vslam/tracker.hpp"
 #include "frames.hpp"
-#include "sequence.hpp"
-#include "world_sequence.hpp"
+#include "sequences/sequence.hpp"
+#include "world/world_sequence.hpp"
 
 namespace ardrone_vslam::bench {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
-#include "sequence.hpp"
-#include "world_sequence.hpp"
+#include "sequences/sequence.hpp"
+#include "world/world_sequence.hpp"
 
 namespace ardrone_vslam::bench {
 namespace {

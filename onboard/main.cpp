@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "ardrone_vslam/instruction_set.hpp"
-#include "map_file.hpp"
-#include "onboard_loop.hpp"
+#include "loop/map_file.hpp"
+#include "loop/onboard_loop.hpp"
+#include "loop/self_test.hpp"
+#include "loop/stop_signal.hpp"
 #include "program_memory.hpp"
-#include "self_test.hpp"
-#include "settings.hpp"
-#include "stop_signal.hpp"
+#include "settings/settings.hpp"
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fixed_heap.hpp"
+#include "memory/fixed_heap.hpp"
 
 namespace ardrone_vslam {
 namespace {

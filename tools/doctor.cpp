@@ -6,14 +6,15 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
-#include "doctor_bag.hpp"
-#include "doctor_examination.hpp"
-#include "doctor_live.hpp"
-#include "doctor_tracks.hpp"
-#include "progress_line.hpp"
-#include "run_files.hpp"
-#include "tool_main.hpp"
+#include "doctor/camera/doctor_tracks.hpp"
+#include "doctor/collection/doctor_bag.hpp"
+#include "doctor/collection/doctor_live.hpp"
+#include "doctor/doctor_examination.hpp"
+#include "program/progress_line.hpp"
+#include "program/tool_main.hpp"
+#include "trajectory/text_file.hpp"
 
 namespace {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fake_driver: an AR.Drone and its driver, live, in a synthetic world.
 
-#include "fake_driver.hpp"
+#include "driver/emulation/fake_driver.hpp"
 
 #include <cstdio>
 #include <exception>
 #include <string>
 
-#include "params.hpp"
+#include "from_ros/params.hpp"
 
 namespace {
 

@@ -8,13 +8,13 @@
 #include <iostream>
 #include <map>
 
-#include "bag_writer.hpp"
-#include "kitti_folder.hpp"
-#include "pave_sequence.hpp"
-#include "profile_option.hpp"
-#include "progress_line.hpp"
-#include "tool_main.hpp"
-#include "tum_folder.hpp"
+#include "bags/bag_writer.hpp"
+#include "pave/pave_sequence.hpp"
+#include "program/profile_option.hpp"
+#include "program/progress_line.hpp"
+#include "program/tool_main.hpp"
+#include "sequences/kitti_folder.hpp"
+#include "sequences/tum_folder.hpp"
 
 namespace {
 

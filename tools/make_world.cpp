@@ -11,16 +11,16 @@
 #include <vector>
 
 #ifdef ARDRONE_VSLAM_WITH_ROS
-#include "bag_writer.hpp"
-#include "driver_bag.hpp"
+#include "bags/bag_writer.hpp"
+#include "driver/emulation/driver_bag.hpp"
 #endif
-#include "driver_arguments.hpp"
-#include "profile_option.hpp"
-#include "progress_line.hpp"
-#include "tool_main.hpp"
-#include "tum_folder_writer.hpp"
-#include "world_arguments.hpp"
-#include "world_sequence.hpp"
+#include "driver/driver_arguments.hpp"
+#include "program/profile_option.hpp"
+#include "program/progress_line.hpp"
+#include "program/tool_main.hpp"
+#include "sequences/tum_folder_writer.hpp"
+#include "world/world_arguments.hpp"
+#include "world/world_sequence.hpp"
 
 namespace {
 

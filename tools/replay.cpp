@@ -7,23 +7,25 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
-#include "config_path.hpp"
-#include "earlier_run.hpp"
-#include "kitti_folder.hpp"
-#include "parameter_table.hpp"
-#include "profile_option.hpp"
-#include "progress_line.hpp"
-#include "run_all.hpp"
-#include "run_files.hpp"
-#include "run_odometry.hpp"
-#include "run_page.hpp"
-#include "run_print.hpp"
-#include "run_verdict.hpp"
-#include "tool_main.hpp"
+#include "config_files/config_path.hpp"
+#include "parameters/parameter_table.hpp"
+#include "program/profile_option.hpp"
+#include "program/progress_line.hpp"
+#include "program/tool_main.hpp"
+#include "report/earlier_run.hpp"
+#include "report/run_files.hpp"
+#include "report/run_page.hpp"
+#include "report/run_print.hpp"
+#include "report/run_verdict.hpp"
+#include "run/run_all.hpp"
+#include "run/run_odometry.hpp"
+#include "sequences/kitti_folder.hpp"
+#include "trajectory/text_file.hpp"
 #ifdef ARDRONE_VSLAM_WITH_ROS
-#include "bag_options.hpp"
-#include "bag_sequence.hpp"
+#include "bags/bag_options.hpp"
+#include "bags/bag_sequence.hpp"
 #endif
 
 namespace {

@@ -6,15 +6,17 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
-#include "metrics.hpp"
-#include "profile_option.hpp"
-#include "progress_line.hpp"
-#include "run_all.hpp"
-#include "run_files.hpp"
-#include "sequence.hpp"
-#include "simulated_street.hpp"
-#include "tool_main.hpp"
+#include "landmarks/simulated_street.hpp"
+#include "program/profile_option.hpp"
+#include "program/progress_line.hpp"
+#include "program/tool_main.hpp"
+#include "report/run_files.hpp"
+#include "run/run_all.hpp"
+#include "sequences/sequence.hpp"
+#include "trajectory/metrics.hpp"
+#include "trajectory/text_file.hpp"
 
 namespace {
 

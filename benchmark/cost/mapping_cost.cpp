@@ -9,12 +9,12 @@
 #include <fstream>
 #include <iostream>
 
-#include "metrics.hpp"
-#include "offline_run.hpp"
-#include "random_source.hpp"
-#include "sequence.hpp"
-#include "simulated_street.hpp"
-#include "tool_main.hpp"
+#include "landmarks/simulated_street.hpp"
+#include "program/tool_main.hpp"
+#include "run/offline_run.hpp"
+#include "sequences/sequence.hpp"
+#include "simulation/random_source.hpp"
+#include "trajectory/metrics.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 
 #include "lens_errors.hpp"
 #include "lens_methods.hpp"
-#include "tool_main.hpp"
-#include "world_camera.hpp"
+#include "program/tool_main.hpp"
+#include "sequences/drone_cameras.hpp"
 
 namespace {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "metrics.hpp"
-#include "random_source.hpp"
+#include "simulation/random_source.hpp"
 #include "thread_time.hpp"
+#include "trajectory/metrics.hpp"
 
 namespace ardrone_vslam::bench {
 namespace {

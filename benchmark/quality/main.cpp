@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures how well features repeat and match.
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -8,10 +9,10 @@
 #include "frames.hpp"
 #include "graf.hpp"
 #include "motions.hpp"
+#include "program/tool_main.hpp"
 #include "report.hpp"
 #include "source_images.hpp"
 #include "sweeps.hpp"
-#include "tool_main.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "feature_methods.hpp"
 #include "frames.hpp"
 #include "picture_changes.hpp"
-#include "world_sequence.hpp"
+#include "world/world_sequence.hpp"
 #include "world_views.hpp"
 
 namespace ardrone_vslam::quality {

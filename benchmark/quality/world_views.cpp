@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world_views.hpp"
 
-#include "sequence.hpp"
-#include "world_room.hpp"
+#include "sequences/sequence.hpp"
+#include "world/scene/world_room.hpp"
 
 namespace ardrone_vslam::quality {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "ardrone_vslam/camera_model.hpp"
 #include "match_metrics.hpp"
-#include "world_renderer.hpp"
+#include "world/render/world_renderer.hpp"
 
 namespace ardrone_vslam::quality {
 

@@ -5,7 +5,7 @@
 
 #include "map/triangulation.hpp"
 #include "measurements.hpp"
-#include "random_source.hpp"
+#include "simulation/random_source.hpp"
 
 namespace ardrone_vslam::reproduction {
 namespace {

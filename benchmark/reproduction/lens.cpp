@@ -3,7 +3,7 @@
 
 #include "lens_errors.hpp"
 #include "measurements.hpp"
-#include "world_camera.hpp"
+#include "sequences/drone_cameras.hpp"
 
 namespace ardrone_vslam::reproduction {
 

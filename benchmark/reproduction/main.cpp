@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // thesis_measurements: repeats the thesis's measurements that need no flight, one JSON file each.
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
 
 #include "measurements.hpp"
-#include "tool_main.hpp"
+#include "program/tool_main.hpp"
 
 namespace {
 

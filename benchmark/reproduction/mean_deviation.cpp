@@ -4,7 +4,7 @@
 
 #include "map/landmark_locator.hpp"
 #include "measurements.hpp"
-#include "random_source.hpp"
+#include "simulation/random_source.hpp"
 
 namespace ardrone_vslam::reproduction {
 namespace {

@@ -5,10 +5,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "frames.hpp"
-#include "random_source.hpp"
-#include "sequence.hpp"
+#include "sequences/sequence.hpp"
+#include "simulation/random_source.hpp"
 #include "source_images.hpp"
-#include "world_sequence.hpp"
+#include "world/world_sequence.hpp"
 #include "world_views.hpp"
 
 namespace ardrone_vslam::reproduction {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "metrics.hpp"
 #include "thread_time.hpp"
+#include "trajectory/metrics.hpp"
 
 namespace ardrone_vslam::reproduction {
 

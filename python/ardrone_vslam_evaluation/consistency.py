@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-# What three coordinates exceed as seldom as one exceeds 3 sigma, in 0.27 % of the poses; as in tools/lib/metrics.hpp.
+# What three coordinates exceed as seldom as one exceeds 3 sigma, in 0.27 % of the poses; as in tools/trajectory/metrics.hpp.
 NEES_3_SIGMA = 14.156
 DEGREES = 3
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Errors of an estimate against the truth, as tools/lib/metrics.cpp and the KITTI development kit define them.
+"""Errors of an estimate against the truth, as tools/trajectory/metrics.cpp and the KITTI development kit define them.
 
 Estimates are Trajectory objects with the truth's poses at equal indices."""
 

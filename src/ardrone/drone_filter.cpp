@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -24,10 +25,6 @@ constexpr double kAttitudeNoise_rad = 2e-3;  // white, of what is reported
 constexpr double kLeastVariance = 1e-12;
 
 using Row = Eigen::Matrix<double, 1, DroneFilter::kSize>;
-
-double square(double x) {
-  return x * x;
-}
 
 /// Base's true attitude but for yaw: the reported one, its tilt put right to first order.
 Eigen::Matrix3d corrected(const Eigen::Matrix3d& R_reported, const DroneFilter::State& x) {
@@ -159,7 +156,7 @@ void DroneFilter::rest(double dt_s) {
   x_.segment<3>(kVelocity).setZero();
   P_.middleRows<3>(kVelocity).setZero();
   P_.middleCols<3>(kVelocity).setZero();
-  P_.diagonal().segment<3>(kVelocity).setConstant(square(kRestVelocity_m_s));
+  P_.diagonal().segment<3>(kVelocity).setConstant(squared(kRestVelocity_m_s));
   addNoise(dt_s, 0);
 }
 
@@ -170,14 +167,14 @@ void DroneFilter::addNoise(double dt_s, double acceleration_noise) {
   keep.segment<2>(kFlowBias).setConstant(std::exp(-dt_s / errors_.flow_bias_time_s));
   x_ = keep.cwiseProduct(x_);
   P_ = keep.asDiagonal() * P_ * keep.asDiagonal();
-  const double tilt = square(errors_.tilt_sigma_deg * kRadPerDeg);
-  P_.diagonal().segment<2>(kTilt).array() += tilt * (1 - square(keep[kTilt]));
+  const double tilt = squared(errors_.tilt_sigma_deg * kRadPerDeg);
+  P_.diagonal().segment<2>(kTilt).array() += tilt * (1 - squared(keep[kTilt]));
   P_.diagonal().segment<2>(kFlowBias).array() +=
-      square(errors_.flow_bias_m_s) * (1 - square(keep[kFlowBias]));
+      squared(errors_.flow_bias_m_s) * (1 - squared(keep[kFlowBias]));
   P_.diagonal().segment<3>(kForceBias).array() +=
-      square(errors_.force_bias_m_s2) * dt_s / kForceBiasTime_s;
-  P_(kYaw, kYaw) += square(errors_.yaw_walk_deg_per_sqrt_s * kRadPerDeg) * dt_s;
-  const double q = square(acceleration_noise);
+      squared(errors_.force_bias_m_s2) * dt_s / kForceBiasTime_s;
+  P_(kYaw, kYaw) += squared(errors_.yaw_walk_deg_per_sqrt_s * kRadPerDeg) * dt_s;
+  const double q = squared(acceleration_noise);
   P_.diagonal().segment<3>(kVelocity).array() += q * dt_s;
   P_.diagonal().segment<3>(kPosition).array() += q * dt_s * dt_s * dt_s / 3;
   for (int axis = 0; axis < 3; ++axis) {
@@ -191,12 +188,12 @@ void DroneFilter::updateVelocity(const DroneMeasurement& measured, double dt_s) 
   for (int axis = 0; axis < 2; ++axis) {
     const Foreseen seen = flow(x_, measured.R_odom_base);
     update(measured.flow_base_m_s[axis] - seen.value[axis], seen.jacobian.row(axis),
-           square(errors_.flow_noise_m_s_per_sqrt_hz) / sample_s);
+           squared(errors_.flow_noise_m_s_per_sqrt_hz) / sample_s);
   }
   for (int axis = 0; axis < 2; ++axis) {
     const Foreseen felt = drag(x_, measured.R_odom_base);
     update(measured.force_base_m_s2[axis] - felt.value[axis], felt.jacobian.row(axis),
-           (square(errors_.force_noise_m_s2_per_sqrt_hz) + square(errors_.gust_m_s2_per_sqrt_hz)) /
+           (squared(errors_.force_noise_m_s2_per_sqrt_hz) + squared(errors_.gust_m_s2_per_sqrt_hz)) /
                sample_s);
   }
 }
@@ -208,7 +205,7 @@ double DroneFilter::heightInnovation_m(double height_m) const {
 double DroneFilter::heightSigma_m() const {
   constexpr int kZ = kPosition + 2;
   const double variance_m2 = P_(kZ, kZ) + P_(kFloor, kFloor) - 2 * P_(kZ, kFloor);
-  return std::sqrt(std::max(variance_m2, 0.0) + square(errors_.height_noise_m));
+  return std::sqrt(std::max(variance_m2, 0.0) + squared(errors_.height_noise_m));
 }
 
 void DroneFilter::updateHeight(double height_m, double dt_s) {
@@ -216,7 +213,7 @@ void DroneFilter::updateHeight(double height_m, double dt_s) {
   H[kPosition + 2] = 1;
   H[kFloor] = -1;
   update(heightInnovation_m(height_m), H,
-         square(errors_.height_noise_m) * std::max(1.0, 1 / (kEchoes_hz * dt_s)));
+         squared(errors_.height_noise_m) * std::max(1.0, 1 / (kEchoes_hz * dt_s)));
 }
 
 void DroneFilter::changeFloor(double floor_m) {
@@ -230,12 +227,12 @@ void DroneFilter::changeFloor(double floor_m) {
     P_.col(kFloor) = P_.col(kZ);
     P_(kFloor, kFloor) = P_(kZ, kZ);
   }
-  P_(kFloor, kFloor) += is_first ? kLeastVariance : square(errors_.height_noise_m);
+  P_(kFloor, kFloor) += is_first ? kLeastVariance : squared(errors_.height_noise_m);
 }
 
 void DroneFilter::widen(double position_m, double velocity_m_s) {
-  P_.diagonal().segment<3>(kPosition).array() += square(position_m);
-  P_.diagonal().segment<3>(kVelocity).array() += square(velocity_m_s);
+  P_.diagonal().segment<3>(kPosition).array() += squared(position_m);
+  P_.diagonal().segment<3>(kVelocity).array() += squared(velocity_m_s);
 }
 
 void DroneFilter::update(double innovation, const Row& H, double variance) {
@@ -262,7 +259,7 @@ OdometryState DroneFilter::observed(const Eigen::Matrix3d& R_reported) const {
   J.block<3, 1>(3, kYaw) = Eigen::Vector3d::UnitZ();
   const Matrix6d covariance = J * P_ * J.transpose();
   state.covariance = 0.5 * (covariance + covariance.transpose());
-  state.covariance.diagonal().tail<3>().array() += square(kAttitudeNoise_rad);
+  state.covariance.diagonal().tail<3>().array() += squared(kAttitudeNoise_rad);
   state.twist_covariance.topLeftCorner<3, 3>() =
       R.transpose() * P_.block<3, 3>(kVelocity, kVelocity) * R;
   return state;

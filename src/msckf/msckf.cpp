@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "linear/scalars.hpp"
 #include "zero_motion/scene_limit.hpp"
 
 namespace ardrone_vslam {
@@ -11,10 +12,6 @@ namespace {
 // The image has to move on before a frame adds anything: by a fortieth of its width.
 constexpr double kKeyframe_px = 15;
 constexpr double kKeyframe_s = 2;  // a slow camera drifts meanwhile, so it gets one all the same
-
-double squared(double value) {
-  return value * value;
-}
 
 }  // namespace
 

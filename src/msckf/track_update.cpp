@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "linear/scalars.hpp"
+
 namespace ardrone_vslam {
 
 /// A track that passed its gate, and how far it is trusted.
@@ -22,10 +24,6 @@ constexpr double kParallaxSigmas = 6;  // of a ray: below, the depth is not Gaus
 constexpr double kBaselineUncertainty = 0.5;
 // Of a point from the floor; the height's own error is in it, and what lies about.
 constexpr double kFloorPointSigma_m = 0.1;
-
-double squared(double value) {
-  return value * value;
-}
 
 template <class Candidate>
 void sum(const std::vector<Candidate>& candidates, Information& information) {

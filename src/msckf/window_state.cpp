@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -14,14 +15,6 @@ constexpr double kStartSigma_m = 0.001;  // where the first frame is, map begins
 constexpr double kSlowSpeed_m_s = 0.1;
 
 constexpr double kVelocitySpan_s = 2;
-
-double squared(double value) {
-  return value * value;
-}
-
-double radians(double degrees) {
-  return degrees * M_PI / 180;
-}
 
 Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
   return Eigen::Matrix3d::Identity() - unit * unit.transpose();

@@ -9,20 +9,13 @@
 #include <sstream>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 /// Beyond it a variance means nothing, and its products with a lever arm might overflow.
 constexpr double kLargestCorrectionVariance = 1e12;
-
-double squared(double x) {
-  return x * x;
-}
-
-double radians(double degrees) {
-  return degrees * M_PI / 180;
-}
 
 double distance_m(const OdometryState& a, const OdometryState& b) {
   return (b.T_odom_base.translation() - a.T_odom_base.translation()).norm();

@@ -2,13 +2,13 @@
 // vslam_onboard's own code, beside the core: nothing is allocated once it runs.
 #include <gtest/gtest.h>
 
-#include "answer_output.hpp"
 #include "counted_allocations.hpp"
-#include "frame_stream.hpp"
-#include "observer_input.hpp"
+#include "input/frame_stream.hpp"
+#include "input/observer_input.hpp"
+#include "loop/answer_output.hpp"
 #include "onboard/flight_records.hpp"
-#include "telemetry.hpp"
-#include "udp.hpp"
+#include "protocol/telemetry.hpp"
+#include "protocol/udp.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
@@ -56,15 +56,14 @@ TEST(OnboardAllocation, NoneForAnswersAndTelemetry) {
   config.pose_address = "127.0.0.1:" + std::to_string(portOf(controller.get()));
   config.telemetry_address = "127.0.0.1:" + std::to_string(portOf(workstation.get()));
   AnswerOutput output(config);
-  LandmarkMap map{LandmarkMapConfig{}};
-  for (int i = 0; i < 500; ++i) map.add(Landmark{});
+  const std::vector<Landmark> landmarks(500);
   const FrameResult result;
   const ImageFeatures features;
   EXPECT_EQ(during([&] {
               for (int i = 1; i <= kImages; ++i) {
                 output.sendPose(result, {});
                 output.sendState(VSLAM_NO_OBSERVER, i, {});
-                output.sendTelemetry(features, map, std::int64_t{i} * 1'000'000'000);
+                output.sendTelemetry(features, landmarks, std::int64_t{i} * 1'000'000'000);
               }
             }),
             0);

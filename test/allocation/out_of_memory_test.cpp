@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "counted_allocations.hpp"
+#include "loop/onboard_loop.hpp"
 #include "onboard/flight_fixture.hpp"
-#include "onboard_loop.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
@@ -34,7 +34,7 @@ class OutOfMemory : public FlightFixture {
     }
     writeFile(file("frames"), frames);
     writeFile(file("odometry"), odometry);
-    settings_.onboard.odometry = file("odometry");
+    settings_.onboard.observer = file("odometry");
     settings_.tracker.corners.features_per_frame = 30;
     settings_.mapper.landmark_map.max_landmarks = 1000;
   }

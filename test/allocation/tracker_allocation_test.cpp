@@ -6,17 +6,13 @@
 #include "ardrone_vslam/tracker.hpp"
 #include "counted_allocations.hpp"
 #include "support/generated_image.hpp"
+#include "support/intrinsics.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 CameraIntrinsics camera() {
-  CameraIntrinsics intrinsics;
-  intrinsics.width_px = 640;
-  intrinsics.height_px = 360;
-  intrinsics.fx_px = intrinsics.fy_px = 560;
-  intrinsics.cx_px = 319.5;
-  intrinsics.cy_px = 179.5;
+  CameraIntrinsics intrinsics = test::pinhole(640, 360, 560);
   intrinsics.k1 = -0.3;
   return intrinsics;
 }

@@ -26,7 +26,7 @@
 #include <string>
 #include <vector>
 
-#include "../../onboard/vslam_protocol.h"
+#include "protocol/vslam_protocol.h"
 
 namespace {
 

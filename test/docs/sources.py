@@ -5,7 +5,7 @@ import pathlib
 import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FOLDERS = ["config", "include", "launch", "msg", "nodes", "onboard", "python", "scripts", "src", "srv", "tools"]
+FOLDERS = ["common", "config", "include", "launch", "msg", "nodes", "onboard", "python", "scripts", "src", "srv", "tools"]
 
 
 def sources():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Folders that simulate_landmarks writes, as replay does: the same numbers as tools/lib/metrics.cpp has."""
+"""Folders that simulate_landmarks writes, as replay does: the same numbers as tools/trajectory/metrics.cpp has."""
 
 import json
 import os

@@ -4,7 +4,7 @@
 
 #include "bag_recipe.hpp"
 #include "driver_recording.hpp"
-#include "world_camera.hpp"
+#include "world/world_camera.hpp"
 
 namespace ardrone_vslam {
 namespace {

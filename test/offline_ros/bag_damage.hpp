@@ -9,17 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "bag_open.hpp"
 #include "bag_recipe.hpp"
-#include "bag_records.hpp"
-#include "bag_sequence.hpp"
+#include "bags/bag_sequence.hpp"
+#include "bags/check/bag_records.hpp"
+#include "bags/messages/bag_open.hpp"
+#include "support/read_file.hpp"
 
 namespace ardrone_vslam {
-
-inline std::string readWhole(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// The recipe in chunks of at most about 2 KiB, so that there are several.
 inline std::string bytesOfRecipe(const BagRecipe& recipe, rosbag::CompressionType compression) {
@@ -29,7 +25,7 @@ inline std::string bytesOfRecipe(const BagRecipe& recipe, rosbag::CompressionTyp
   bag.setCompression(compression);
   writeRecipe(bag, recipe);
   bag.close();
-  return readWhole(folder.file("a.bag"));
+  return test::readFile(folder.file("a.bag"));
 }
 
 /// Where the records lie that tell the reader where everything else is: all headers and lengths,

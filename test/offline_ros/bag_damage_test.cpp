@@ -8,7 +8,7 @@
 #include <sensor_msgs/CompressedImage.h>
 #include <std_msgs/String.h>
 
-#include "bag_read_message.hpp"
+#include "bags/messages/bag_read_message.hpp"
 
 namespace ardrone_vslam {
 namespace {

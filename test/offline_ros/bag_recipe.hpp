@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "bag_messages.hpp"
-#include "bag_sequence.hpp"
-#include "camera_info.hpp"
+#include "bags/bag_sequence.hpp"
+#include "bags/messages/bag_messages.hpp"
+#include "bags/messages/camera_info.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {

@@ -13,10 +13,11 @@
 #include <set>
 
 #include "ardrone_vslam/height_input.hpp"
-#include "bag_sequence.hpp"
-#include "bag_writer.hpp"
-#include "pave_sequence.hpp"
+#include "bags/bag_sequence.hpp"
+#include "bags/bag_writer.hpp"
+#include "pave/pave_sequence.hpp"
 #include "support/pave_capture.hpp"
+#include "support/read_file.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {
@@ -40,11 +41,6 @@ BagWriteOptions driftingOptions() {
   options.seed = 7;
   options.tool = "test 1.0";
   return options;
-}
-
-std::string readFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 void expectSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
@@ -202,10 +198,10 @@ TEST(BagWriter, EqualArgumentsGiveEqualBytes) {
   BagWriteOptions options = driftingOptions();
   writeBag(*source, options, folder.file("a.bag"));
   writeBag(*source, options, folder.file("b.bag"));
-  EXPECT_EQ(readFile(folder.file("a.bag")), readFile(folder.file("b.bag")));
+  EXPECT_EQ(test::readFile(folder.file("a.bag")), test::readFile(folder.file("b.bag")));
   options.seed = 8;
   writeBag(*source, options, folder.file("c.bag"));
-  EXPECT_NE(readFile(folder.file("a.bag")), readFile(folder.file("c.bag")));
+  EXPECT_NE(test::readFile(folder.file("a.bag")), test::readFile(folder.file("c.bag")));
 }
 
 TEST(BagWriter, MessagesComeInTheOrderOfTimeAtTheirStamps) {
@@ -272,7 +268,7 @@ TEST(BagWriter, FailureLeavesNothingBehindAndKeepsTheOldBag) {
   const auto source = openFolder(folder.path());
   const std::string out = folder.file("out.bag");
   expectError([&] { writeBag(*source, driftingOptions(), out); }, {"000002.png"});
-  EXPECT_EQ(readFile(out), "the old one");
+  EXPECT_EQ(test::readFile(out), "the old one");
   EXPECT_FALSE(std::filesystem::exists(out + ".part"));
   expectError([&] { writeBag(*source, driftingOptions(), folder.file("none/out.bag")); },
               {"none/out.bag", "cannot be written", "permissions"});

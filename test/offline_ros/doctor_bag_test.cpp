@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // doctor on bags: names each fault of the driver, and nothing else; stands bags that lack things.
-#include "doctor_bag.hpp"
+#include "doctor/collection/doctor_bag.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,11 @@
 
 #include "ardrone_vslam/rotation.hpp"
 #include "bag_recipe.hpp"
-#include "config_file.hpp"
-#include "config_path.hpp"
-#include "doctor_examination.hpp"
+#include "config_files/config_file.hpp"
+#include "config_files/config_path.hpp"
+#include "doctor/doctor_examination.hpp"
 #include "doctor_flights.hpp"
+#include "support/read_file.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -175,7 +176,7 @@ TEST_F(DoctorBag, StandsBagsThatLackThings) {
 
 TEST_F(DoctorBag, DamagedBagsAreNoCrash) {
   const TestBag bag{BagRecipe()};
-  const std::string whole = readWhole(bag.path());
+  const std::string whole = test::readFile(bag.path());
   for (std::size_t at = 0; at < whole.size(); at += whole.size() / 97 + 1) {
     std::string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x5a);

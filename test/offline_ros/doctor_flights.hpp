@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 
-#include "doctor_bag.hpp"
-#include "doctor_examination.hpp"
+#include "doctor/collection/doctor_bag.hpp"
+#include "doctor/doctor_examination.hpp"
 #include "driver_recording.hpp"
 #include "test_paths.hpp"
 

@@ -9,6 +9,7 @@
 #include "ardrone_vslam/rotation.hpp"
 #include "bag_recipe.hpp"
 #include "doctor_flights.hpp"
+#include "support/read_file.hpp"
 #include "test_paths.hpp"
 
 namespace ardrone_vslam {
@@ -35,8 +36,8 @@ class DoctorTool : public DoctorBag {
     line += " > " + path("output") + " 2> " + path("errors");
     EXPECT_EQ(std::system(line.c_str()), 0) << line << "\n" << errors();
   }
-  std::string output() const { return readWhole(path("output")); }
-  std::string errors() const { return readWhole(path("errors")); }
+  std::string output() const { return test::readFile(path("output")); }
+  std::string errors() const { return test::readFile(path("errors")); }
 };
 
 TEST_F(DoctorTool, ExitCodesTellUsableFromNotAndFromWrongUsage) {
@@ -45,7 +46,7 @@ TEST_F(DoctorTool, ExitCodesTellUsableFromNotAndFromWrongUsage) {
   EXPECT_NE(output().find("set odometry_mode to twist"), std::string::npos) << output();
   EXPECT_NE(output().find("config/ardrone.yaml, which has mapper/odometry_mode"), std::string::npos)
       << output();
-  const auto json = nlohmann::json::parse(readWhole(path("report.json")));
+  const auto json = nlohmann::json::parse(test::readFile(path("report.json")));
   EXPECT_TRUE(json["usable"].get<bool>());
   EXPECT_EQ(run(path() + " --json -"), 0);
   EXPECT_EQ(nlohmann::json::parse(output()), json);
@@ -75,7 +76,7 @@ TEST_F(DoctorTool, NavdataWithoutOdometryIsUsableAndItsReplayLineRuns) {
   dropOdometry(path("whole.bag"), path());
   EXPECT_EQ(run(path() + " --json " + path("report.json")), 0) << output() << errors();
   EXPECT_NE(output().find("odometry_mode: navdata"), std::string::npos) << output();
-  const auto json = nlohmann::json::parse(readWhole(path("report.json")));
+  const auto json = nlohmann::json::parse(test::readFile(path("report.json")));
   EXPECT_EQ(json["parameters"]["mapper/odometry_mode"]["value"], "navdata");
   for (const auto& check : json["checks"]) {
     if (check["check"] == "topics" || check["verdict"] == "not checked") continue;
@@ -87,7 +88,7 @@ TEST_F(DoctorTool, NavdataWithoutOdometryIsUsableAndItsReplayLineRuns) {
 TEST_F(DoctorTool, AllFaultsOfTheDriverAreUsableAndTheReplayLineRuns) {
   laps().write(driverFaultsNamed({"all"}), path());
   EXPECT_EQ(run(path() + " --json " + path("report.json")), 0) << output() << errors();
-  expectToRun(nlohmann::json::parse(readWhole(path("report.json")))["replay"]);
+  expectToRun(nlohmann::json::parse(test::readFile(path("report.json")))["replay"]);
 }
 
 TEST_F(DoctorTool, ReplayOfATurnedCameraNamesDoctorAndThatOfASoundOneDoesNot) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bags as the AR.Drone's driver would have them recorded.
-#include "driver_bag.hpp"
+#include "driver/emulation/driver_bag.hpp"
 
 #include <gtest/gtest.h>
 

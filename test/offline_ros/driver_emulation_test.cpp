@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the emulated driver makes of single packets and images.
-#include "driver_emulation.hpp"
+#include "driver/emulation/driver_emulation.hpp"
 
 #include <gtest/gtest.h>
 #include <tf2/LinearMath/Quaternion.h>
@@ -11,9 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "camera_info.hpp"
-#include "driver_video.hpp"
-#include "world_camera.hpp"
+#include "bags/messages/camera_info.hpp"
+#include "driver/emulation/driver_video.hpp"
+#include "sequences/drone_cameras.hpp"
+#include "world/world_camera.hpp"
 
 namespace ardrone_vslam {
 namespace {

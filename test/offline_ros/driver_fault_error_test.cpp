@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "bag_sequence.hpp"
-#include "driver_bag.hpp"
-#include "driver_link.hpp"
-#include "offline_run.hpp"
-#include "point_world.hpp"
+#include "bags/bag_sequence.hpp"
+#include "driver/driver_link.hpp"
+#include "driver/emulation/driver_bag.hpp"
+#include "landmarks/point_world.hpp"
+#include "run/offline_run.hpp"
 #include "support/sequence_folders.hpp"
 #include "test_paths.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Each fault of the driver shows in a bag, and nothing else changes by it.
-#include "driver_faults.hpp"
+#include "driver/driver_faults.hpp"
 
 #include <gtest/gtest.h>
 

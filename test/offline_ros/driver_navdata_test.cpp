@@ -2,9 +2,9 @@
 // The package's own observer of what the driver recorded.
 #include <gtest/gtest.h>
 
-#include "../../nodes/navdata_conversion.hpp"
-#include "bag_sequence.hpp"
+#include "bags/bag_sequence.hpp"
 #include "driver_recording.hpp"
+#include "from_ros/navdata_conversion.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -19,9 +19,10 @@
 #include <vector>
 
 #include "bag_damage.hpp"
-#include "bag_messages.hpp"
-#include "bag_topics.hpp"
-#include "driver_bag.hpp"
+#include "bags/bag_topics.hpp"
+#include "bags/messages/bag_messages.hpp"
+#include "driver/emulation/driver_bag.hpp"
+#include "support/read_file.hpp"
 #include "support/sequence_folders.hpp"
 #include "test_paths.hpp"
 
@@ -56,7 +57,7 @@ class DriverRecording {
 
   std::string path() const { return folder_.file("driver.bag"); }
   std::map<std::string, std::string> types() const { return topicTypes(bag_); }
-  std::string bytes() const { return readWhole(path()); }
+  std::string bytes() const { return test::readFile(path()); }
 
   template <class Message>
   std::vector<Message> read(const std::string& topic) const {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "bag_damage.hpp"
+#include "support/read_file.hpp"
 #include "test_paths.hpp"
 
 namespace ardrone_vslam {
@@ -15,7 +16,7 @@ namespace {
 class ToolUsage : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_.file(name); }
-  std::string output() const { return readWhole(path("output")); }
+  std::string output() const { return test::readFile(path("output")); }
 
   /// Exit code, 128 and more for a signal; what it prints goes to the file `output`.
   int run(const std::string& command) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "clock_map.hpp"
+#include "protocol/clock_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "drone_stream.hpp"
+#include "protocol/drone_stream.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fixed_heap.hpp"
+#include "memory/fixed_heap.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "onboard/flight_records.hpp"
-#include "settings.hpp"
+#include "settings/settings.hpp"
 
 namespace ardrone_vslam::test {
 

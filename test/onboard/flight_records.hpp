@@ -11,8 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "protocol/vslam_protocol.h"
 #include "support/generated_image.hpp"
-#include "vslam_protocol.h"
+#include "support/read_file.hpp"
 
 namespace ardrone_vslam::test {
 
@@ -42,11 +43,6 @@ inline std::string pgm(std::int64_t stamp_ns, const TestImage& image) {
 
 inline void writeFile(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
-}
-
-inline std::string readFile(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// The answers in a file; none when one of them is damaged.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "frame_stream.hpp"
+#include "input/frame_stream.hpp"
 
 #include <gtest/gtest.h>
 

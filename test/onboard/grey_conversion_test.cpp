@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "grey_conversion.hpp"
+#include "input/grey_conversion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "observer_input.hpp"
+#include "input/observer_input.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "onboard_loop.hpp"
+#include "loop/onboard_loop.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,9 @@
 #include <thread>
 
 #include "flight_fixture.hpp"
-#include "map_file.hpp"
-#include "udp.hpp"
+#include "loop/map_file.hpp"
+#include "map/landmark_map.hpp"
+#include "protocol/udp.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
@@ -251,10 +252,11 @@ TEST(MapFile, IsWrittenWholeOrNotAtAll) {
   landmark.position_map.x() = std::numeric_limits<double>::quiet_NaN();
   map.add(landmark);
   const std::string path = ::testing::TempDir() + "onboard_landmarks.csv";
-  EXPECT_EQ(writeLandmarks(path, map), "");
+  EXPECT_EQ(writeLandmarks(path, map.all()), "");
   EXPECT_EQ(readFile(path), "id,x_m,y_m,z_m,sigma_m,depth_sigma_m,times_seen\n1,1,2,3,0.25,0,0\n");
   std::remove(path.c_str());
-  EXPECT_NE(writeLandmarks("/nowhere/landmarks.csv", map).find("/nowhere"), std::string::npos);
+  EXPECT_NE(writeLandmarks("/nowhere/landmarks.csv", map.all()).find("/nowhere"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What vslam_onboard answers (onboard/vslam_protocol.h), from a file."""
+"""What vslam_onboard answers (common/protocol/vslam_protocol.h), from a file."""
 import struct
 import zlib
 

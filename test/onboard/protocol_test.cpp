@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flight_records.hpp"
-#include "vslam_protocol.h"
+#include "protocol/vslam_protocol.h"
 
 namespace ardrone_vslam::test {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "self_test.hpp"
+#include "loop/self_test.hpp"
 
 #include <gtest/gtest.h>
 
-#include "cpu_share.hpp"
+#include "loop/cpu_share.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "settings.hpp"
+#include "settings/settings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "flight_records.hpp"
 #include "test_paths.hpp"
-#include "udp.hpp"
-#include "yaml_sections.hpp"
+#include "yaml/calibration.hpp"
+#include "yaml/yaml_sections.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

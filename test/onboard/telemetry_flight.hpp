@@ -7,8 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "telemetry.hpp"
-#include "telemetry_reader.hpp"
+#include "map/landmark_map.hpp"
+#include "protocol/telemetry.hpp"
+#include "protocol/telemetry_reader.hpp"
 
 namespace ardrone_vslam::test {
 
@@ -41,7 +42,7 @@ struct TelemetryFlight {
       features.age_frames.push_back(static_cast<std::uint16_t>(random() % 1000));
     }
     std::array<std::uint8_t, Telemetry::kBytes> datagram;
-    const std::size_t size = telemetry.write(features, map, datagram);
+    const std::size_t size = telemetry.write(features, map.all(), datagram);
     return {datagram.begin(), datagram.begin() + static_cast<std::ptrdiff_t>(size)};
   }
   bool fly(TelemetryReader& reader) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "telemetry_reader.hpp"
+#include "protocol/telemetry_reader.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <initializer_list>
 
+#include "protocol/vslam_protocol.h"
 #include "telemetry_flight.hpp"
-#include "vslam_protocol.h"
 
 namespace ardrone_vslam::test {
 namespace {

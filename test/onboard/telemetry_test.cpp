@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "telemetry.hpp"
+#include "protocol/telemetry.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "vslam_protocol.h"
+#include "map/landmark_map.hpp"
+#include "protocol/vslam_protocol.h"
 
 namespace ardrone_vslam::test {
 namespace {
@@ -54,7 +55,7 @@ TEST(TelemetryTest, IsBoundedAndEveryLandmarkComesWithinARound) {
   std::set<std::uint64_t> ids;
   for (int i = 0; i < 100; ++i) {
     features.stamp_ns = i + 1;
-    const std::size_t size = telemetry.write(features, map, datagram);
+    const std::size_t size = telemetry.write(features, map.all(), datagram);
     ASSERT_LE(size, Telemetry::kBytes);
     const Read r = readDatagram(datagram, size);
     EXPECT_EQ(r.total, 1000U);
@@ -71,11 +72,11 @@ TEST(TelemetryTest, WhatWasJustSeenComesFirst) {
   for (int i = 0; i < 1000; ++i) map.add(Landmark{});
   Telemetry telemetry;
   Datagram datagram;
-  telemetry.write(someFeatures(10), map, datagram);
+  telemetry.write(someFeatures(10), map.all(), datagram);
   map.atPlace(900).last_seen_ns = 2;
   ImageFeatures features = someFeatures(10);
   features.stamp_ns = 2;
-  const Read r = readDatagram(datagram, telemetry.write(features, map, datagram));
+  const Read r = readDatagram(datagram, telemetry.write(features, map.all(), datagram));
   ASSERT_FALSE(r.ids.empty());
   EXPECT_EQ(r.ids.front(), map.all()[900].id);
 }
@@ -84,7 +85,7 @@ TEST(TelemetryTest, NothingIsADatagramToo) {
   Telemetry telemetry;
   Datagram datagram;
   const LandmarkMap map{LandmarkMapConfig{}};
-  const Read r = readDatagram(datagram, telemetry.write(ImageFeatures{}, map, datagram));
+  const Read r = readDatagram(datagram, telemetry.write(ImageFeatures{}, map.all(), datagram));
   EXPECT_EQ(r.features + r.landmarks + r.total, 0U);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "v4l2_camera.hpp"
+#include "input/v4l2_camera.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <deque>
 #include <vector>
 
-#include "clocks.hpp"
-#include "frame_input.hpp"
-#include "v4l2_buffer.hpp"
+#include "input/frame_input.hpp"
+#include "input/v4l2_buffer.hpp"
+#include "protocol/clocks.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

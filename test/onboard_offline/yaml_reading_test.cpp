@@ -7,11 +7,12 @@
 #include <iomanip>
 #include <sstream>
 
-#include "camera_yaml.hpp"
-#include "config_file.hpp"
-#include "settings.hpp"
+#include "config_files/config_file.hpp"
+#include "sequences/camera_yaml.hpp"
+#include "settings/settings.hpp"
 #include "test_paths.hpp"
-#include "yaml_sections.hpp"
+#include "yaml/calibration.hpp"
+#include "yaml/yaml_sections.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -63,11 +64,9 @@ TEST(YamlReading, EveryFileIsReadAsYamlCppReadsIt) {
   const auto paths = yamlFiles();
   ASSERT_GE(paths.size(), 7U);
   for (const std::string& path : paths) {
-    std::string text;
-    ASSERT_EQ(readText(path, text), "") << path;
     std::vector<std::string> faults;
-    YamlSections sections = readYamlSections(text, faults);
-    EXPECT_TRUE(faults.empty()) << path << ": " << faults.front();
+    YamlSections sections = readYamlFile(path, faults);
+    EXPECT_TRUE(faults.empty()) << faults.front();
     for (auto& section : sections) {
       for (auto& value : section.second) value.second = textOf(value.second);
     }

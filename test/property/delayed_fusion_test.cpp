@@ -8,20 +8,15 @@
 #include <deque>
 #include <random>
 
-#include "../../tools/lib/random_source.hpp"
 #include "ardrone_vslam/rotation.hpp"
+#include "simulation/random_source.hpp"
+#include "support/seeds.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 5'000'000;
 constexpr int kImageEvery = 7;  // odometry messages
-
-std::vector<std::uint64_t> seeds() {
-  const std::uint64_t fresh = std::random_device{}();
-  std::cout << "random seed " << fresh << '\n';
-  return {1, 2, 3, fresh};
-}
 
 Eigen::Isometry3d randomPose(RandomSource& random, double size_m) {
   Eigen::Isometry3d pose(rotationOf(random.normal3()));
@@ -71,7 +66,7 @@ struct InFlight {
 };
 
 TEST(DelayedFusionProperty, OutputIsTheRawOdometrySeenThroughTheNewestCorrectionHoweverLate) {
-  for (const std::uint64_t seed : seeds()) {
+  for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);
     const auto flight = randomFlight(random, 1500);
     DelayedFusion fusion({});
@@ -116,7 +111,7 @@ TEST(DelayedFusionProperty, OutputIsTheRawOdometrySeenThroughTheNewestCorrection
 }
 
 TEST(DelayedFusionProperty, AnExactCorrectionMakesAllSinceExactHoweverLate) {
-  for (const std::uint64_t seed : seeds()) {
+  for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);
     for (int run = 0; run < 20; ++run) {
       const auto flight = randomFlight(random, 300);
@@ -141,7 +136,7 @@ TEST(DelayedFusionProperty, AnExactCorrectionMakesAllSinceExactHoweverLate) {
 }
 
 TEST(DelayedFusionProperty, CovarianceIsSymmetricAndPositiveAndTheAttitudesGrows) {
-  for (const std::uint64_t seed : seeds()) {
+  for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);
     for (int run = 0; run < 20; ++run) {
       const auto flight = randomFlight(random, 300);
@@ -173,7 +168,7 @@ TEST(DelayedFusionProperty, CovarianceFollowsAnErrorOfTheCorrection) {
   config.walk_m_per_sqrt_m = config.walk_m_per_sqrt_s = config.velocity_bias_m_s = 0;
   config.scale_sigma = config.tilt_sigma_deg = 0;
   config.yaw_walk_deg_per_sqrt_s = config.yaw_walk_deg_per_sqrt_m = 0;
-  for (const std::uint64_t seed : seeds()) {
+  for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);
     auto flight = randomFlight(random, 100);
     for (auto& state : flight) state.covariance.setZero();

@@ -6,26 +6,20 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "../../tools/lib/random_source.hpp"
 #include "map/triangulation.hpp"
+#include "simulation/random_source.hpp"
+#include "support/seeds.hpp"
 #include "thesis/thesis_filter.hpp"
 
 namespace ardrone_vslam {
 namespace {
-
-/// The fixed seeds, and one that is new in every run and printed.
-std::vector<std::uint64_t> seeds() {
-  const std::uint64_t fresh = std::random_device{}();
-  std::cout << "random seed " << fresh << '\n';
-  return {1, 2, 3, fresh};
-}
 
 Eigen::Vector3d direction(RandomSource& random) {
   return random.normal3().normalized();
 }
 
 TEST(TriangulationProperty, ExactRaysGiveTheirPointBackAtEveryScale) {
-  for (const std::uint64_t seed : seeds()) {
+  for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);
     for (int i = 0; i < 5000; ++i) {
       const double scale_m = std::pow(10, random.uniform(-2, 3));
@@ -46,7 +40,7 @@ TEST(TriangulationProperty, ExactRaysGiveTheirPointBackAtEveryScale) {
 
 TEST(TriangulationProperty, WhateverIsFoundLiesBeforeBothCamerasOnThePresentPlane) {
   int found_count = 0;
-  for (const std::uint64_t seed : seeds()) {
+  for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);
     for (int i = 0; i < 5000; ++i) {
       const Ray first{random.normal3(), direction(random)};
@@ -96,7 +90,7 @@ std::vector<Observation> randomObservations(const Eigen::Vector3d& camera, doubl
 }
 
 TEST_P(FilterProperty, CovarianceStaysSymmetricAndPositiveDefinite) {
-  for (const std::uint64_t seed : seeds()) {
+  for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);
     ThesisFilterConfig config;
     config.mean = GetParam();

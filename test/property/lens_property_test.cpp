@@ -7,21 +7,15 @@
 #include <limits>
 #include <random>
 
-#include "../../tools/lib/random_source.hpp"
 #include "ardrone_vslam/camera_model.hpp"
+#include "simulation/random_source.hpp"
+#include "support/seeds.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr int kCameras = 60;
 constexpr int kPixels = 2000;
-
-/// The fixed seeds, and one that is new in every run and printed.
-std::vector<std::uint64_t> seeds() {
-  const std::uint64_t fresh = std::random_device{}();
-  std::cout << "random seed " << fresh << '\n';
-  return {1, 2, 3, fresh};
-}
 
 /// Any lens that passes for one: barrels, pincushions, folds within and beyond the image, half of
 /// them with a third term; fields of view of 35 to 128 degrees.
@@ -73,7 +67,7 @@ void compare(const CameraIntrinsics& c, RandomSource& random, Comparison& result
 }
 
 TEST(LensTableProperty, AgreesWithNewtonAndRefusesTheSamePixels) {
-  for (const std::uint64_t seed : seeds()) {
+  for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);
     Comparison all;
     for (int i = 0; i < kCameras; ++i) compare(randomCamera(random), random, all);
@@ -101,7 +95,7 @@ TEST(LensTableProperty, AgreesWithNewtonWithTangentialTerms) {
 }
 
 TEST(LensTableProperty, TheFoldIsTheSameToItsLastBit) {
-  for (const std::uint64_t seed : seeds()) {
+  for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);
     int folds = 0;
     for (int i = 0; i < kCameras; ++i) {
@@ -124,7 +118,7 @@ TEST(LensTableProperty, TheFoldIsTheSameToItsLastBit) {
 }
 
 TEST(LensTableProperty, RisesWithTheRadius) {
-  for (const std::uint64_t seed : seeds()) {
+  for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);
     for (int i = 0; i < kCameras; ++i) {
       const CameraIntrinsics c = randomCamera(random);
@@ -141,7 +135,7 @@ TEST(LensTableProperty, RisesWithTheRadius) {
 }
 
 TEST(LensTableProperty, ProjectionUndoesIt) {
-  for (const std::uint64_t seed : seeds()) {
+  for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);
     for (int i = 0; i < kCameras; ++i) {
       const CameraIntrinsics c = randomCamera(random);
@@ -159,7 +153,7 @@ TEST(LensTableProperty, ProjectionUndoesIt) {
 }
 
 TEST(LensTableProperty, NoDistortionIsThePinholeToTheLastBit) {
-  for (const std::uint64_t seed : seeds()) {
+  for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);
     for (int i = 0; i < kCameras; ++i) {
       CameraIntrinsics c = randomCamera(random);

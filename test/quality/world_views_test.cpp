@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "world_sequence.hpp"
+#include "world/world_sequence.hpp"
 
 namespace ardrone_vslam::quality {
 namespace {

@@ -11,9 +11,10 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/rotation.hpp"
-#include "doctor_recording.hpp"
-#include "doctor_report.hpp"
-#include "sequence.hpp"
+#include "doctor/recording/doctor_recording.hpp"
+#include "doctor/recording/doctor_report.hpp"
+#include "sequences/sequence.hpp"
+#include "support/intrinsics.hpp"
 
 namespace ardrone_vslam::test {
 
@@ -49,13 +50,7 @@ inline OdometryState doctorState(double t_s) {
 }
 
 inline CameraIntrinsics doctorCamera() {
-  CameraIntrinsics camera;
-  camera.width_px = 640;
-  camera.height_px = 360;
-  camera.fx_px = camera.fy_px = 570;
-  camera.cx_px = 320;
-  camera.cy_px = 180;
-  return camera;
+  return test::pinhole(640, 360, 570);
 }
 
 /// All as it should be: 12 s, 10 images and 100 odometry messages a second. Without pixels.

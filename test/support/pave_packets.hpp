@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pave.hpp"
+#include "pave/pave.hpp"
 
 namespace ardrone_vslam {
 

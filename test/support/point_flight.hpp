@@ -155,4 +155,17 @@ inline double meanMatches(const FlightRun& run, std::size_t first, std::size_t l
   return sum / static_cast<double>(last - first);
 }
 
+inline SlamConfig msckfConfig() {
+  SlamConfig config;
+  config.estimator = EstimatorKind::kMsckf;
+  return config;
+}
+
+/// How many results from the frame `first` on are of that state.
+inline int framesIn(const FlightRun& run, SlamState state, std::size_t first = 0) {
+  return static_cast<int>(
+      std::count_if(run.results.begin() + static_cast<std::ptrdiff_t>(first), run.results.end(),
+                    [state](const FrameResult& result) { return result.state == state; }));
+}
+
 }  // namespace ardrone_vslam::test

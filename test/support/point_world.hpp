@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "../../tools/lib/point_world.hpp"
+#include "landmarks/point_world.hpp"
 
 namespace ardrone_vslam::test {
 
@@ -16,6 +16,25 @@ inline Eigen::Isometry3d forwardExtrinsics() {
   Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
   T_base_cam.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   return T_base_cam;
+}
+
+/// A camera that looks down, as the AR.Drone's bottom one.
+inline Eigen::Isometry3d bottomExtrinsics() {
+  Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
+  T_base_cam.linear() << 0, -1, 0, -1, 0, 0, 0, 0, -1;
+  return Eigen::Translation3d(0, -0.02, 0) * T_base_cam;
+}
+
+/// 10 m by 8 m, 3 m high, 1200 points on its walls.
+inline PointWorld pointRoom(std::uint64_t seed, const ViewFaults& faults = {}) {
+  PointWorld world(seed, faults);
+  world.addRoom({10, 8, 3}, 1200);
+  return world;
+}
+inline PointWorld pointRoom(std::uint64_t seed, double wrong_share) {
+  ViewFaults faults;
+  faults.wrong_share = wrong_share;
+  return pointRoom(seed, faults);
 }
 
 /// Of PointWorld's camera where a test gives no other.

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "ardrone_vslam/camera_model.hpp"
-#include "sequence.hpp"
-#include "world_scene.hpp"
+#include "sequences/sequence.hpp"
+#include "world/scene/world_scene.hpp"
 
 namespace ardrone_vslam::test {
 

@@ -2,43 +2,18 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
+#include "support/temporary_folder.hpp"
+
 namespace ardrone_vslam {
-
-/// A new empty folder, removed with everything in it in the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "vslam_test_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(file(name), std::ios::binary) << text;
-  }
-  void remove(const std::string& name) const { std::filesystem::remove_all(file(name)); }
-
- private:
-  std::string path_;
-};
 
 /// A tiny picture; no two of the indices 0 to 11 give the same one.
 inline cv::Mat testImage(int index, int width_px = 32, int height_px = 24) {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "trajectory.hpp"
+#include "trajectory/trajectory.hpp"
 
 namespace ardrone_vslam::test {
 

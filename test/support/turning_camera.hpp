@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "../../tools/lib/random_source.hpp"
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
+#include "simulation/random_source.hpp"
 #include "support/point_world.hpp"
 
 namespace ardrone_vslam::test {

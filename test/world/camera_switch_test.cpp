@@ -21,16 +21,9 @@ constexpr int kLaps = 3;
 Eigen::Isometry3d frontExtrinsics() {
   return Eigen::Translation3d(0.21, 0, 0) * test::forwardExtrinsics();
 }
-Eigen::Isometry3d bottomExtrinsics() {
-  Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
-  T_base_cam.linear() << 0, -1, 0, -1, 0, 0, 0, 0, -1;
-  return Eigen::Translation3d(0, -0.02, 0) * T_base_cam;
-}
-
 /// Walls and floor.
 PointWorld room(std::uint64_t seed) {
-  PointWorld world(seed);
-  world.addRoom({10, 8, 3}, 1200);
+  PointWorld world = test::pointRoom(seed);
   RandomSource random(seed, 5);
   for (int i = 0; i < 3000; ++i) world.addPoint({random.uniform(-5, 5), random.uniform(-4, 4), 0});
   return world;
@@ -47,11 +40,11 @@ SwitchedRun fly(std::uint64_t seed, const Flight& flight,
                 const WhichCamera& is_bottom) {
   PointWorld world = room(seed);
   bool was_bottom = is_bottom(0);
-  Slam slam(config, was_bottom ? bottomExtrinsics() : frontExtrinsics());
+  Slam slam(config, was_bottom ? test::bottomExtrinsics() : frontExtrinsics());
   SwitchedRun run;
   for (std::size_t i = 0; i < flight.size(); ++i) {
     const bool bottom = is_bottom(i);
-    const Eigen::Isometry3d T_base_cam = bottom ? bottomExtrinsics() : frontExtrinsics();
+    const Eigen::Isometry3d T_base_cam = bottom ? test::bottomExtrinsics() : frontExtrinsics();
     if (bottom != was_bottom) {
       slam.changeCamera(T_base_cam);
       world.changeCamera();
@@ -164,7 +157,7 @@ TEST(CameraSwitch, TheLeverOfEachCameraIsItsOwn) {
 
 TEST(CameraSwitch, AnAbsurdMountingIsRefusedAndNothingChanges) {
   Slam slam(msckfConfig(), frontExtrinsics());
-  EXPECT_THROW(slam.changeCamera(Eigen::Translation3d(1000, 0, 0) * bottomExtrinsics()),
+  EXPECT_THROW(slam.changeCamera(Eigen::Translation3d(1000, 0, 0) * test::bottomExtrinsics()),
                std::invalid_argument);
   SlamConfig with_mounting = msckfConfig();
   with_mounting.msckf.odometry.extrinsics_sigma_deg = 0.3;

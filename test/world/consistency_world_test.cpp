@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/scalars.hpp"
 #include "support/point_flight.hpp"
 
 namespace ardrone_vslam {
@@ -13,10 +14,6 @@ namespace {
 
 using test::Flight;
 using test::FlightRun;
-
-double radians(double degrees) {
-  return degrees * M_PI / 180;
-}
 
 /// Odometry with all errors that OdometryNoiseConfig speaks of, drawn as it says.
 std::vector<OdometryState> observeAs(const OdometryNoiseConfig& config, const Flight& flight,

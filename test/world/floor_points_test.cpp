@@ -26,12 +26,6 @@ PointWorld floorWorld(std::uint64_t seed, bool with_table) {
   return world;
 }
 
-Eigen::Isometry3d bottomExtrinsics() {
-  Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
-  T_base_cam.linear() << 0, -1, 0, -1, 0, 0, 0, 0, -1;
-  return Eigen::Translation3d(0, -0.02, 0) * T_base_cam;
-}
-
 struct Outcome {
   double scale_off = 0;
   double scale_sigma = 0;
@@ -57,12 +51,13 @@ Outcome fly(std::uint64_t seed, double scale_error, bool floor_points, bool with
   config.height_input.use_range = true;
   config.msckf.height.floor_points = floor_points;
   PointWorld world = floorWorld(seed, with_table);
-  Slam slam(config, bottomExtrinsics());
+  Slam slam(config, test::bottomExtrinsics());
   Outcome outcome;
   FrameResult last;
   for (std::size_t i = 0; i < flight.size(); ++i) {
-    last = slam.process(world.look(flight[i].T_map_base * bottomExtrinsics(), flight[i].stamp_ns),
-                        odometry[i]);
+    last = slam.process(
+        world.look(flight[i].T_map_base * test::bottomExtrinsics(), flight[i].stamp_ns),
+        odometry[i]);
     outcome.rmse_m +=
         (last.T_map_base.translation() - flight[i].T_map_base.translation()).squaredNorm();
   }

@@ -33,9 +33,7 @@ std::vector<Item> thinned(const std::vector<Item>& all, int every) {
 PointWorld room(std::uint64_t seed, int hz) {
   ViewFaults faults;
   faults.lost_share = 0.3 / hz;
-  PointWorld world(seed, faults);
-  world.addRoom({10, 8, 3}, 1200);
-  return world;
+  return test::pointRoom(seed, faults);
 }
 
 SlamConfig configOf() {

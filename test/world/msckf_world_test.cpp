@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "support/median.hpp"
 #include "support/point_flight.hpp"
 
 namespace ardrone_vslam {
@@ -14,17 +15,8 @@ namespace {
 using test::Flight;
 using test::FlightRun;
 using test::PointWorld;
-using test::ViewFaults;
 
 constexpr int kLapFrames = 200;
-
-PointWorld room(std::uint64_t seed, double wrong_share = 0) {
-  ViewFaults faults;
-  faults.wrong_share = wrong_share;
-  PointWorld world(seed, faults);
-  world.addRoom({10, 8, 3}, 1200);
-  return world;
-}
 
 SlamConfig msckfConfig() {
   SlamConfig config;
@@ -32,11 +24,6 @@ SlamConfig msckfConfig() {
   // What test::observe draws: no scale, attitude exact.
   config.msckf.odometry.walk_m_per_sqrt_s = 0.03;
   return config;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 double meanNees(const Flight& flight, const FlightRun& run) {
@@ -48,11 +35,6 @@ double meanNees(const Flight& flight, const FlightRun& run) {
     sum += error.dot(result.covariance.topLeftCorner<3, 3>().inverse() * error);
   }
   return sum / static_cast<double>(flight.size() - 1);
-}
-
-int framesIn(const FlightRun& run, SlamState state) {
-  return static_cast<int>(std::count_if(run.results.begin(), run.results.end(),
-                                        [state](const auto& r) { return r.state == state; }));
 }
 
 TEST(MsckfWorld, RevisitsTakeTheDriftOutOfTheOdometry) {
@@ -67,17 +49,17 @@ TEST(MsckfWorld, RevisitsTakeTheDriftOutOfTheOdometry) {
     std::vector<double> ratios;
     std::vector<double> nees;
     for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-      PointWorld world = room(seed, c.wrong_share);
+      PointWorld world = test::pointRoom(seed, c.wrong_share);
       const FlightRun run =
           test::fly(world, flight, test::observe(flight, {}, seed), msckfConfig());
       ratios.push_back(run.fused.rmse_m / run.odometry.rmse_m);
       nees.push_back(meanNees(flight, run));
       EXPECT_LT(ratios.back(), c.worst) << "seed " << seed << ", wrong " << c.wrong_share;
-      EXPECT_GT(framesIn(run, SlamState::kLocalised), kLapFrames) << "seed " << seed;
-      EXPECT_GT(framesIn(run, SlamState::kTracking), kLapFrames / 4) << "seed " << seed;
+      EXPECT_GT(test::framesIn(run, SlamState::kLocalised), kLapFrames) << "seed " << seed;
+      EXPECT_GT(test::framesIn(run, SlamState::kTracking), kLapFrames / 4) << "seed " << seed;
     }
-    EXPECT_LT(median(ratios), c.median) << "wrong " << c.wrong_share;
-    EXPECT_LT(median(nees), 6) << "wrong " << c.wrong_share;  // 3 is honest
+    EXPECT_LT(test::median(ratios), c.median) << "wrong " << c.wrong_share;
+    EXPECT_LT(test::median(nees), 6) << "wrong " << c.wrong_share;  // 3 is honest
   }
 }
 
@@ -92,18 +74,18 @@ TEST(MsckfWorld, AFirstPassIsBetterThanTheOdometryAndKnowsHowGoodItIs) {
     const FlightRun run = test::fly(world, flight, test::observe(flight, {}, seed), msckfConfig());
     ratios.push_back(run.fused.rmse_m / run.odometry.rmse_m);
     EXPECT_LT(ratios.back(), 1.05) << "seed " << seed;
-    EXPECT_EQ(framesIn(run, SlamState::kFixRejected), 0) << "seed " << seed;
+    EXPECT_EQ(test::framesIn(run, SlamState::kFixRejected), 0) << "seed " << seed;
     sum += meanNees(flight, run);
   }
-  EXPECT_LT(median(ratios), 0.6);  // measured: 0.43
-  EXPECT_LT(sum / kSeeds, 6);      // 3 is honest; measured: 0.5
+  EXPECT_LT(test::median(ratios), 0.6);  // measured: 0.43
+  EXPECT_LT(sum / kSeeds, 6);            // 3 is honest; measured: 0.5
   EXPECT_GT(sum / kSeeds, 0.2);
 }
 
 TEST(MsckfWorld, TrueOdometryIsHardlyMadeWorse) {
   const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
   for (const double wrong_share : {0.0, 0.2, 0.4}) {
-    PointWorld world = room(1, wrong_share);
+    PointWorld world = test::pointRoom(1, wrong_share);
     const FlightRun run = test::fly(world, flight, test::observeExactly(flight), msckfConfig());
     EXPECT_LT(run.fused.rmse_m, 0.06) << wrong_share;  // measured: 0.03 on 31 m
   }
@@ -119,7 +101,7 @@ TEST(MsckfWorld, TurningOnTheSpotMakesNoLandmarkAndMovesNothing) {
     pose.T_map_base.translation() << 1, 1, 1.2;
     flight.push_back(pose);
   }
-  PointWorld world = room(2);
+  PointWorld world = test::pointRoom(2);
   const FlightRun run = test::fly(world, flight, test::observeExactly(flight), msckfConfig());
   EXPECT_EQ(run.landmarks.size(), 0U);
   EXPECT_LT(run.fused.max_m, 1e-6);
@@ -128,7 +110,7 @@ TEST(MsckfWorld, TurningOnTheSpotMakesNoLandmarkAndMovesNothing) {
 TEST(MsckfWorld, MovingAndTurningTheWorldMovesTheResultAlike) {
   const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
   const std::vector<OdometryState> odometry = test::observe(flight, {}, 3);
-  PointWorld world = room(3);
+  PointWorld world = test::pointRoom(3);
   const std::vector<ImageFeatures> frames = test::film(world, flight);
   Eigen::Isometry3d T_there_here = Eigen::Isometry3d::Identity();
   T_there_here.linear() = Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -150,13 +132,13 @@ TEST(MsckfWorld, MovingAndTurningTheWorldMovesTheResultAlike) {
     // Sooner or later something is decided otherwise by a hair: landmarks, for one, are looked for
     // in single precision, so that one at the edge of its window may be found in one world only.
     // Until then rounding is all.
-    EXPECT_LT(median(off_m), 1e-9);
+    EXPECT_LT(test::median(off_m), 1e-9);
   }
 }
 
 TEST(MsckfWorld, AnErrorOfTheMountingIsFoundWhereItIsAllowedFor) {
   const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
-  PointWorld world = room(4);
+  PointWorld world = test::pointRoom(4);
   std::vector<ImageFeatures> frames = test::film(world, flight);
   const Eigen::Matrix3f turn =
       Eigen::AngleAxisf(0.02F, Eigen::Vector3f(1, 2, 3).normalized()).toRotationMatrix();
@@ -186,7 +168,7 @@ TEST(MsckfWorld, AnErrorOfTheMountingIsFoundWhereItIsAllowedFor) {
 TEST(MsckfWorld, OdometryThatIsWorseThanConfiguredIsToldByItsFixesAndAllowedFor) {
   const Flight flight = test::lapsFlight(kLapFrames, 3, 10);
   for (const std::uint64_t seed : {1, 2, 3}) {
-    PointWorld world = room(seed);
+    PointWorld world = test::pointRoom(seed);
     // From the second lap on its velocity is ten times as wrong as configured.
     std::vector<OdometryState> odometry = test::observe(flight, {}, seed);
     for (std::size_t i = kLapFrames; i < odometry.size(); ++i)

@@ -16,20 +16,6 @@ using test::PointWorld;
 constexpr int kLapFrames = 200;
 constexpr std::size_t kFault = 300;  // frame, in the second of three laps
 
-SlamConfig msckfConfig() {
-  SlamConfig config;
-  config.estimator = EstimatorKind::kMsckf;
-  return config;
-}
-
-PointWorld room(std::uint64_t seed) {
-  test::ViewFaults faults;
-  faults.wrong_share = 0.1;
-  PointWorld world(seed, faults);
-  world.addRoom({10, 8, 3}, 1200);
-  return world;
-}
-
 void stepBy(const Eigen::Vector3d& step_m, std::size_t from, std::vector<OdometryState>& odometry) {
   for (std::size_t i = from; i < odometry.size(); ++i)
     odometry[i].T_odom_base.translation() += step_m;
@@ -67,12 +53,12 @@ int stepsIn(const FlightRun& run) {
 TEST(OdometryStepWorld, AStepIsToldAndIsNoWay) {
   const Flight flight = test::lapsFlight(kLapFrames, 3, 10);
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-    PointWorld world = room(seed);
+    PointWorld world = test::pointRoom(seed, 0.1);
     const auto frames = test::film(world, flight);
     for (const double step_m : {1.0, 2.0, 20.0}) {
       auto odometry = test::observe(flight, {}, seed);
       stepBy({step_m, 0, 0}, kFault, odometry);
-      const FlightRun run = test::run(frames, odometry, msckfConfig());
+      const FlightRun run = test::run(frames, odometry, test::msckfConfig());
       EXPECT_EQ(stepsIn(run), 1) << seed << ", " << step_m;
       EXPECT_NEAR(run.results[kFault].odometry_step_m, step_m, 0.3);
       // Measured: at most 0.24; when it is taken for a way 1 to 7 m for a step of 2 m.
@@ -85,10 +71,10 @@ TEST(OdometryStepWorld, AStepIsToldAndIsNoWay) {
 TEST(OdometryStepWorld, AStepBeforeAnythingWasSeenAgainDoesNoHarmEither) {
   const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    PointWorld world = room(seed);
+    PointWorld world = test::pointRoom(seed, 0.1);
     auto odometry = test::observe(flight, {}, seed);
     stepBy({0, -3, 1}, 100, odometry);
-    const FlightRun run = test::fly(world, flight, odometry, msckfConfig());
+    const FlightRun run = test::fly(world, flight, odometry, test::msckfConfig());
     EXPECT_EQ(stepsIn(run), 1) << seed;
     EXPECT_LT(run.fused.max_m, 0.5) << seed;
   }
@@ -97,11 +83,11 @@ TEST(OdometryStepWorld, AStepBeforeAnythingWasSeenAgainDoesNoHarmEither) {
 TEST(OdometryStepWorld, AStepThatInterpolationSpreadsOverImagesIsOne) {
   const Flight flight = test::lapsFlight(3 * kLapFrames, 2, 30);
   for (const std::uint64_t seed : {1, 2}) {
-    PointWorld world = room(seed);
+    PointWorld world = test::pointRoom(seed, 0.1);
     auto odometry = test::observe(flight, {}, seed);
     // Odometry at 10 Hz, images at 30 Hz.
     for (std::size_t i = 900; i < 903; ++i) stepBy({2.0 / 3, 0, 0}, i, odometry);
-    const FlightRun run = test::fly(world, flight, odometry, msckfConfig());
+    const FlightRun run = test::fly(world, flight, odometry, test::msckfConfig());
     EXPECT_EQ(stepsIn(run), 3) << seed;
     EXPECT_LT(worstFrom(900, flight, run), 0.4) << seed;
   }
@@ -110,11 +96,11 @@ TEST(OdometryStepWorld, AStepThatInterpolationSpreadsOverImagesIsOne) {
 TEST(OdometryStepWorld, OdometryThatCatchesUpAfterAFreezeIsBelieved) {
   const Flight flight = test::lapsFlight(kLapFrames, 3, 10);
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    PointWorld world = room(seed);
+    PointWorld world = test::pointRoom(seed, 0.1);
     auto odometry = test::observe(flight, {}, seed);
     for (std::size_t i = kFault; i < kFault + 30; ++i)
       odometry[i].T_odom_base = odometry[kFault - 1].T_odom_base;
-    const FlightRun run = test::fly(world, flight, odometry, msckfConfig());
+    const FlightRun run = test::fly(world, flight, odometry, test::msckfConfig());
     EXPECT_LT(worstFrom(kFault + 32, flight, run), 0.4) << seed;
   }
 }
@@ -123,14 +109,14 @@ TEST(OdometryStepWorld, AfterAFreezeThePlaceIsFoundAgain) {
   const Flight flight = test::lapsFlight(kLapFrames, 3, 10);
   for (const int frozen : {30, 50}) {
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
-      PointWorld world = room(seed);
+      PointWorld world = test::pointRoom(seed, 0.1);
       auto odometry = test::observe(flight, {}, seed);
       const std::size_t again = kFault + static_cast<std::size_t>(frozen);
       const Eigen::Isometry3d then = odometry[kFault].T_odom_base;
       const Eigen::Vector3d lost_m = odometry[again].T_odom_base.translation() - then.translation();
       for (std::size_t i = kFault; i < again; ++i) odometry[i].T_odom_base = then;
       stepBy(-lost_m, again, odometry);
-      const FlightRun run = test::fly(world, flight, odometry, msckfConfig());
+      const FlightRun run = test::fly(world, flight, odometry, test::msckfConfig());
       EXPECT_LT(worstFrom(again + 1, flight, run), 0.4) << seed << ", " << frozen;
     }
   }
@@ -140,7 +126,7 @@ TEST(OdometryStepWorld, TheFirstSearchAfterLostImagesAllowsForTheTimeWithoutThem
   const Flight flight = test::lapsFlight(kLapFrames, 3, 10);
   constexpr std::size_t kLost = 100;
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    PointWorld world = room(seed);
+    PointWorld world = test::pointRoom(seed, 0.1);
     auto odometry = test::observe(flight, {}, seed);
     auto frames = test::film(world, flight);
     // An error that the odometry does not claim, as it does after such a time.
@@ -153,7 +139,7 @@ TEST(OdometryStepWorld, TheFirstSearchAfterLostImagesAllowsForTheTimeWithoutThem
     };
     cut(frames);
     cut(odometry);
-    const FlightRun run = test::run(frames, odometry, msckfConfig());
+    const FlightRun run = test::run(frames, odometry, test::msckfConfig());
     EXPECT_EQ(run.results[kFault].state, SlamState::kRelocated) << seed;
     EXPECT_LT((run.results[kFault].T_map_base.translation() -
                flight[kFault + kLost].T_map_base.translation())

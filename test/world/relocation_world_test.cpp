@@ -52,12 +52,6 @@ std::vector<OdometryState> observeDrifting(const Flight& flight, std::uint64_t s
   return odometry;
 }
 
-SlamConfig msckfConfig() {
-  SlamConfig config;
-  config.estimator = EstimatorKind::kMsckf;
-  return config;
-}
-
 /// @param exchanged_share  of the points, which look like others after the blind stretch
 /// @param elsewhere        so many frames after the blind stretch show another room
 FlightRun flyBlindly(std::uint64_t seed, double yaw_deg, double exchanged_share,
@@ -79,19 +73,13 @@ FlightRun flyBlindly(std::uint64_t seed, double yaw_deg, double exchanged_share,
     if (!is_elsewhere) continue;
     for (auto& track_id : frames.back().track_id) track_id += 1000000;  // the worlds count alike
   }
-  return test::run(frames, observeDrifting(flight, seed, yaw_deg), msckfConfig());
+  return test::run(frames, observeDrifting(flight, seed, yaw_deg), test::msckfConfig());
 }
 
 double error_m(const FlightRun& run, std::size_t frame) {
   const Flight flight = flightWithABlindStretch();
   return (run.results[frame].T_map_base.translation() - flight[frame].T_map_base.translation())
       .norm();
-}
-
-int framesIn(const FlightRun& run, std::size_t from, SlamState state) {
-  return static_cast<int>(
-      std::count_if(run.results.begin() + static_cast<std::ptrdiff_t>(from), run.results.end(),
-                    [state](const FrameResult& result) { return result.state == state; }));
 }
 
 TEST(RelocationWorld, TheFirstImageAfterABlindStretchFindsThePlaceAgain) {
@@ -139,7 +127,7 @@ TEST(RelocationWorld, AMapBegunAnewMeanwhileDoesNotPreventItEither) {
 TEST(RelocationWorld, APlaceThatOnlyLooksAlikeIsNotTakenForOneSeenBefore) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const FlightRun run = flyBlindly(seed, 2, 1);
-    EXPECT_EQ(framesIn(run, kAgainFrom, SlamState::kRelocated), 0) << "seed " << seed;
+    EXPECT_EQ(test::framesIn(run, SlamState::kRelocated, kAgainFrom), 0) << "seed " << seed;
     EXPECT_LT(std::abs(error_m(run, run.results.size() - 1) - error_m(run, kAgainFrom - 1)), 0.5)
         << "seed " << seed;
   }
@@ -175,7 +163,7 @@ class FailingLandmarks : public ::testing::Test {
   Flight flight_;
   PointWorld world_;
   std::vector<ImageFeatures> frames_;
-  SlamConfig config_ = msckfConfig();
+  SlamConfig config_ = test::msckfConfig();
 };
 
 TEST_F(FailingLandmarks, WhatIsNoLongerThereIsDropped) {

@@ -18,18 +18,6 @@ constexpr double kRate_hz = 15;
 // About 2 m in 15 s, as odometry without a velocity sensor.
 constexpr test::DriftConfig kHover{0.02, 0.13};
 
-SlamConfig msckfConfig() {
-  SlamConfig config;
-  config.estimator = EstimatorKind::kMsckf;
-  return config;
-}
-
-PointWorld room(std::uint64_t seed) {
-  PointWorld world(seed);
-  world.addRoom({10, 8, 3}, 1200);
-  return world;
-}
-
 /// On the spot, at a heading.
 template <class YawAt>
 Flight turning(int frames, const YawAt& yaw_at) {
@@ -45,11 +33,6 @@ Flight turning(int frames, const YawAt& yaw_at) {
   return flight;
 }
 
-int framesIn(const FlightRun& run, SlamState state) {
-  return static_cast<int>(std::count_if(run.results.begin(), run.results.end(),
-                                        [state](const auto& r) { return r.state == state; }));
-}
-
 double lastError_m(const Flight& flight, const FlightRun& run) {
   return (run.results.back().T_map_base.translation() - flight.back().T_map_base.translation())
       .norm();
@@ -58,11 +41,11 @@ double lastError_m(const Flight& flight, const FlightRun& run) {
 TEST(RestWorld, AStillImageHoldsThePosition) {
   const Flight flight = turning(225, [](double) { return 0.3; });
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-    PointWorld world = room(seed);
+    PointWorld world = test::pointRoom(seed);
     const FlightRun run =
-        test::fly(world, flight, test::observe(flight, kHover, seed), msckfConfig());
+        test::fly(world, flight, test::observe(flight, kHover, seed), test::msckfConfig());
     EXPECT_LT(lastError_m(flight, run), 0.02) << "seed " << seed;
-    EXPECT_GT(framesIn(run, SlamState::kResting), 200) << "seed " << seed;
+    EXPECT_GT(test::framesIn(run, SlamState::kResting), 200) << "seed " << seed;
     EXPECT_EQ(run.landmarks.size(), 0U) << "seed " << seed;
     const double variance_m2 = run.results.back().covariance.topLeftCorner<3, 3>().trace();
     EXPECT_LT(variance_m2, 0.1 * 0.1) << "seed " << seed;
@@ -73,11 +56,11 @@ TEST(RestWorld, AStillImageHoldsThePosition) {
 TEST(RestWorld, TurningOnTheSpotHoldsThePosition) {
   const Flight flight = turning(225, [](double t_s) { return 0.5 * t_s; });
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-    PointWorld world = room(seed);
+    PointWorld world = test::pointRoom(seed);
     const FlightRun run =
-        test::fly(world, flight, test::observe(flight, kHover, seed), msckfConfig());
+        test::fly(world, flight, test::observe(flight, kHover, seed), test::msckfConfig());
     EXPECT_LT(lastError_m(flight, run), 0.3 * run.odometry.max_m) << "seed " << seed;
-    EXPECT_GT(framesIn(run, SlamState::kRotating), 150) << "seed " << seed;
+    EXPECT_GT(test::framesIn(run, SlamState::kRotating), 150) << "seed " << seed;
     // Of the first second, when the odometry's drift still passes for motion; measured: one in all.
     EXPECT_LE(run.landmarks.size(), 1U) << "seed " << seed;
   }
@@ -98,9 +81,9 @@ TEST(RestWorld, HoveringIsHeldWithinWhatTheImageShows) {
   const Flight flight = hovering(225);
   std::vector<double> errors_m, drifts_m;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7}) {
-    PointWorld world = room(seed);
+    PointWorld world = test::pointRoom(seed);
     const FlightRun run =
-        test::fly(world, flight, test::observe(flight, kHover, seed), msckfConfig());
+        test::fly(world, flight, test::observe(flight, kHover, seed), test::msckfConfig());
     errors_m.push_back(lastError_m(flight, run));
     drifts_m.push_back(run.odometry.max_m);
   }
@@ -116,7 +99,7 @@ TEST(RestWorld, ASlowFlightBeforeAFarSceneIsNotHeld) {
   const Flight flight = test::straightFlight(150, kRate_hz, 0.3);
   PointWorld world(1);
   world.addRoom({200, 200, 60}, 3000);
-  SlamConfig config = msckfConfig();
+  SlamConfig config = test::msckfConfig();
   config.msckf.zero_motion_depth_m = 100;
   const FlightRun run = test::fly(world, flight, test::observeExactly(flight), config);
   EXPECT_LT(lastError_m(flight, run), 0.05);
@@ -124,12 +107,12 @@ TEST(RestWorld, ASlowFlightBeforeAFarSceneIsNotHeld) {
 
 TEST(RestWorld, AFrozenStreamDoesNotHoldAFlyingDrone) {
   const Flight flight = test::straightFlight(60, kRate_hz, 1.5);
-  PointWorld world = room(1);
+  PointWorld world = test::pointRoom(1);
   std::vector<ImageFeatures> frames;
   for (const auto& pose : flight)
     frames.push_back(world.look(flight[0].T_map_base * test::forwardExtrinsics(), pose.stamp_ns));
-  const FlightRun run = test::run(frames, test::observeExactly(flight), msckfConfig());
-  EXPECT_EQ(framesIn(run, SlamState::kResting), 0);
+  const FlightRun run = test::run(frames, test::observeExactly(flight), test::msckfConfig());
+  EXPECT_EQ(test::framesIn(run, SlamState::kResting), 0);
   EXPECT_LT(lastError_m(flight, run), 0.05);
 }
 

@@ -16,12 +16,6 @@ using test::PointWorld;
 
 constexpr double kScaleSigma = 0.03;
 
-PointWorld room(std::uint64_t seed) {
-  PointWorld world(seed);
-  world.addRoom({10, 8, 3}, 1200);
-  return world;
-}
-
 /// A minute of laps; the height swings by `climb_m` to both sides.
 Flight climbingLaps(double climb_m) {
   Flight flight = test::lapsFlight(200, 3, 10, 2.5, 1.4);
@@ -57,7 +51,7 @@ TEST(ScaleWorld, WithoutAMetricSourceTheScaleStaysAsUnknownAsItWas) {
   for (const double climb_m : {0.0, 0.8}) {
     const Flight flight = climbingLaps(climb_m);
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-      PointWorld world = room(seed);
+      PointWorld world = test::pointRoom(seed);
       test::DriftConfig drift;
       drift.scale_error = scaleDrawn(seed);
       const FlightRun run =
@@ -76,7 +70,7 @@ TEST(ScaleWorld, HeightsThatChangeTellTheScale) {
   double before = 0;
   double after = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    PointWorld world = room(seed);
+    PointWorld world = test::pointRoom(seed);
     test::DriftConfig drift;
     drift.scale_error = scaleDrawn(seed);
     std::vector<OdometryState> odometry = test::observe(flight, drift, seed);
@@ -97,7 +91,7 @@ TEST(ScaleWorld, HeightsThatChangeTellTheScale) {
 TEST(ScaleWorld, ATableUnderTheDroneIsAnotherFloor) {
   const Flight flight = climbingLaps(0.8);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    PointWorld world = room(seed);
+    PointWorld world = test::pointRoom(seed);
     test::DriftConfig drift;
     drift.scale_error = scaleDrawn(seed);
     std::vector<OdometryState> odometry = test::observe(flight, drift, seed);
@@ -132,7 +126,7 @@ TEST(ScaleWorld, AConstantHeightHoldsZAndTellsNothingOfTheScale) {
     test::DriftConfig drift;
     drift.scale_error = scaleDrawn(seed);
     std::vector<OdometryState> odometry = test::observe(flight, drift, seed);
-    PointWorld world = room(seed);
+    PointWorld world = test::pointRoom(seed);
     const std::vector<ImageFeatures> frames = test::film(world, flight);
     const auto squaresOfZ = [&](const FlightRun& run) {
       double sum_m2 = 0;

@@ -1,0 +1,36 @@
+# A room: a folder of sources that is a library of its own, ardrone_vslam_FOLDER_ROOM. A header of onboard/input is included
+# as "input/header.hpp".
+#   ardrone_vslam_room(onboard/input USES common/protocol LIBRARIES Threads::Threads)
+# ROS: it needs the messages and catkin's libraries.
+function(ardrone_vslam_rooms_of output)
+  list(TRANSFORM ARGN REPLACE / _ OUTPUT_VARIABLE targets)
+  list(TRANSFORM targets PREPEND ${PROJECT_NAME}_)
+  set(${output} ${targets} PARENT_SCOPE)
+endfunction()
+
+function(ardrone_vslam_room room)
+  cmake_parse_arguments(PARSE_ARGV 1 with "ROS" "" "USES;LIBRARIES")
+  ardrone_vslam_rooms_of(target ${room})
+  ardrone_vslam_rooms_of(uses ${with_USES})
+  string(REGEX REPLACE "/.*" "" wing ${room})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${room}/*.cpp)
+  if(NOT sources)  # headers alone
+    add_library(${target} INTERFACE)
+    target_include_directories(${target} INTERFACE ${PROJECT_SOURCE_DIR}/${wing})
+    return()
+  endif()
+  add_library(${target} STATIC ${sources})
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/${wing})
+  target_link_libraries(${target} PUBLIC ${PROJECT_NAME} ${uses} ${with_LIBRARIES})
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  ardrone_vslam_warnings(${target})
+  if(with_ROS)
+    ardrone_vslam_uses_ros(${target})
+  endif()
+endfunction()
+
+function(ardrone_vslam_uses_ros target)
+  target_include_directories(${target} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
+  target_link_libraries(${target} PUBLIC ${catkin_LIBRARIES})
+  add_dependencies(${target} ${${PROJECT_NAME}_EXPORTED_TARGETS})
+endfunction()

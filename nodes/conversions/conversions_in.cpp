@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "conversions/conversions.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr std::size_t kDescriptorBytes = sizeof(Descriptor);
+constexpr double kQuaternionTolerance = 0.1;  // of the norm; drivers round to a few digits
+constexpr double kBearingTolerance = 1e-3;    // of the norm
+
+std::string sizeFault(const char* name, std::size_t size, std::size_t expected) {
+  if (size == expected) return {};
+  return text("'", name, "' has ", size, " entries where 'x' asks for ", expected,
+              "; fill all arrays alike");
+}
+
+std::string sizesFault(const Features& m) {
+  const std::size_t n = m.x.size();
+  for (const auto& fault :
+       {sizeFault("y", m.y.size(), n), sizeFault("score", m.score.size(), n),
+        sizeFault("track_id", m.track_id.size(), n), sizeFault("age", m.age.size(), n),
+        sizeFault("bearing", m.bearing.size(), 3 * n),
+        sizeFault("descriptor", m.descriptor.size(), kDescriptorBytes * n)}) {
+    if (!fault.empty()) return fault;
+  }
+  return {};
+}
+
+Matrix6d toMatrix(const boost::array<double, 36>& row_major) {
+  return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(row_major.data());
+}
+
+/// Its quaternion is normalised.
+Checked<Eigen::Isometry3d> toIsometry(const geometry_msgs::Pose& pose) {
+  const Eigen::Vector3d p(pose.position.x, pose.position.y, pose.position.z);
+  const Eigen::Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y,
+                             pose.orientation.z);
+  if (!p.allFinite()) return {std::nullopt, "its position is not finite"};
+  if (!q.coeffs().allFinite()) return {std::nullopt, "its orientation is not finite"};
+  if (!(std::abs(q.norm() - 1) < kQuaternionTolerance)) {
+    return {std::nullopt, text("its orientation has norm ", q.norm(),
+                               " where a unit quaternion is asked for; fill the orientation")};
+  }
+  Eigen::Isometry3d T_a_b(q.normalized());
+  T_a_b.translation() = p;
+  return {T_a_b, {}};
+}
+
+/// @return the fault
+std::string faultOf(const geometry_msgs::TwistWithCovariance& twist) {
+  const auto& v = twist.twist.linear;
+  const auto& w = twist.twist.angular;
+  if (!allFinite(std::array<double, 6>{v.x, v.y, v.z, w.x, w.y, w.z})) {
+    return "its twist is not finite; zeros stand for 'unknown'";
+  }
+  if (!allFinite(twist.covariance)) {
+    return "its twist covariance is not finite; all zeros stand for 'unknown'";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::int64_t toNanoseconds(const ros::Time& time) {
+  return static_cast<std::int64_t>(time.toNSec());
+}
+
+ros::Time toRosTime(std::int64_t stamp_ns) {
+  ros::Time time;
+  return time.fromNSec(static_cast<std::uint64_t>(stamp_ns));
+}
+
+Checked<OdometryState> toUnboundedState(const nav_msgs::Odometry& odometry) {
+  const auto T_odom_base = toIsometry(odometry.pose.pose);
+  if (!T_odom_base.value) return {std::nullopt, T_odom_base.fault};
+  const auto& covariance = odometry.pose.covariance;
+  if (!allFinite(covariance)) {
+    return {std::nullopt, "its pose covariance is not finite; all zeros stand for 'unknown'"};
+  }
+  // The map has no use for the twist, but the fused odometry passes it on to controllers.
+  const std::string twist_fault = faultOf(odometry.twist);
+  if (!twist_fault.empty()) return {std::nullopt, twist_fault};
+  if (odometry.header.stamp.isZero()) return {std::nullopt, "its stamp is zero; set header.stamp"};
+  OdometryState state;
+  state.stamp_ns = toNanoseconds(odometry.header.stamp);
+  state.T_odom_base = *T_odom_base.value;
+  state.covariance = toMatrix(covariance);
+  const auto& twist = odometry.twist.twist;
+  state.twist_base << twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.x,
+      twist.angular.y, twist.angular.z;
+  state.twist_covariance = toMatrix(odometry.twist.covariance);
+  return {state, {}};
+}
+
+Checked<OdometryState> toOdometryState(const nav_msgs::Odometry& odometry) {
+  const auto checked = toUnboundedState(odometry);
+  const std::string range_fault = checked.value ? rangeFault(*checked.value) : "";
+  if (!range_fault.empty()) return {std::nullopt, range_fault};
+  return checked;
+}
+
+Checked<RangeReading> toRangeReading(const sensor_msgs::Range& message) {
+  if (message.header.stamp.isZero()) return {std::nullopt, "its stamp is zero; set header.stamp"};
+  RangeReading reading;
+  reading.stamp_ns = toNanoseconds(message.header.stamp);
+  reading.range_m = message.range;
+  reading.min_m = message.min_range;
+  reading.max_m = message.max_range;
+  return {reading, {}};
+}
+
+Checked<LateCorrection> toLateCorrection(const PoseCorrection& message) {
+  if (message.header.stamp.isZero()) return {std::nullopt, "its stamp is zero; set header.stamp"};
+  const auto T_odom_base = toIsometry(message.observer_pose);
+  if (!T_odom_base.value) return {std::nullopt, "observer_pose: " + T_odom_base.fault};
+  const auto T_map_base = toIsometry(message.fused_pose.pose);
+  if (!T_map_base.value) return {std::nullopt, "fused_pose: " + T_map_base.fault};
+  LateCorrection correction;
+  correction.stamp_ns = toNanoseconds(message.header.stamp);
+  correction.T_odom_base = *T_odom_base.value;
+  correction.T_map_base = *T_map_base.value;
+  correction.covariance = toMatrix(message.fused_pose.covariance);
+  const std::string fault = faultOf(correction);
+  if (!fault.empty()) return {std::nullopt, fault};
+  return {correction, {}};
+}
+
+std::string faultOf(const Features& m) {
+  if (m.header.stamp.isZero()) return "its stamp is zero; set header.stamp to the image's";
+  if (m.header.frame_id.empty()) return "it names no frame_id; give the camera's optical frame";
+  if (m.width == 0 || m.height == 0) return "its image size is zero; set width and height";
+  const double focal_widths = static_cast<double>(m.focal_length) / m.width;
+  if (!(focal_widths >= kShortestFocal && focal_widths <= kLongestFocal)) {
+    return text("its focal_length is ", m.focal_length, " px; it must be within ", kShortestFocal,
+                " and ", kLongestFocal, " times the image width");
+  }
+  std::string fault = sizesFault(m);
+  if (!fault.empty()) return fault;
+  if (!allFinite(m.x) || !allFinite(m.y)) return "a pixel position is not finite";
+  for (std::size_t i = 0; i < m.x.size(); ++i) {
+    const Eigen::Vector3d bearing(m.bearing[3 * i], m.bearing[3 * i + 1], m.bearing[3 * i + 2]);
+    if (!(std::abs(bearing.norm() - 1) < kBearingTolerance)) {
+      return text("bearing ", i, " has length ", bearing.norm(), "; unit vectors are asked for");
+    }
+    if (m.track_id[i] == 0) return text("track_id ", i, " is 0, which is not a track");
+  }
+  return {};
+}
+
+void toFeatures(const Features& message, ImageFeatures& features) {
+  features.clear();
+  features.stamp_ns = toNanoseconds(message.header.stamp);
+  features.width_px = static_cast<int>(message.width);
+  features.height_px = static_cast<int>(message.height);
+  features.focal_length_px = message.focal_length;
+  const std::size_t count = message.x.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    features.pixel_px.emplace_back(message.x[i], message.y[i]);
+    features.bearing_cam.emplace_back(message.bearing[3 * i], message.bearing[3 * i + 1],
+                                      message.bearing[3 * i + 2]);
+  }
+  features.score = message.score;
+  features.track_id = message.track_id;
+  features.age_frames = message.age;
+  features.descriptor.resize(count);
+  if (count > 0) {
+    std::memcpy(features.descriptor.data(), message.descriptor.data(), count * kDescriptorBytes);
+  }
+}
+
+}  // namespace ardrone_vslam

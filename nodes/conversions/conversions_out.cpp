@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sensor_msgs/point_cloud2_iterator.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "conversions/conversions.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr double kGreenSigma_m = 0.01;
+constexpr double kRedSigma_m = 1.0;
+constexpr double kMarkerSide_m = 0.05;
+
+std_msgs::Header headerOf(std::int64_t stamp_ns, const std::string& frame) {
+  std_msgs::Header header;
+  header.stamp = toRosTime(stamp_ns);
+  header.frame_id = frame;
+  return header;
+}
+
+void toRowMajor(const Matrix6d& matrix, boost::array<double, 36>& row_major) {
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(row_major.data()) = matrix;
+}
+
+geometry_msgs::PoseWithCovariance toPoseWithCovariance(const FrameResult& result) {
+  geometry_msgs::PoseWithCovariance pose;
+  pose.pose = toPose(result.T_map_base);
+  toRowMajor(result.covariance, pose.covariance);
+  return pose;
+}
+
+void fillTwist(const Vector6d& twist, const Matrix6d& covariance,
+               geometry_msgs::TwistWithCovariance& message) {
+  message.twist.linear.x = twist[0];
+  message.twist.linear.y = twist[1];
+  message.twist.linear.z = twist[2];
+  message.twist.angular.x = twist[3];
+  message.twist.angular.y = twist[4];
+  message.twist.angular.z = twist[5];
+  toRowMajor(covariance, message.covariance);
+}
+
+std::uint8_t stateOf(SlamState state) {
+  switch (state) {
+    case SlamState::kBuildingMap:
+      return Status::BUILDING_MAP;
+    case SlamState::kLocalised:
+      return Status::LOCALISED;
+    case SlamState::kTooFewLandmarks:
+      return Status::TOO_FEW_LANDMARKS;
+    case SlamState::kFixRejected:
+      return Status::FIX_REJECTED;
+    case SlamState::kOdometryOnly:
+      return Status::OBSERVER_ONLY;
+    case SlamState::kNotFinite:
+      return Status::NOT_FINITE;
+    case SlamState::kTracking:
+      return Status::TRACKING;
+    case SlamState::kResting:
+      return Status::RESTING;
+    case SlamState::kRotating:
+      return Status::ROTATING;
+    case SlamState::kDistrusted:
+      return Status::DISTRUSTED;
+    case SlamState::kRelocated:
+      return Status::RELOCATED;
+  }
+  assert(false && "a SlamState that Status.msg does not know");
+  return Status::OBSERVER_ONLY;
+}
+
+/// Green over yellow to red, on a logarithmic scale.
+std_msgs::ColorRGBA colourOf(double sigma_m) {
+  const double clamped = std::clamp(sigma_m, kGreenSigma_m, kRedSigma_m);
+  const double share = std::log(clamped / kGreenSigma_m) / std::log(kRedSigma_m / kGreenSigma_m);
+  std_msgs::ColorRGBA colour;
+  colour.r = static_cast<float>(std::min(1.0, 2 * share));
+  colour.g = static_cast<float>(std::min(1.0, 2 * (1 - share)));
+  colour.b = 0.F;
+  colour.a = 1.F;
+  return colour;
+}
+
+}  // namespace
+
+void toMessage(const ImageFeatures& features, const std::string& camera_frame, Features& message) {
+  message.header = headerOf(features.stamp_ns, camera_frame);
+  message.width = static_cast<std::uint32_t>(features.width_px);
+  message.height = static_cast<std::uint32_t>(features.height_px);
+  message.focal_length = features.focal_length_px;
+  const std::size_t count = features.size();
+  message.x.resize(count);
+  message.y.resize(count);
+  message.bearing.resize(3 * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    message.x[i] = features.pixel_px[i].x();
+    message.y[i] = features.pixel_px[i].y();
+    for (int axis = 0; axis < 3; ++axis) {
+      message.bearing[3 * i + static_cast<std::size_t>(axis)] = features.bearing_cam[i][axis];
+    }
+  }
+  message.score = features.score;
+  message.track_id = features.track_id;
+  message.age = features.age_frames;
+  message.descriptor.resize(sizeof(Descriptor) * features.descriptor.size());
+  if (!message.descriptor.empty()) {
+    std::memcpy(message.descriptor.data(), features.descriptor.data(), message.descriptor.size());
+  }
+}
+
+geometry_msgs::Pose toPose(const Eigen::Isometry3d& T_a_b) {
+  const Eigen::Quaterniond q(T_a_b.linear());
+  geometry_msgs::Pose pose;
+  pose.position.x = T_a_b.translation().x();
+  pose.position.y = T_a_b.translation().y();
+  pose.position.z = T_a_b.translation().z();
+  pose.orientation.x = q.x();
+  pose.orientation.y = q.y();
+  pose.orientation.z = q.z();
+  pose.orientation.w = q.w();
+  return pose;
+}
+
+geometry_msgs::Transform toTransform(const Eigen::Isometry3d& T_a_b) {
+  const geometry_msgs::Pose pose = toPose(T_a_b);
+  geometry_msgs::Transform transform;
+  transform.translation.x = pose.position.x;
+  transform.translation.y = pose.position.y;
+  transform.translation.z = pose.position.z;
+  transform.rotation = pose.orientation;
+  return transform;
+}
+
+geometry_msgs::PoseWithCovarianceStamped toPoseMessage(const FrameResult& result,
+                                                       const Frames& frames) {
+  geometry_msgs::PoseWithCovarianceStamped message;
+  message.header = headerOf(result.stamp_ns, frames.map);
+  message.pose = toPoseWithCovariance(result);
+  return message;
+}
+
+nav_msgs::Odometry toOdometryMessage(const FrameResult& result, const Frames& frames,
+                                     const OdometryState& odometry) {
+  nav_msgs::Odometry message;
+  message.header = headerOf(result.stamp_ns, frames.map);
+  message.child_frame_id = frames.base;
+  message.pose = toPoseWithCovariance(result);
+  fillTwist(odometry.twist_base, odometry.twist_covariance, message.twist);
+  return message;
+}
+
+nav_msgs::Odometry toOdometryMessage(const MapState& state, const Frames& frames) {
+  nav_msgs::Odometry message;
+  message.header = headerOf(state.stamp_ns, frames.map);
+  message.child_frame_id = frames.base;
+  message.pose.pose = toPose(state.T_map_base);
+  toRowMajor(state.covariance, message.pose.covariance);
+  fillTwist(state.twist_base, state.twist_covariance, message.twist);
+  return message;
+}
+
+nav_msgs::Odometry toOdometryMessage(const OdometryState& state, const std::string& odom_frame,
+                                     const std::string& base_frame) {
+  nav_msgs::Odometry message;
+  message.header = headerOf(state.stamp_ns, odom_frame);
+  message.child_frame_id = base_frame;
+  message.pose.pose = toPose(state.T_odom_base);
+  toRowMajor(state.covariance, message.pose.covariance);
+  fillTwist(state.twist_base, state.twist_covariance, message.twist);
+  return message;
+}
+
+PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
+                                   const Frames& frames) {
+  PoseCorrection message;
+  message.header = headerOf(result.stamp_ns, frames.map);
+  message.child_frame_id = frames.base;
+  message.observer_pose = toPose(result.T_odom_base);
+  message.fused_pose = toPoseWithCovariance(result);
+  message.map_to_odom = toTransform(T_map_odom);
+  message.deviation = result.sigma_m;
+  message.corrected = result.state == SlamState::kLocalised ||
+                      result.state == SlamState::kTracking || result.state == SlamState::kResting ||
+                      result.state == SlamState::kRotating || result.state == SlamState::kRelocated;
+  return message;
+}
+
+void toStatus(SlamState state, Status& status) {
+  status.state = stateOf(state);
+  status.state_name = kSlamStateNames[static_cast<std::size_t>(state)];
+  status.reason = state == SlamState::kLocalised ? "" : explain(state);
+}
+
+void toStatus(const FrameResult& result, const std::string& map_frame, Status& status) {
+  const auto count = [](int number) { return static_cast<std::uint32_t>(number); };
+  status.header = headerOf(result.stamp_ns, map_frame);
+  toStatus(result.state, status);
+  if (result.features == 0) {
+    status.reason =
+        "the image has no corners: it is dark, over-exposed, blurred or without texture; " +
+        status.reason;
+  }
+  status.features = count(result.features);
+  status.match_method = nameOf(result.match_method);
+  status.landmarks_in_view = count(result.landmarks_in_view);
+  status.landmark_candidates = count(result.landmark_candidates);
+  status.landmark_matches = count(result.landmark_matches);
+  status.feature_candidates = count(result.feature_candidates);
+  status.feature_matches = count(result.feature_matches);
+  status.landmark_mismatches = count(result.landmark_candidates - result.landmark_matches);
+  status.feature_mismatches = count(result.feature_candidates - result.feature_matches);
+  status.landmarks = count(result.landmarks);
+  status.map_features = count(result.map_features);
+  status.fix_nis = std::isfinite(result.fix_nis) ? result.fix_nis : 0;
+  const bool has_scale = std::isfinite(result.scale_error + result.scale_sigma);
+  status.scale_error = has_scale ? result.scale_error : 0;
+  status.scale_deviation = has_scale ? result.scale_sigma : 0;
+  status.deviation = result.state == SlamState::kNotFinite ? 0 : result.sigma_m;
+}
+
+void toStatus(const OdometryFaultCounts& faults, Status& status) {
+  status.odometry_fault.assign(EnumNames<OdometryFault>::kNames.begin(),
+                               EnumNames<OdometryFault>::kNames.end());
+  status.odometry_fault_count.assign(faults.begin(), faults.end());
+}
+
+void toStatus(const TimeOffset& estimate, double used_s, Status& status) {
+  status.image_time_offset = used_s;
+  status.image_time_offset_estimate = estimate.offset_s;
+  status.image_time_offset_deviation = estimate.deviation_s;
+}
+
+bool isWell(std::uint8_t state) {
+  return state == Status::LOCALISED || state == Status::BUILDING_MAP || state == Status::TRACKING ||
+         state == Status::RESTING || state == Status::ROTATING || state == Status::RELOCATED ||
+         state == Status::OBSERVER_ONLY;
+}
+
+sensor_msgs::PointCloud2 toCloud(const std::vector<Landmark>& landmarks,
+                                 const std::string& map_frame, std::int64_t stamp_ns) {
+  using sensor_msgs::PointField;
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header = headerOf(stamp_ns, map_frame);
+  cloud.height = 1;
+  cloud.is_dense = true;
+  sensor_msgs::PointCloud2Modifier modifier(cloud);
+  modifier.setPointCloud2Fields(6, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1,
+                                PointField::FLOAT32, "deviation", 1, PointField::FLOAT32,
+                                "times_seen", 1, PointField::UINT32, "id", 1, PointField::UINT32);
+  modifier.resize(landmarks.size());
+  sensor_msgs::PointCloud2Iterator<float> xyzd(cloud, "x");
+  sensor_msgs::PointCloud2Iterator<std::uint32_t> seen_id(cloud, "times_seen");
+  for (const Landmark& landmark : landmarks) {
+    for (int axis = 0; axis < 3; ++axis)
+      xyzd[axis] = static_cast<float>(landmark.position_map[axis]);
+    xyzd[3] = static_cast<float>(landmark.sigma_m);
+    seen_id[0] = static_cast<std::uint32_t>(landmark.times_seen);
+    seen_id[1] = landmark.id;
+    ++xyzd;
+    ++seen_id;
+  }
+  return cloud;
+}
+
+visualization_msgs::Marker toMarker(const std::vector<Landmark>& landmarks,
+                                    const std::string& map_frame, std::int64_t stamp_ns) {
+  visualization_msgs::Marker marker;
+  marker.header = headerOf(stamp_ns, map_frame);
+  marker.ns = "landmarks";
+  marker.type = visualization_msgs::Marker::POINTS;
+  // rviz complains of a marker that is to be shown but has no points.
+  marker.action =
+      !landmarks.empty() ? visualization_msgs::Marker::ADD : visualization_msgs::Marker::DELETE;
+  marker.pose.orientation.w = 1;
+  marker.scale.x = kMarkerSide_m;
+  marker.scale.y = kMarkerSide_m;
+  marker.points.reserve(landmarks.size());
+  marker.colors.reserve(landmarks.size());
+  for (const Landmark& landmark : landmarks) {
+    geometry_msgs::Point point;
+    point.x = landmark.position_map.x();
+    point.y = landmark.position_map.y();
+    point.z = landmark.position_map.z();
+    marker.points.push_back(point);
+    marker.colors.push_back(colourOf(landmark.sigma_m));
+  }
+  return marker;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "inputs/mounting.hpp"
+
+#include <tf2/exceptions.h>
+
+#include "ardrone_vslam/slam.hpp"
+#include "conversions/conversions.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
+  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
+  T_a_b.translation() << transform.translation.x, transform.translation.y, transform.translation.z;
+  T_a_b.linear() = Eigen::Quaterniond(transform.rotation.w, transform.rotation.x,
+                                      transform.rotation.y, transform.rotation.z)
+                       .normalized()
+                       .toRotationMatrix();
+  return T_a_b;
+}
+
+}  // namespace
+
+Mounting::Mounting(const ros::NodeHandle& nh) : tf_(nh) {}
+
+std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
+                                                const std::string& camera_frame,
+                                                std::string& fault) {
+  if (base_frame != base_frame_) T_base_cam_.clear();
+  base_frame_ = base_frame;
+  const auto known = T_base_cam_.find(camera_frame);
+  if (known != T_base_cam_.end()) return known->second;
+  try {
+    const Eigen::Isometry3d T_base_cam = toIsometry(
+        tf_.buffer().core().lookupTransform(base_frame, camera_frame, ros::Time(0)).transform);
+    const std::string wrong = extrinsicsFault(T_base_cam);
+    if (wrong.empty()) return T_base_cam_[camera_frame] = T_base_cam;
+    fault = "transform from " + base_frame + " to " + camera_frame + ": " + wrong;
+  } catch (const tf2::TransformException& e) {
+    fault = "no transform from " + base_frame + " to " + camera_frame + " (" + e.what() +
+            "): publish the camera's mounting, for example by `rosrun tf2_ros "
+            "static_transform_publisher x y z yaw pitch roll " +
+            base_frame + " " + camera_frame + "`";
+  }
+  return std::nullopt;
+}
+
+std::optional<Eigen::Isometry3d> Mounting::T_odom_base(const std::string& odom_frame,
+                                                       const std::string& base_frame,
+                                                       std::int64_t stamp_ns) const {
+  const tf2::BufferCore& tf = tf_.buffer().core();
+  for (const ros::Time& time : {toRosTime(stamp_ns), ros::Time(0)}) {
+    if (!tf.canTransform(odom_frame, base_frame, time)) continue;
+    try {
+      return toIsometry(tf.lookupTransform(odom_frame, base_frame, time).transform);
+    } catch (const tf2::TransformException&) {  // forgotten meanwhile
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "inputs/tf_input.hpp"
+
+namespace ardrone_vslam {
+
+/// Where the cameras sit on the drone, from tf. Taken as rigid: once found they are kept. And what
+/// else the mapper asks of tf.
+class Mounting {
+ public:
+  explicit Mounting(const ros::NodeHandle& nh);
+
+  /// The latest transform, whatever its stamp: drivers stamp the mounting later than the image.
+  /// @param fault  set, with the remedy, when there is none or none that can be (extrinsicsFault)
+  /// @return T_base_cam
+  std::optional<Eigen::Isometry3d> find(const std::string& base_frame,
+                                        const std::string& camera_frame, std::string& fault);
+
+  /// Of the drone, as tf itself has it at this time, else the latest; nothing: it does not know.
+  std::optional<Eigen::Isometry3d> T_odom_base(const std::string& odom_frame,
+                                               const std::string& base_frame,
+                                               std::int64_t stamp_ns) const;
+
+  TfBuffer& tf() { return tf_.buffer(); }
+  const TfBuffer& tf() const { return tf_.buffer(); }
+
+ private:
+  TfInput tf_;
+  std::string base_frame_;
+  std::map<std::string, Eigen::Isometry3d> T_base_cam_;  // by camera frame
+};
+
+}  // namespace ardrone_vslam

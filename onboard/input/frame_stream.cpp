@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/frame_stream.hpp"
+
+#include <array>
+#include <cstdlib>
+#include <cstring>
+
+#include "protocol/clocks.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr std::int64_t kLargestNumber = INT64_MAX / 10 - 1;
+constexpr const char* kStampComment = " stamp_ns ";
+
+bool isSpace(int c) {
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+}
+
+std::string sizeText(std::int64_t width, std::int64_t height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+}  // namespace
+
+FrameStream::FrameStream(FileDescriptor file, int stop_fd, const FrameSize& size, bool every_frame,
+                         std::function<void()> waiting)
+    : input_(std::move(file), stop_fd, std::move(waiting)),
+      size_(size),
+      every_frame_(every_frame),
+      pixels_(static_cast<std::size_t>(size.sourceWidth_px()) *
+              static_cast<std::size_t>(size.sourceHeight_px()) * 2),
+      grey_(static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px)) {}
+
+FrameSource::Read FrameStream::read(Frame& frame) {
+  Read answer = readOne();
+  while (answer == Read::kFrame && !every_frame_ && input_.hasMore()) {
+    const std::int64_t stamp_ns = stamp_ns_;
+    const Read next = readOne();
+    if (next == Read::kEnd) {  // of the pixels nothing was overwritten
+      stamp_ns_ = stamp_ns;
+      break;
+    }
+    ++dropped_;
+    answer = next;
+  }
+  if (answer != Read::kFrame) return answer;
+  toGrey(format_, pixels_.data(), size_.sourceWidth_px() * bytesPerPixel(format_),
+         size_.sourceWidth_px(), size_.sourceHeight_px(), size_.halve, grey_.data());
+  frame.image = {grey_.data(), size_.width_px, size_.height_px, size_.width_px};
+  frame.stamp_ns = stamp_ns_;
+  return Read::kFrame;
+}
+
+FrameSource::Read FrameStream::cutOff() {
+  if (input_.isStopped()) return Read::kNone;
+  return lost(input_.error() == 0
+                  ? std::string("the images end within one: was it written whole?")
+                  : std::string("the images cannot be read: ") + std::strerror(input_.error()));
+}
+
+FrameSource::Read FrameStream::readOne() {
+  const int first = input_.next();
+  if (first < 0 && input_.error() != 0) return cutOff();
+  if (first < 0) return input_.isStopped() ? Read::kNone : Read::kEnd;
+  std::array<std::uint8_t, 4> magic{static_cast<std::uint8_t>(first)};
+  const std::size_t letters = first == 'U' ? 4 : 2;
+  if (input_.read(&magic[1], letters - 1) != letters - 1) return cutOff();
+  const bool is_uyvy = letters == 4 && std::memcmp(magic.data(), "UYVY", 4) == 0;
+  if (!is_uyvy && (magic[0] != 'P' || magic[1] != '5' || letters == 4))
+    return lost("what comes is neither a binary PGM (P5) nor UYVY (docs/onboard.md)");
+  format_ = is_uyvy ? PixelFormat::kUyvy : PixelFormat::kGrey;
+
+  stamp_ns_ = 0;
+  std::array<std::int64_t, 3> numbers{};  // width, height, largest value
+  for (std::int64_t& number : numbers) {
+    if (!readNumber(number))
+      return input_.isStopped() ? Read::kNone : lost("an image's header is damaged or cut off");
+  }
+  if (stamp_ns_ <= 0) return lost("an image without its stamp: write '# stamp_ns N' below its P5");
+  if (stamp_ns_ > kLatestStamp_ns) return lost("an image's stamp is no time: it is in nanoseconds");
+  if (numbers[0] != size_.sourceWidth_px() || numbers[1] != size_.sourceHeight_px() ||
+      numbers[2] != 255)
+    return lost("an image of " + sizeText(numbers[0], numbers[1]) + ", largest value " +
+                std::to_string(numbers[2]) + ", but by the calibration" +
+                (size_.halve ? ", doubled as `halve` says," : "") + " it must be " +
+                sizeText(size_.sourceWidth_px(), size_.sourceHeight_px()) + ", 255");
+  const std::size_t bytes = pixels_.size() / 2 * static_cast<std::size_t>(bytesPerPixel(format_));
+  return input_.read(pixels_.data(), bytes) == bytes ? Read::kFrame : cutOff();
+}
+
+/// A number of the header, the one space behind it included; comments before it, of which that with
+/// the stamp is read.
+bool FrameStream::readNumber(std::int64_t& value) {
+  int c = input_.next();
+  while (isSpace(c) || c == '#') {
+    if (c == '#') {
+      std::array<char, 64> comment{};
+      std::size_t length = 0;
+      while ((c = input_.next()) >= 0 && c != '\n') {
+        if (length + 1 < comment.size()) comment[length++] = static_cast<char>(c);
+      }
+      const std::size_t name = std::strlen(kStampComment);
+      if (std::strncmp(comment.data(), kStampComment, name) == 0)
+        stamp_ns_ = std::strtoll(comment.data() + name, nullptr, 10);
+    }
+    c = input_.next();
+  }
+  if (c < '0' || c > '9') return false;
+  for (value = 0; c >= '0' && c <= '9'; c = input_.next()) {
+    if (value > kLargestNumber) return false;
+    value = 10 * value + (c - '0');
+  }
+  return isSpace(c);
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "input/frame_input.hpp"
+#include "input/observer_input.hpp"
+#include "input/observer_source.hpp"
+#include "loop/answer_output.hpp"
+#include "loop/cpu_share.hpp"
+#include "loop/pose_pipeline.hpp"
+#include "protocol/udp.hpp"
+#include "settings/settings.hpp"
+
+namespace ardrone_vslam {
+
+/// The program: waits for images and records in one thread, answers each image, and says at least
+/// every kSayState_ns how it is. Allocates nothing of its own after construction; when the core has
+/// no memory left the map begins anew.
+class OnboardLoop {
+ public:
+  static constexpr std::int64_t kSayState_ns = 200'000'000;
+
+  /// @param stop_fd  becomes readable when the program is to stop
+  /// @throws ConfigError, std::runtime_error, std::invalid_argument
+  OnboardLoop(const Settings& settings, int stop_fd);
+
+  /// Until it is to stop, or a file's images end. @return whether all went well: no source of
+  /// images was lost for good
+  bool run();
+
+  /// UDP; for one that was given as 0.
+  int observerPort() const { return portOf(observer_source_.descriptor()); }
+  const std::vector<Landmark>& landmarks() const { return pipeline_.landmarks(); }
+  std::uint32_t answered() const { return answered_; }
+  /// What was answered, lost and dropped, and what it cost: a line each.
+  void printSummary() const;
+
+ private:
+  bool waitForInput();
+  bool step();
+  void startOver();
+  int timeout_ms(std::int64_t now) const;
+  bool mayReadFrame(std::int64_t now) const;
+  bool readFrame();
+  void whileWaiting();
+  void readObserver();
+  void answer();
+  void giveUp(std::uint32_t state);
+  std::uint32_t idleState(std::int64_t now) const;
+  void sayState(std::int64_t now);
+  AnswerOutput::Counters counters() const;
+
+  Settings settings_;
+  int stop_fd_;
+  PosePipeline pipeline_;
+  ObserverSource observer_source_;
+  ObserverInput observer_input_;
+  AnswerOutput output_;
+  FrameInput frames_;
+  CpuShare share_;
+  bool is_odometry_over_ = false;
+  std::int64_t began_ns_;
+  std::int64_t frame_ns_ = 0;  // when the newest image came; 0: none has
+  std::int64_t said_ns_ = began_ns_;
+  std::uint32_t answered_ = 0;
+  std::int64_t all_cost_ns_ = 0;  // processor time of the images answered
+  std::int64_t most_cost_ns_ = 0;
+  std::uint32_t stamps_refused_ = 0;
+  std::uint32_t without_odometry_ = 0;
+  std::uint32_t out_of_memory_ = 0;
+};
+
+}  // namespace ardrone_vslam

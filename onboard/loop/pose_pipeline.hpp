@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ardrone_vslam/height_input.hpp"
+#include "ardrone_vslam/odometry_adapter.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/slam.hpp"
+#include "ardrone_vslam/tracker.hpp"
+#include "input/frame_source.hpp"
+
+namespace ardrone_vslam {
+
+/// Tracker and Slam as the nodelets compose them, without input and output: an image's features
+/// wait for the observer's state at its exposure.
+class PosePipeline {
+ public:
+  /// @throws ConfigError, std::invalid_argument
+  PosePipeline(const TrackerConfig& tracker, const SlamConfig& slam, const CameraIntrinsics& camera,
+               const Eigen::Isometry3d& T_base_cam);
+
+  /// @return whether the frame is used: its stamp is after the one before. After a stamp that is a
+  /// second or more before it the map begins anew.
+  bool track(const Frame& frame);
+  bool isWaiting() const { return is_waiting_; }
+  /// Gives the waiting frame up.
+  void forgetFrame() { is_waiting_ = false; }
+  /// Gives map, waiting frame and observer states up, and begins anew.
+  void startOver();
+
+  /// @return whether it, and those that burst with it, are used
+  bool addOdometry(const OdometryState& message);
+  /// No further state will come.
+  void endObserver();
+
+  enum class Answer {
+    kPose,
+    kNotYet,  ///< the observer's state may still come
+    kNever    ///< it cannot: the frame is given up
+  };
+  /// For the waiting frame.
+  Answer localise();
+
+  const CameraModel& cameraModel() const { return tracker_.camera(); }
+  const FrameResult& result() const { return *result_; }
+  const ImageFeatures& features() const { return features_; }
+  const std::vector<Landmark>& landmarks() const { return slam_->landmarks(); }
+  int restarts() const { return restarts_; }
+
+ private:
+  void beginAnew();
+  bool take(OdometryBuffer::Push answer);
+
+  SlamConfig config_;
+  Eigen::Isometry3d T_base_cam_;
+  std::int64_t image_time_offset_ns_;
+  Tracker tracker_;
+  std::optional<Slam> slam_;
+  OdometryAdapter adapter_;
+  OdometryBuffer buffer_;
+  HeightInput heights_;
+  std::vector<OdometryState> ready_;
+  ImageFeatures features_;
+  const FrameResult* result_ = nullptr;
+  std::int64_t newest_ns_ = 0;  // of the frames
+  bool is_waiting_ = false;
+  bool is_odometry_over_ = false;
+  int restarts_ = 0;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "settings/settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "ardrone_vslam/delayed_fusion.hpp"
+#include "ardrone_vslam/parameter_values.hpp"
+#include "configs/node_config.hpp"
+#include "yaml/yaml_sections.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using Section = std::map<std::string, std::string>;
+
+struct ReadText {
+  bool operator()(const std::string& text, bool& value) const { return toSwitch(text, value); }
+  bool operator()(const std::string& text, int& value) const { return toNumber(text, value); }
+  bool operator()(const std::string& text, double& value) const { return toNumber(text, value); }
+};
+using ValueReader = SectionValues<ReadText>;
+
+struct NameCollector {
+  std::set<std::string>* names;
+  template <class T>
+  void operator()(const ParameterInfo& info, T&) const {
+    names->insert(info.name);
+  }
+};
+
+/// Sections and their structs, one after the other.
+class SectionReader {
+ public:
+  SectionReader(YamlSections sections, std::vector<std::string>& faults)
+      : sections_(std::move(sections)), faults_(faults) {}
+
+  template <class... Configs>
+  void read(const std::string& name, Configs&... configs) {
+    Section values = sections_[name];
+    sections_.erase(name);
+    std::set<std::string> names;
+    (visitParameters(configs, ValueReader{name, &values, &faults_}), ...);
+    (visitParameters(configs, NameCollector{&names}), ...);
+    for (const auto& leftover : values) {
+      faults_.push_back(name + "/" + leftover.first + " is not a parameter" +
+                        remedyFor(name, leftover.first, names));
+    }
+    (addRangeFaults(configs), ...);
+  }
+
+  void refuseOthers() {
+    for (const auto& section : sections_) {
+      if (section.first.empty() && section.second.empty()) continue;
+      faults_.push_back("unknown section '" + section.first + "'" +
+                        whatBecameOf(OldName::Kind::kSection, section.first) +
+                        "; known are onboard, tracker, mapper and odometry_fusion");
+    }
+  }
+
+ private:
+  template <class Config>
+  void addRangeFaults(const Config& config) {
+    const auto faults = rangeFaults(config);
+    faults_.insert(faults_.end(), faults.begin(), faults.end());
+  }
+
+  YamlSections sections_;
+  std::vector<std::string>& faults_;
+};
+
+void apply(const std::string& text, YamlSections& sections, std::vector<std::string>& faults) {
+  const std::size_t equals = text.find('=');
+  const std::size_t slash = text.find('/');
+  if (equals == std::string::npos || slash == std::string::npos || slash > equals) {
+    faults.push_back("--set '" + text +
+                     "' must be section/key=value, for example mapper/planar=true");
+    return;
+  }
+  sections[text.substr(0, slash)][text.substr(slash + 1, equals - slash - 1)] =
+      text.substr(equals + 1);
+}
+
+void besideFile(const std::string& path, std::string& name) {
+  const std::size_t slash = path.rfind('/');
+  if (!name.empty() && name.front() != '/' && slash != std::string::npos)
+    name = path.substr(0, slash + 1) + name;
+}
+
+void readVector(const std::string& name, const std::string& text, Eigen::Vector3d& value,
+                std::vector<std::string>& faults) {
+  constexpr double kMost = 1000;  // metres or degrees
+  const std::vector<std::string> items = listOf(text);
+  bool is_good = items.size() == 3;
+  for (std::size_t i = 0; is_good && i < 3; ++i) {
+    double& number = value[static_cast<int>(i)];
+    is_good = toNumber(items[i], number) && std::abs(number) <= kMost;
+  }
+  if (!is_good)
+    faults.push_back("onboard/" + name + " is '" + text +
+                     "' but must be three numbers between -1000 and 1000, as [0, -0.02, 0]");
+}
+
+}  // namespace
+
+Settings loadSettings(const std::string& path, const std::vector<std::string>& overrides) {
+  std::vector<std::string> faults;
+  YamlSections sections;
+  if (!path.empty()) sections = readYamlFile(path, faults);
+  besideFile(path, sections["onboard"]["camera"]);
+  for (const std::string& text : overrides) apply(text, sections, faults);
+  SectionReader reader(std::move(sections), faults);
+  Settings s;
+  TrackerNodeConfig tracker_node;
+  MapperNodeConfig mapper_node;
+  OdometryFusionNodeConfig fusion_node;
+  DelayedFusionConfig delayed_fusion;
+  reader.read("onboard", s.onboard);
+  reader.read("tracker", s.tracker, tracker_node);
+  reader.read("mapper", s.mapper, mapper_node);
+  reader.read("odometry_fusion", delayed_fusion, fusion_node);
+  reader.refuseOthers();
+  // What needs topics that are not here.
+  if (s.mapper.odometry_adapter.mode != OdometryMode::kPose)
+    faults.push_back("mapper/odometry_mode must be pose: the controller's records hold no more");
+  if (s.tracker.use_attitude) faults.push_back("tracker/use_attitude must be false on board");
+  Eigen::Vector3d unused;
+  readVector("camera_position_m", s.onboard.camera_position_m, unused, faults);
+  readVector("camera_rotation_deg", s.onboard.camera_rotation_deg, unused, faults);
+  if (!faults.empty()) throw ConfigError(faults);
+  s.odometry_wait_s = mapper_node.odometry_wait_s;
+  int& landmarks = s.mapper.landmark_map.max_landmarks;
+  landmarks = std::min(landmarks, s.onboard.max_map_mb * (1000000 / kBytesPerLandmark));
+  return s;
+}
+
+Eigen::Isometry3d mountingOf(const OnboardConfig& config) {
+  Eigen::Vector3d position_m;
+  Eigen::Vector3d rotation_deg;
+  std::vector<std::string> faults;
+  readVector("camera_position_m", config.camera_position_m, position_m, faults);
+  readVector("camera_rotation_deg", config.camera_rotation_deg, rotation_deg, faults);
+  if (!faults.empty()) throw ConfigError(faults);
+  const auto turn = [](double angle_deg, const Eigen::Vector3d& axis) {
+    return Eigen::AngleAxisd(angle_deg * M_PI / 180, axis);
+  };
+  return Eigen::Translation3d(position_m) * turn(rotation_deg.z(), Eigen::Vector3d::UnitZ()) *
+         turn(rotation_deg.y(), Eigen::Vector3d::UnitY()) *
+         turn(rotation_deg.x(), Eigen::Vector3d::UnitX());
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "ardrone_vslam/slam_config.hpp"
+#include "ardrone_vslam/tracker.hpp"
+#include "configs/onboard_config.hpp"
+
+namespace ardrone_vslam {
+
+/// All that vslam_onboard is told.
+struct Settings {
+  OnboardConfig onboard;
+  TrackerConfig tracker;
+  SlamConfig mapper;
+  double odometry_wait_s = 0;  ///< mapper/odometry_wait_s
+};
+
+/// Reads a configuration file (an empty path: the defaults), then each "section/key=value" of
+/// `overrides`. Keys that only the nodelets use are passed over. Bounds max_landmarks by
+/// max_map_mb.
+/// @throws ConfigError listing every fault
+Settings loadSettings(const std::string& path, const std::vector<std::string>& overrides);
+
+/// T_base_cam of camera_position_m and camera_rotation_deg. @throws ConfigError
+Eigen::Isometry3d mountingOf(const OnboardConfig& config);
+
+/// What one landmark takes, indices and room to grow included: 800 to 1190 bytes were measured.
+constexpr int kBytesPerLandmark = 1250;
+
+}  // namespace ardrone_vslam

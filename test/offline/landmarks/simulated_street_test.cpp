@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Landmarks beside a path, and the MSCKF between them.
+#include "landmarks/simulated_street.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "config_files/config_path.hpp"
+#include "report/run_report.hpp"
+#include "run/run_all.hpp"
+#include "support/sequence_folders.hpp"
+#include "test_paths.hpp"
+#include "trajectory/metrics.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+Trajectory straight(int poses, double step_m) {
+  std::vector<StampedPose> path;
+  for (int i = 0; i < poses; ++i) {
+    StampedPose pose;
+    pose.stamp_ns = 100'000'000LL * i;
+    pose.T_map_base.translation() << step_m * i, 0, 0;
+    path.push_back(pose);
+  }
+  return Trajectory(std::move(path));
+}
+
+TEST(SimulatedStreet, LandmarksAreOnBothSidesAllAlongThePath) {
+  PointWorld world(1);
+  StreetConfig street;
+  street.landmarks = 1000;
+  addStreet(world, straight(101, 1), street, 1);
+  ASSERT_EQ(world.points().size(), 1000U);
+  int left = 0;
+  int second_half = 0;
+  for (const WorldPoint& point : world.points()) {
+    const Eigen::Vector3d& p = point.position_map;
+    EXPECT_GE(std::abs(p.y()), street.nearest_m);
+    EXPECT_LE(std::abs(p.y()), street.farthest_m);
+    EXPECT_GE(p.z(), street.lowest_m);
+    EXPECT_LE(p.z(), street.highest_m);
+    left += p.y() > 0 ? 1 : 0;
+    second_half += p.x() > 60 ? 1 : 0;  // 10 m ahead in the mean
+  }
+  EXPECT_NEAR(left, 500, 60);
+  EXPECT_NEAR(second_half, 500, 60);
+}
+
+TEST(SimulatedStreet, ReadsPathsOfBothFormats) {
+  const TemporaryFolder folder;
+  folder.write("kitti.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1 0 1 0 2 0 0 1 3\n");
+  const Trajectory kitti = readPath(folder.file("kitti.txt"));
+  ASSERT_EQ(kitti.size(), 2U);
+  EXPECT_EQ(kitti.poses()[1].stamp_ns, 100'000'000);
+  // x right, y down, z forward becomes x forward, y left, z up.
+  EXPECT_TRUE(
+      kitti.poses()[1].T_map_base.translation().isApprox(Eigen::Vector3d(3, -1, -2), 1e-12));
+  folder.write("times.txt", "0\n0.5\n");
+  EXPECT_EQ(readPath(folder.file("kitti.txt")).poses()[1].stamp_ns, 500'000'000);
+  folder.write("path.tum", "# a comment\n1 0 0 0 0 0 0 1\n2 3 -1 -2 0 0 0 1\n");
+  const Trajectory tum = readPath(folder.file("path.tum"));
+  ASSERT_EQ(tum.size(), 2U);
+  EXPECT_TRUE(tum.poses()[1].T_map_base.translation().isApprox(Eigen::Vector3d(3, -1, -2), 1e-12));
+}
+
+TEST(SimulatedStreet, SaysWhatIsWrongWithAPath) {
+  const TemporaryFolder folder;
+  expectError([&] { readPath(folder.file("none.txt")); }, {"none.txt", "cannot be read"});
+  folder.write("short.txt", "1 2 3\n");
+  expectError([&] { readPath(folder.file("short.txt")); }, {"short.txt", "3 numbers", "12"});
+}
+
+/// The first frames of KITTI 00 with wheel odometry: a first pass.
+TEST(SimulatedStreet, MsckfOnKitti00IsBetterThanItsOdometryAndKnowsIt) {
+  if (realData().empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
+  const Trajectory path = readPath(realData() + "/kitti_00_poses/poses.txt");
+  constexpr std::size_t kFrames = 300;
+  const Trajectory truth(
+      std::vector<StampedPose>(path.poses().begin(), path.poses().begin() + kFrames));
+  const PipelineConfig config = loadConfig(
+      std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/kitti.yaml",
+      {"mapper/estimator=msckf", "mapper/extrinsics_sigma_deg=0", "mapper/track_sigma_px=1.5",
+       "mapper/track_common_px=0"});  // exact mounting, independent noise
+  const OdometryProfile wheel = loadOdometryProfile(
+      "wheel", std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/odometry_profiles.yaml");
+  std::vector<RunOdometry> odometries;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed)
+    odometries.push_back({wheel.name, seed, simulateOdometry(truth, wheel, seed)});
+  BackEnds back_ends(2);
+  for (const RunOdometry& odometry : odometries)
+    back_ends.add(config.mapper, forwardCamera(), odometry);
+  ViewFaults faults;
+  faults.pixel_noise_px = 0.8;
+  faults.wrong_share = 0.03;
+  PointWorld world(1, faults, streetCamera(), config.tracker.tracks);
+  addStreet(world, path, {}, 1);
+  TrackedFrame frame;
+  for (const StampedPose& pose : truth.poses()) {
+    frame.features = world.look(pose.T_map_base * forwardCamera(), pose.stamp_ns);
+    back_ends.process(frame);
+  }
+  std::vector<double> ratios;
+  double nees_sum = 0;
+  for (const RunResult& run : back_ends.finish()) {
+    const auto summary = summaryOf(run, evaluate(run, truth), {});
+    ratios.push_back(summary["ratio_scale_removed"]);
+    nees_sum += summary["nees_mean"].get<double>();
+    EXPECT_LT(summary["ratio"], 1.05);
+  }
+  EXPECT_LT(quantile(ratios, 0.5), 0.6);  // measured: 0.32
+  EXPECT_LT(quantile(ratios, 1), 1.3);    // measured: 1.16
+  const double nees_mean = nees_sum / static_cast<double>(odometries.size());
+  EXPECT_GT(nees_mean, 1);
+  EXPECT_LT(nees_mean, 6);  // 3 is honest; measured: 2.8
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

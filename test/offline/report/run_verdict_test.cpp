@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When a run sends its user to doctor, and when it does not.
+#include "report/run_verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace ardrone_vslam {
+namespace {
+
+/// 100 images of 40 tracks each.
+RunResult runWith(int used_of_40) {
+  RunResult run;
+  for (int i = 0; i < 100; ++i) {
+    RunFrame frame;
+    frame.result.features = 300;
+    frame.result.feature_candidates = 40;
+    frame.result.feature_matches = used_of_40;
+    frame.result.T_odom_base.translation().x() = 0.1 * i;
+    run.frames.push_back(frame);
+  }
+  run.landmarks.emplace_back();
+  return run;
+}
+
+bool sendsToDoctor(const RunResult& run, const std::string& name = "/tmp/a.bag") {
+  const RunVerdict verdict = judgeRun(name, run, RunEvaluation(), false);
+  EXPECT_TRUE(verdict.faults.empty());
+  return std::any_of(verdict.warnings.begin(), verdict.warnings.end(), [&](const std::string& w) {
+    return w.find("rosrun ardrone_vslam doctor " + name) != std::string::npos;
+  });
+}
+
+TEST(RunVerdict, AGoodRunHasNoWarning) {
+  EXPECT_TRUE(judgeRun("/tmp/a.bag", runWith(36), RunEvaluation(), false).warnings.empty());
+  EXPECT_TRUE(judgeRun("/tmp/a.bag", runWith(24), RunEvaluation(), false).warnings.empty());
+}
+
+TEST(RunVerdict, TracksThatMoveOtherwiseSendToDoctor) {
+  const RunResult run = runWith(4);
+  EXPECT_TRUE(sendsToDoctor(run));
+  EXPECT_EQ(judgeRun("/tmp/a.bag", run, RunEvaluation(), false).warnings.front(),
+            "/tmp/a.bag: 90 % of the tracks do not move as odometry, calibration and the camera's "
+            "mounting foretell");
+  EXPECT_FALSE(sendsToDoctor(run, "/tmp/folder"));  // doctor reads bags
+  RunResult seen = run;
+  for (RunFrame& frame : seen.frames) frame.result.landmark_matches = 14;
+  EXPECT_FALSE(sendsToDoctor(seen));  // a harsh odometry whose drift the map puts right
+  RunResult few = run;
+  few.frames.resize(20);
+  EXPECT_FALSE(sendsToDoctor(few));
+}
+
+TEST(RunVerdict, DistrustAndFrozenOdometrySendToDoctor) {
+  RunResult distrusted = runWith(36);
+  for (std::size_t i = 0; i < 10; ++i) distrusted.frames[i].result.state = SlamState::kDistrusted;
+  EXPECT_FALSE(sendsToDoctor(distrusted));  // a passing trouble
+  for (std::size_t i = 0; i < 40; ++i) distrusted.frames[i].result.state = SlamState::kDistrusted;
+  EXPECT_TRUE(sendsToDoctor(distrusted));
+  RunResult frozen = runWith(36);
+  frozen.odometry_froze = true;
+  EXPECT_TRUE(sendsToDoctor(frozen));
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

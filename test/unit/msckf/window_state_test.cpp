@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "msckf/window_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "ardrone_vslam/rotation.hpp"
+#include "simulation/random_source.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+OdometryState odometryAt(int frame, const Eigen::Vector3d& position, double yaw_rad = 0) {
+  OdometryState state;
+  state.stamp_ns = 100'000'000LL * frame;
+  state.T_odom_base.translation() = position;
+  state.T_odom_base.linear() = rotationOf({0, 0, yaw_rad});
+  return state;
+}
+
+WindowState circling(int frames) {
+  WindowState state((OdometryNoiseConfig()));
+  for (int i = 0; i < frames; ++i) {
+    const double turn = 0.1 * i;
+    const OdometryState odometry = odometryAt(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
+    i == 0 ? state.start(odometry) : state.propagate(odometry);
+  }
+  return state;
+}
+
+std::vector<int> coordinatesFrom(int first, int end) {
+  std::vector<int> coordinates;
+  for (int k = first; k < end; ++k) coordinates.push_back(k);
+  return coordinates;
+}
+
+void expectHonest(const WindowState& state) {
+  const Eigen::MatrixXd& P = state.covariance();
+  EXPECT_LT((P - P.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(P);
+  EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-12);
+}
+
+TEST(WindowState, FollowsTheObserverAndGrowsLessSure) {
+  const WindowState state = circling(20);
+  EXPECT_LT(
+      (state.frames().back().position_map - Eigen::Vector3d(std::sin(1.9), 1 - std::cos(1.9), 0))
+          .norm(),
+      1e-9);
+  double last = 0;
+  for (std::size_t i = 0; i < state.frames().size(); ++i) {
+    const int at = state.frameCoordinate(i);
+    const double variance = state.covariance().block<3, 3>(at, at).trace();
+    EXPECT_GT(variance, last);
+    last = variance;
+  }
+  expectHonest(state);
+}
+
+TEST(WindowState, TheObserversOwnCovarianceIsUsedWhereItGivesOne) {
+  const auto grown = [](double variance_m2) {
+    WindowState state((OdometryNoiseConfig()));
+    OdometryState first = odometryAt(0, {0, 0, 0});
+    OdometryState second = odometryAt(1, {0, 0, 0});
+    if (variance_m2 > 0) {
+      first.covariance.diagonal().head<3>().setConstant(0.5);
+      second.covariance.diagonal().head<3>().setConstant(0.5 + variance_m2);
+    }
+    state.start(first);
+    state.propagate(second);
+    const int at = state.frameCoordinate(1);
+    return state.covariance()(at, at) - state.covariance()(at - 6, at - 6);
+  };
+  EXPECT_GT(grown(4.0) - grown(0), 3.9);
+}
+
+TEST(WindowState, ErrorsThatAreStatesAreNoWhiteNoiseInTheObserversCovariance) {
+  const OdometryNoiseConfig config;
+  constexpr double kSpeed_m_s = 1;
+  constexpr double kWhite_m_per_sqrt_s = 0.05;
+  const auto odometry = [&config](int frame) {
+    const double t_s = 0.1 * frame;
+    OdometryState state = odometryAt(frame, {kSpeed_m_s * t_s, 0, 0});
+    const double time_s = config.velocity_bias_time_s;
+    const double by_bias_m2 = 2 * std::pow(config.velocity_bias_m_s, 2) * time_s *
+                              (t_s + time_s * std::expm1(-t_s / time_s));
+    const double by_scale_m2 = std::pow(config.scale_sigma * kSpeed_m_s * t_s, 2);
+    state.covariance.diagonal().head<3>().setConstant(1e-6 + by_bias_m2 + by_scale_m2 +
+                                                      std::pow(kWhite_m_per_sqrt_s, 2) * t_s);
+    return state;
+  };
+  WindowState state(config);
+  state.start(odometry(0));
+  for (int frame = 1; frame <= 600; ++frame) {
+    state.propagate(odometry(frame));
+    if (state.frames().size() > 2) state.removeFrame(0);
+  }
+  const double after_a_minute_m2 =
+      state.relativeCovariance(state.frameCoordinate(0), state.frameCoordinate(1))(1, 1);
+  // Across the way, 0.1 s: white noise, and what velocity bias and attitude leave in doubt there.
+  EXPECT_LT(after_a_minute_m2, 2 * std::pow(kWhite_m_per_sqrt_s, 2) * 0.1);
+  EXPECT_GT(after_a_minute_m2, std::pow(config.walk_m_per_sqrt_s, 2) * 0.1);
+}
+
+TEST(WindowState, AnUpdateIsTheKalmanUpdateInCoordinatesThatItDoesNotTurn) {
+  // Of the attitude of a frame whose position does not depend on it: nothing is stretched, so that
+  // the textbook's formula holds.
+  WindowState state = circling(1);
+  const Eigen::MatrixXd P = state.covariance();
+  const int at = state.frameCoordinate(0) + 3;
+  Information information(coordinatesFrom(at, at + 3));
+  constexpr double kVariance = 1e-6;
+  const Eigen::Vector3d innovation(0.001, -0.002, 0.0005);
+  information.matrix = Eigen::Matrix3d::Identity() / kVariance;
+  information.vector = innovation / kVariance;
+  const Eigen::Matrix3d before = state.frames()[0].R_map_rig;
+  ASSERT_TRUE(state.update(information));
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, P.rows());
+  H.middleCols<3>(at).setIdentity();
+  const Eigen::Matrix3d S = H * P * H.transpose() + kVariance * Eigen::Matrix3d::Identity();
+  const Eigen::MatrixXd K = P * H.transpose() * S.inverse();
+  EXPECT_LT((state.covariance() - (P - K * H * P)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((rotationVectorOf(state.frames()[0].R_map_rig * before.transpose()) -
+             (K * innovation).segment<3>(at))
+                .norm(),
+            1e-9);
+}
+
+TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
+  RandomSource random(4);
+  WindowState state = circling(12);
+  for (int round = 0; round < 60; ++round) {
+    Information information(
+        coordinatesFrom(state.frameCoordinate(0), state.frameCoordinate(state.frames().size())));
+    const auto size = information.vector.size();
+    for (int row = 0; row < 5; ++row) {
+      Eigen::VectorXd h(size);
+      for (Eigen::Index k = 0; k < size; ++k) h(k) = 100 * random.normal();
+      information.matrix += h * h.transpose();
+      information.vector += h * random.normal();
+    }
+    ASSERT_TRUE(state.update(information));
+    if (round % 4 == 0) state.makeAnchor(0);
+    if (round % 10 == 9) state.removeAnchor(state.anchors().size() / 2);
+    const double turn = 0.1 * (12 + round);
+    state.propagate(odometryAt(12 + round, {std::sin(turn), 1 - std::cos(turn), 0}, turn));
+    if (state.frames().size() > 12) state.removeFrame(3);
+    expectHonest(state);
+  }
+}
+
+TEST(WindowState, WhatIsLearnedOfTheNewestFrameCorrectsTheAnchorsThatShareItsError) {
+  WindowState state = circling(6);
+  state.makeAnchor(0);
+  state.makeAnchor(0);
+  const Eigen::MatrixXd P = state.covariance();
+  const int newest = state.frameCoordinate(state.frames().size() - 1);
+  Information information(coordinatesFrom(newest, newest + 3));
+  constexpr double kVariance = 1e-4;
+  const Eigen::Vector3d innovation(0.01, -0.02, 0.005);
+  information.matrix = Eigen::Matrix3d::Identity() / kVariance;
+  information.vector = innovation / kVariance;
+  const std::vector<Clone> before = state.anchors();
+  ASSERT_TRUE(state.update(information));
+  const Eigen::Matrix3d S = P.block<3, 3>(newest, newest) + kVariance * Eigen::Matrix3d::Identity();
+  const Eigen::VectorXd error = P.middleCols<3>(newest) * S.inverse() * innovation;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int at = state.anchorCoordinate(i);
+    const Clone& anchor = state.anchors()[i];
+    EXPECT_LT((anchor.position_map - before[i].position_map - error.segment<3>(at)).norm(), 1e-9);
+    EXPECT_NEAR(anchor.stretch, 1 - error(WindowState::kScale) - error(at + 6), 1e-9);
+  }
+  EXPECT_GT(error.segment<3>(state.anchorCoordinate(1)).norm(), 1e-4) << "it shares something";
+  expectHonest(state);
+}
+
+TEST(WindowState, ABiasLearnedInTheClimbDoesNotStretchTheWayForward) {
+  WindowState state((OdometryNoiseConfig()));
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  const auto fly = [&](int from, int to, const Eigen::Vector3d& step) {
+    for (int i = from; i < to; ++i) {
+      state.propagate(odometryAt(i, position += step));
+      state.removeFrame(0);
+    }
+  };
+  state.start(odometryAt(0, position));
+  fly(1, 31, {0, 0, 0.02});
+  const int at = state.frameCoordinate(0);
+  Information height(coordinatesFrom(at + 2, at + 3));
+  height.matrix(0, 0) = 1e6;
+  height.vector(0) = 1e6 * -0.1;  // the climb was shorter
+  ASSERT_TRUE(state.update(height));
+  EXPECT_LT(state.frames()[0].position_map.z(), 0.51);
+  fly(31, 81, {0.06, 0, 0});
+  const double before_m = state.frames()[0].position_map.x();
+  fly(81, 91, {0.06, 0, 0});
+  EXPECT_NEAR(state.frames()[0].position_map.x() - before_m, 0.6, 0.006);
+}
+
+TEST(WindowState, TheScaleIsFoundByAPositionThatIsKnown) {
+  WindowState state((OdometryNoiseConfig()));
+  constexpr double kScale = 0.02;  // reported ways are too long
+  for (int i = 0; i <= 50; ++i) {
+    const OdometryState odometry = odometryAt(i, {(1 + kScale) * 0.2 * i, 0, 0});
+    i == 0 ? state.start(odometry) : state.propagate(odometry);
+    if (state.frames().size() > 2) state.removeFrame(0);
+  }
+  const double before = state.covariance()(WindowState::kScale, WindowState::kScale);
+  const int at = state.frameCoordinate(state.frames().size() - 1);
+  Information information(coordinatesFrom(at, at + 3));
+  information.matrix = 1e4 * Eigen::Matrix3d::Identity();
+  information.vector = 1e4 * (Eigen::Vector3d(10, 0, 0) - state.frames().back().position_map);
+  ASSERT_TRUE(state.update(information));
+  const double after = state.covariance()(WindowState::kScale, WindowState::kScale);
+  EXPECT_LT(after, 0.5 * before);
+  EXPECT_GT(state.scaleError(), 0.5 * kScale);
+  EXPECT_LT(state.scaleError(), 1.2 * kScale);
+}
+
+TEST(WindowState, AnInflatedVelocityErrorGrowsAtOnceAndFadesLikeTheOther) {
+  const OdometryNoiseConfig config;
+  WindowState state(config);
+  state.start(odometryAt(0, {0, 0, 0}));
+  const double variance = config.velocity_bias_m_s * config.velocity_bias_m_s;
+  state.inflate(9);
+  for (const int at : {3, 4, 5}) EXPECT_NEAR(state.covariance()(at, at), 9 * variance, 1e-12);
+  state.inflate(9);
+  EXPECT_NEAR(state.covariance()(3, 3), 9 * variance, 1e-12) << "once";
+  state.inflate(1);
+  EXPECT_NEAR(state.covariance()(3, 3), 9 * variance, 1e-12) << "what is unknown stays unknown";
+  state.propagate(odometryAt(10'000, {0, 0, 0}));
+  EXPECT_NEAR(state.covariance()(3, 3), variance, 1e-6) << "after fifty time constants";
+}
+
+TEST(WindowState, ReturnsToWhereTheObserverAloneWouldBe) {
+  WindowState state = circling(10);
+  while (state.frames().size() > 2) state.removeFrame(0);
+  state.makeAnchor(0);
+  // The bias is learned, and moves the frame.
+  Information information(coordinatesFrom(WindowState::kAttitude, WindowState::kScale));
+  information.matrix.diagonal().setConstant(1e5);
+  information.vector.setConstant(3e3);
+  ASSERT_TRUE(state.update(information));
+  ASSERT_GT(state.biasSigmas(), 0.5);
+  const Eigen::Vector3d before = state.frames().back().position_map;
+
+  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
+  T_map_odom.translation() = Eigen::Vector3d(0.5, 0, -0.2);
+  T_map_odom.linear() = rotationOf({0, 0, 0.1});
+  state.returnTo(T_map_odom);
+  EXPECT_TRUE(state.T_map_odom().isApprox(T_map_odom, 1e-12));
+  EXPECT_EQ(state.biasSigmas(), 0);
+  const Eigen::Vector3d odom(std::sin(0.9), 1 - std::cos(0.9), 0);
+  EXPECT_LT((state.frames().back().position_map - T_map_odom * odom).norm(), 1e-9);
+  const int at = state.frameCoordinate(0);
+  const double jump_m2 = (state.frames().back().position_map - before).squaredNorm();
+  EXPECT_GT((state.covariance().block<3, 3>(at, at).trace()), jump_m2);
+  expectHonest(state);
+
+  state.propagate(odometryAt(10, {std::sin(1.0), 1 - std::cos(1.0), 0}, 1));
+  EXPECT_TRUE(state.T_map_odom().isApprox(T_map_odom, 1e-9));
+  expectHonest(state);
+}
+
+TEST(WindowState, NothingChangesWhenTheInformationIsNotFinite) {
+  WindowState state = circling(4);
+  const Eigen::MatrixXd P = state.covariance();
+  Information information(coordinatesFrom(state.frameCoordinate(0), state.frameCoordinate(1)));
+  information.vector.setConstant(std::nan(""));
+  EXPECT_FALSE(state.update(information));
+  EXPECT_EQ(state.covariance(), P);
+}
+
+/// A circle with anchors, and what random measurements of all coordinates make of it.
+WindowState measured(const OdometryNoiseConfig& config, bool attitude_states) {
+  RandomSource random(6);
+  WindowState state(config, attitude_states);
+  for (int i = 0; i < 30; ++i) {
+    const double turn = 0.1 * i;
+    const OdometryState odometry = odometryAt(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
+    i == 0 ? state.start(odometry) : state.propagate(odometry);
+    if (i % 5 == 4) state.makeAnchor(0);
+    if (i % 3 != 2) continue;
+    Information information(coordinatesFrom(0, state.frameCoordinate(state.frames().size())));
+    for (int row = 0; row < 4; ++row) {
+      Eigen::VectorXd h(information.vector.size());
+      for (Eigen::Index k = 0; k < h.size(); ++k) h(k) = 10 * random.normal();
+      information.matrix += h * h.transpose();
+      information.vector += h * random.normal();
+    }
+    const auto preview = state.preview(information);
+    EXPECT_TRUE(preview && preview->size() == information.vector.size());
+    EXPECT_TRUE(state.update(information));
+  }
+  return state;
+}
+
+TEST(WindowState, TheLinearFormIsTheOtherOneWithoutErrorsOfAttitude) {
+  OdometryNoiseConfig config;
+  config.tilt_sigma_deg = 0;
+  config.yaw_walk_deg_per_sqrt_s = 0;
+  config.yaw_walk_deg_per_sqrt_m = 0;
+  config.attitude_noise_deg = 0.001;  // the least that is allowed
+  const WindowState full = measured(config, true);
+  const WindowState linear = measured(OdometryNoiseConfig(), false);
+  const auto P = full.covariance();
+  EXPECT_LT((linear.covariance() - P).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_GT(P.diagonal().maxCoeff(), 5e-4);
+  EXPECT_NEAR(linear.scaleError(), full.scaleError(), 1e-6);
+  EXPECT_GT(std::abs(full.scaleError()), 1e-3);
+  for (std::size_t i = 0; i < full.frames().size(); ++i)
+    EXPECT_LT((linear.frames()[i].position_map - full.frames()[i].position_map).norm(), 1e-5) << i;
+  for (std::size_t i = 0; i < full.anchors().size(); ++i)
+    EXPECT_LT((linear.anchors()[i].position_map - full.anchors()[i].position_map).norm(), 1e-5);
+}
+
+TEST(WindowState, TheLinearFormLeavesAttitudesToTheBitAsTheObserverSays) {
+  const WindowState state = measured(OdometryNoiseConfig(), false);
+  for (std::size_t i = 0; i < state.frames().size(); ++i) {
+    const int at = state.frameCoordinate(i) + 3;
+    EXPECT_TRUE(state.covariance().middleRows<3>(at).isZero(0));
+  }
+  const double yaw_rad = 0.1 * 29;
+  EXPECT_LT((state.frames().back().R_map_rig - rotationOf({0, 0, yaw_rad})).norm(), 1e-12);
+  expectHonest(state);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

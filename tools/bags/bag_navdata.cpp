@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <ardrone_vslam/Navdata.h>
+#include <geometry_msgs/Twist.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/Imu.h>
+
+#include "bags/bag_poses.hpp"
+#include "bags/messages/bag_messages.hpp"
+#include "bags/messages/bag_read_message.hpp"
+#include "from_ros/navdata_conversion.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+/// A message into the observer. @return whether it was used
+template <class Reading>
+bool push(const Checked<Reading>& reading, DroneObserver& observer,
+          std::vector<OdometryState>& states) {
+  return reading.value && observer.push(*reading.value, states) == OdometryBuffer::Push::kAccepted;
+}
+
+}  // namespace
+
+BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
+                        const DroneFilterConfig& config, std::vector<std::string>& warnings) {
+  BagOdometry odometry;
+  DroneObserver observer(config);
+  std::size_t refused = 0;
+  std::vector<std::string> wanted{topics.navdata};
+  for (const std::string& topic : {topics.imu, topics.command}) {
+    if (!topic.empty()) wanted.push_back(topic);
+  }
+  rosbag::View view(bag, rosbag::TopicQuery(wanted));
+  for (const rosbag::MessageInstance& instance : view) {
+    if (const auto navdata = readMessage<Navdata>(instance)) {
+      if (odometry.base_frame.empty()) odometry.base_frame = withoutSlash(navdata->header.frame_id);
+      if (!push(toNavdataReading(*navdata), observer, odometry.states)) ++refused;
+    } else if (const auto imu = readMessage<sensor_msgs::Imu>(instance)) {
+      if (!push(toDroneImu(*imu), observer, odometry.states)) ++refused;
+    } else if (const auto command = readMessage<geometry_msgs::Twist>(instance)) {
+      const auto read = toDroneCommand(*command, toNanoseconds(instance.getTime()));
+      if (observer.push(read) != OdometryBuffer::Push::kAccepted) ++refused;
+    }
+  }
+  observer.flush(odometry.states);
+  odometry.faults = observer.faults();
+  if (refused > 0) {
+    warnings.push_back(topics.navdata + ", IMU and commands: " + std::to_string(refused) +
+                       " messages dropped: not finite, out of bounds or the stamp goes back");
+  }
+  if (odometry.states.empty()) warnings.push_back(topics.navdata + ": holds no usable navdata");
+  return odometry;
+}
+
+std::vector<RangeReading> readNavdataHeights(const rosbag::Bag& bag, const std::string& topic) {
+  std::vector<RangeReading> heights;
+  if (topic.empty()) return heights;
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto navdata = readMessage<Navdata>(instance);
+    if (!navdata) continue;
+    if (const auto height = toHeightReading(*navdata); height.value)
+      heights.push_back(*height.value);
+  }
+  return heights;
+}
+
+}  // namespace ardrone_vslam

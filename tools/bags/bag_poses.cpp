@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bags/bag_poses.hpp"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/Range.h>
+#include <tf2/buffer_core.h>
+#include <tf2/exceptions.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <map>
+#include <stdexcept>
+
+#include "ardrone_vslam/odometry_adapter.hpp"
+#include "ardrone_vslam/slam.hpp"
+#include "bags/messages/bag_messages.hpp"
+#include "bags/messages/bag_read_message.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+void warnOfDropped(std::size_t count, const std::string& topic, const std::string& fault,
+                   std::vector<std::string>& warnings) {
+  if (count == 0) return;
+  warnings.push_back(topic + ": " + std::to_string(count) + " messages dropped: " + fault);
+}
+
+/// Stamp and pose of any of the types that may tell the truth.
+struct TruthPose {
+  std::int64_t stamp_ns;
+  std::optional<Eigen::Isometry3d> T_map_base;
+};
+
+std::optional<TruthPose> toTruthPose(const rosbag::MessageInstance& instance) {
+  if (const auto pose = readMessage<geometry_msgs::PoseStamped>(instance)) {
+    return TruthPose{toNanoseconds(pose->header.stamp), fromPoseMessage(pose->pose)};
+  }
+  if (const auto pose = readMessage<geometry_msgs::PoseWithCovarianceStamped>(instance)) {
+    return TruthPose{toNanoseconds(pose->header.stamp), fromPoseMessage(pose->pose.pose)};
+  }
+  if (const auto odometry = readMessage<nav_msgs::Odometry>(instance)) {
+    return TruthPose{toNanoseconds(odometry->header.stamp), fromPoseMessage(odometry->pose.pose)};
+  }
+  return std::nullopt;
+}
+
+/// Says once that the odometry's covariance counts as not given, and why, as the mapper nodelet
+/// does.
+void warnOfCovariance(const std::vector<OdometryState>& states, const std::string& topic,
+                      std::vector<std::string>& warnings) {
+  for (const OdometryState& state : states) {
+    const std::string fault = covarianceFault(state);
+    if (fault.empty()) continue;
+    warnings.push_back(topic + ": " + fault);
+    return;
+  }
+}
+
+bool standsStill(const std::vector<OdometryState>& states) {
+  for (const OdometryState& state : states) {
+    if (state.T_odom_base.matrix() != states.front().T_odom_base.matrix()) return false;
+  }
+  return states.size() > 1;
+}
+
+}  // namespace
+
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
+}
+
+BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
+                         std::vector<std::string>& warnings) {
+  BagOdometry odometry;
+  if (topic.empty()) return odometry;
+  std::size_t not_finite = 0;
+  std::size_t backward = 0;
+  std::size_t too_far = 0;
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto message = readMessage<nav_msgs::Odometry>(instance);
+    if (!message) continue;
+    if (odometry.base_frame.empty()) odometry.base_frame = withoutSlash(message->child_frame_id);
+    const auto state = fromOdometryMessage(*message);
+    if (!state) {
+      ++not_finite;
+    } else if (OdometryAdapter::isBeyondAllJumps(*state)) {
+      ++too_far;
+    } else if (!odometry.states.empty() && state->stamp_ns < odometry.states.back().stamp_ns) {
+      ++backward;
+    } else {
+      odometry.states.push_back(*state);
+    }
+  }
+  warnOfDropped(not_finite, topic,
+                "pose, twist or a covariance is not finite, or the quaternion is not a unit; "
+                "correct the odometry's source",
+                warnings);
+  warnOfDropped(too_far, topic, std::string(kTooFarFault) + "; correct the odometry's source",
+                warnings);
+  warnOfDropped(backward, topic, "the stamp goes back; correct the clock of its source", warnings);
+  warnOfCovariance(odometry.states, topic, warnings);
+  if (odometry.states.empty()) {
+    warnings.push_back(topic + ": holds no usable odometry; record a working odometry");
+  }
+  if (standsStill(odometry.states)) {
+    warnings.push_back(topic + ": all " + std::to_string(odometry.states.size()) +
+                       " poses are equal (zero odometry); check that the odometry runs");
+  }
+  return odometry;
+}
+
+std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& topic) {
+  std::vector<RangeReading> ranges;
+  if (topic.empty()) return ranges;
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto message = readMessage<sensor_msgs::Range>(instance);
+    if (!message) continue;
+    ranges.push_back({toNanoseconds(message->header.stamp), message->range, message->min_range,
+                      message->max_range});
+  }
+  return ranges;
+}
+
+Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic,
+                     std::vector<std::string>& warnings) {
+  Trajectory truth;
+  if (topic.empty()) return truth;
+  std::size_t not_finite = 0;
+  std::size_t backward = 0;
+  std::size_t too_far = 0;
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto pose = toTruthPose(instance);
+    if (!pose) continue;
+    if (!pose->T_map_base) {
+      ++not_finite;
+    } else if (isTooFar(pose->T_map_base->translation())) {
+      ++too_far;
+    } else if (!truth.empty() && pose->stamp_ns <= truth.poses().back().stamp_ns) {
+      ++backward;
+    } else {
+      truth.append({pose->stamp_ns, *pose->T_map_base});
+    }
+  }
+  warnOfDropped(not_finite, topic, "the pose is not finite or its quaternion is not a unit",
+                warnings);
+  warnOfDropped(too_far, topic, kTooFarFault, warnings);
+  warnOfDropped(backward, topic, "the stamp does not ascend", warnings);
+  return truth;
+}
+
+Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base_frame,
+                                 const std::string& camera_frame) {
+  // The camera is fixed to base: its last transform holds for all time, static or not.
+  tf2::BufferCore buffer;
+  std::map<std::string, std::string> parents;
+  rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto message = readMessage<tf2_msgs::TFMessage>(instance);
+    if (!message) continue;
+    for (const auto& transform : message->transforms) {
+      const std::string child = withoutSlash(transform.child_frame_id);
+      parents[child] = withoutSlash(transform.header.frame_id);
+      buffer.setTransform(transform, "bag", true);
+    }
+  }
+  std::string base = withoutSlash(base_frame);
+  if (base.empty()) base = parents[camera_frame];
+  try {
+    const auto message = buffer.lookupTransform(base, camera_frame, ros::Time(0));
+    geometry_msgs::Pose pose;
+    pose.position.x = message.transform.translation.x;
+    pose.position.y = message.transform.translation.y;
+    pose.position.z = message.transform.translation.z;
+    pose.orientation = message.transform.rotation;
+    if (const auto T_base_cam = fromPoseMessage(pose)) {
+      const std::string fault = extrinsicsFault(*T_base_cam);
+      if (fault.empty()) return *T_base_cam;
+      throw std::runtime_error(bag.getFileName() + ": tf from the base frame '" + base +
+                               "' to the camera frame '" + camera_frame + "': " + fault);
+    }
+  } catch (const tf2::TransformException&) {
+  }
+  throw std::runtime_error(
+      bag.getFileName() + ": tf has no transform from the base frame '" + base +
+      "' to the camera frame '" + camera_frame +
+      "'; record /tf_static (tf2_ros static_transform_publisher base -> camera), or name the "
+      "frames by --base-frame and --camera-frame");
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/recording/doctor_topics.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+namespace ardrone_vslam {
+namespace {
+
+const char* const kImage = "sensor_msgs/Image";
+const char* const kCompressed = "sensor_msgs/CompressedImage";
+const char* const kCameraInfo = "sensor_msgs/CameraInfo";
+const char* const kOdometry = "nav_msgs/Odometry";
+const char* const kNavdata = "ardrone_autonomy/Navdata";
+const char* const kOwnNavdata = "ardrone_vslam/Navdata";  // another name, the same fields
+const char* const kImu = "sensor_msgs/Imu";
+const char* const kTwist = "geometry_msgs/Twist";
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string parentName(const std::string& topic) {
+  const auto slash = topic.rfind('/');
+  return slash == std::string::npos ? std::string() : topic.substr(0, slash);
+}
+
+bool isOneOf(const std::vector<std::string>& types, const std::string& type) {
+  return std::find(types.begin(), types.end(), type) != types.end();
+}
+
+std::string named(const DoctorRecording& recording, const std::string& name,
+                  const std::vector<std::string>& types) {
+  auto topic = recording.topics.find(name);
+  if (topic == recording.topics.end()) topic = recording.topics.find("/" + name);
+  std::string there;
+  for (const auto& other : recording.topics) {
+    there += (there.empty() ? "" : ", ") + other.first + " (" + other.second.type + ")";
+  }
+  if (topic == recording.topics.end()) {
+    throw std::runtime_error(recording.name + ": has no topic " + name + "; there are: " + there);
+  }
+  if (!isOneOf(types, topic->second.type)) {
+    throw std::runtime_error(recording.name + ": " + topic->first + " is " + topic->second.type +
+                             ", not " + types.front() + "; there are: " + there);
+  }
+  return topic->first;
+}
+
+/// What a topic is looked for.
+struct Role {
+  std::string option;              ///< of replay that names it; empty: replay does not need it
+  std::vector<std::string> types;  ///< that fit
+};
+
+bool anyTopic(const std::string& /*topic*/) {
+  return true;
+}
+
+/// @param name  that the user gave; empty: none
+/// @param usual  taken where it fits, whatever else does
+std::string best(DoctorRecording& recording, const Role& role, const std::string& name,
+                 const std::function<bool(const std::string&)>& is_candidate,
+                 const std::string& usual = {}) {
+  std::string best_name;
+  std::size_t most = 0, candidates = 0;
+  if (!name.empty()) {
+    best_name = named(recording, name, role.types);
+  } else {
+    for (const auto& topic : recording.topics) {
+      if (!isOneOf(role.types, topic.second.type) || !is_candidate(topic.first)) continue;
+      ++candidates;
+      const std::size_t messages = topic.second.messages;
+      const bool is_better = best_name.empty() || messages > most ||
+                             (messages == most && topic.first.size() < best_name.size());
+      if (best_name == usual && !usual.empty()) continue;
+      if (!is_better && topic.first != usual) continue;
+      best_name = topic.first;
+      most = messages;
+    }
+  }
+  if (candidates > 1 && best_name != usual) {
+    recording.choices.push_back(best_name + " is one of " + std::to_string(candidates) +
+                                " that fit");
+  }
+  if ((!name.empty() || candidates > 1) && !role.option.empty()) {
+    recording.replay_options.push_back(role.option + " " + best_name);
+  }
+  return best_name;
+}
+
+/// What the mapper publishes is no odometry, nor is the truth.
+bool isObserver(const std::string& topic) {
+  return topic.find("truth") == std::string::npos && !endsWith(topic, "odometry_fused") &&
+         !endsWith(topic, "odometry_live") && !endsWith(topic, "observer_odometry");
+}
+
+}  // namespace
+
+void chooseTopics(const DoctorTopicNames& names, DoctorRecording& recording) {
+  const auto& topics = recording.topics;
+  recording.choices.clear();
+  recording.replay_options.clear();
+  const Role image{"--image-topic", {kImage, kCompressed}};
+  recording.image_topic = best(recording, image, names.image, [&topics](const std::string& topic) {
+    const bool is_second =
+        topics.at(topic).type == kCompressed && topics.count(parentName(topic)) > 0;
+    return !is_second && !endsWith(topic, "/compressedDepth") && !endsWith(topic, "/debug_image");
+  });
+  const std::string raw =
+      isCompressed(recording) ? parentName(recording.image_topic) : recording.image_topic;
+  const std::string beside = parentName(raw) + "/camera_info";
+  const bool is_beside = topics.count(beside) > 0 && topics.at(beside).type == kCameraInfo;
+  if (names.camera_info.empty() && is_beside) {
+    recording.camera_info_topic = beside;  // replay takes it, too
+  } else {
+    recording.camera_info_topic =
+        best(recording, {"--camera-info-topic", {kCameraInfo}}, names.camera_info, anyTopic);
+  }
+  recording.odometry_topic =
+      best(recording, {"--odometry-topic", {kOdometry}}, names.odometry, isObserver);
+  // Without odometry they are the odometry, else replay looks at navdata's height only.
+  const bool is_observer = recording.odometry_topic.empty();
+  const auto option = [is_observer](const char* name) {
+    return is_observer ? std::string(name) : std::string();
+  };
+  recording.navdata_topic =
+      best(recording, {"--navdata-topic", {kNavdata, kOwnNavdata}}, names.navdata, anyTopic);
+  if (recording.navdata_topic.empty() && names.imu.empty()) {
+    recording.imu_topic.clear();
+    return;
+  }
+  recording.imu_topic = best(recording, {option("--imu-topic"), {kImu}}, names.imu, anyTopic,
+                             parentName(recording.navdata_topic) + "/imu");
+  if (is_observer) best(recording, {"--command-topic", {kTwist}}, {}, anyTopic, "/cmd_vel");
+}
+
+bool isCompressed(const DoctorRecording& recording) {
+  const auto topic = recording.topics.find(recording.image_topic);
+  return topic != recording.topics.end() && topic->second.type == kCompressed;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/streams/doctor_imu.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ardrone_vslam/rotation.hpp"
+#include "doctor/recording/doctor_stamps.hpp"
+#include "input_checks/checked.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr double kOtherUnit = 1.5;  // by which the median force differs from gravity
+constexpr double kWindow_s = 1;
+constexpr double kLongestStep_s = 0.1;  // that turn rates are integrated across
+constexpr double kTelling_rad = 0.5;    // of turning, before rate and attitude are compared
+constexpr double kDisagrees = 0.5;      // of that turning
+
+std::vector<const DroneImu*> imuOf(const DoctorRecording& recording) {
+  std::vector<const DroneImu*> readings;
+  for (const DoctorImu& imu : recording.imu) {
+    if (imu.reading) readings.push_back(&*imu.reading);
+  }
+  return readings;
+}
+
+std::vector<const NavdataReading*> navdataOf(const DoctorRecording& recording) {
+  std::vector<const NavdataReading*> readings;
+  for (const DoctorNavdata& navdata : recording.navdata) {
+    if (navdata.reading) readings.push_back(&*navdata.reading);
+  }
+  return readings;
+}
+
+/// Turns by the attitude and by the turn rates, summed over windows.
+struct Turns {
+  double told_rad = 0;
+  double felt_rad = 0;
+  double apart_rad = 0;
+};
+
+Turns turnsOf(const std::vector<const NavdataReading*>& navdata,
+              const std::vector<const DroneImu*>& imu) {
+  Turns turns;
+  const NavdataReading* begin = nullptr;
+  Eigen::Matrix3d felt = Eigen::Matrix3d::Identity();
+  std::size_t next = 0;
+  for (std::size_t i = 1; i < imu.size(); ++i) {
+    const std::int64_t stamp_ns = imu[i]->stamp_ns;
+    const double dt_s = static_cast<double>(stamp_ns - imu[i - 1]->stamp_ns) * 1e-9;
+    if (dt_s == 0) continue;  // of a burst one stands for all
+    while (next < navdata.size() && navdata[next]->stamp_ns < stamp_ns) ++next;
+    if (next == navdata.size()) break;
+    const Eigen::Vector3d& rate_rad_s = imu[i]->turn_rate_base_rad_s;
+    const NavdataReading* here = navdata[next];
+    const bool is_sound = dt_s > 0 && dt_s < kLongestStep_s && rate_rad_s.allFinite() &&
+                          here->measured.R_odom_base.allFinite();
+    if (!is_sound || !begin) {
+      begin = is_sound ? here : nullptr;
+      felt.setIdentity();
+      continue;
+    }
+    felt = felt * rotationOf(dt_s * rate_rad_s);
+    if (static_cast<double>(here->stamp_ns - begin->stamp_ns) * 1e-9 < kWindow_s) continue;
+    const Eigen::Vector3d told_rad =
+        rotationVectorOf(begin->measured.R_odom_base.transpose() * here->measured.R_odom_base);
+    const Eigen::Vector3d felt_rad = rotationVectorOf(felt);
+    turns.told_rad += told_rad.norm();
+    turns.felt_rad += felt_rad.norm();
+    turns.apart_rad += (told_rad - felt_rad).norm();
+    begin = here;
+    felt.setIdentity();
+  }
+  return turns;
+}
+
+}  // namespace
+
+std::string forceFault(std::vector<double> forces_m_s2, double unit_m_s2, const char* unit) {
+  forces_m_s2.erase(std::remove_if(forces_m_s2.begin(), forces_m_s2.end(),
+                                   [](double force) { return !std::isfinite(force); }),
+                    forces_m_s2.end());
+  if (forces_m_s2.empty()) return {};
+  const double median_m_s2 = medianOf(std::move(forces_m_s2));
+  if (median_m_s2 > kGravity_m_s2 / kOtherUnit && median_m_s2 < kGravity_m_s2 * kOtherUnit) {
+    return {};
+  }
+  return text("the accelerometer reads ", rounded(median_m_s2 / unit_m_s2, 2), " ", unit,
+              " in the median, gravity is ", kGravity_m_s2 / unit_m_s2);
+}
+
+Finding checkImuValues(const DoctorRecording& recording, std::size_t refused) {
+  Finding finding{"imu_values", Verdict::kOk, "all finite and within bounds", {}};
+  std::vector<double> forces_m_s2;
+  bool is_zero = true;
+  for (const DroneImu* imu : imuOf(recording)) {
+    forces_m_s2.push_back(imu->force_base_m_s2.norm());
+    is_zero = is_zero && imu->force_base_m_s2.isZero(0) && imu->turn_rate_base_rad_s.isZero(0);
+  }
+  const std::string force = forceFault(forces_m_s2, 1, "m/s^2");
+  if (is_zero) {
+    finding.text = text("all ", forces_m_s2.size(), " messages are zero");
+    finding.remedy =
+        "set the driver's navdata_demo to 0, with which the drone sends its raw measurements; or "
+        "leave the IMU out";
+  } else if (refused > 0) {
+    finding.text =
+        text(refused, " of ", forces_m_s2.size(), " messages are not finite or out of bounds");
+    finding.remedy = "they are left out; check the driver and the link";
+  } else if (!force.empty()) {
+    finding.text = force;
+    finding.remedy = "m/s^2 are asked for: correct its source";
+  } else {
+    return finding;
+  }
+  finding.verdict = Verdict::kWarning;
+  return finding;
+}
+
+Finding checkImuTurnRate(const DoctorRecording& recording) {
+  const Turns turns = turnsOf(navdataOf(recording), imuOf(recording));
+  const double turned_rad = std::max(turns.told_rad, turns.felt_rad);
+  if (turned_rad < kTelling_rad) {
+    return {"imu_turn_rate", Verdict::kNotChecked, "because it hardly turns", {}};
+  }
+  Finding finding{"imu_turn_rate", Verdict::kOk, {}, {}};
+  finding.text = text("turn rates add up to ", rounded(turns.felt_rad, 1),
+                      " rad, navdata's attitude turns by ", rounded(turns.told_rad, 1), ", ",
+                      rounded(turns.apart_rad, 1), " apart");
+  if (turns.apart_rad > kDisagrees * turned_rad) {
+    finding.verdict = Verdict::kWarning;
+    finding.remedy =
+        "rad/s about base's axes (x forward, y left, z up) are asked for, in navdata degrees: "
+        "correct the wrong one's source, or leave the IMU out";
+  }
+  return finding;
+}
+
+}  // namespace ardrone_vslam

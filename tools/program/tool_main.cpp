@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program/tool_main.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+
+#include "ardrone_vslam/instruction_set.hpp"
+#include "ardrone_vslam/parameters.hpp"
+
+namespace ardrone_vslam {
+
+namespace {
+
+/// What became of options and values of earlier versions that the arguments hold.
+std::vector<std::string> oldArguments(int argc, char** argv) {
+  std::vector<std::string> sentences;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::string option = argument.substr(0, argument.find('='));
+    const std::string before = std::string(argv[i - 1]).substr(0, 2) == "--" ? argv[i - 1] + 2 : "";
+    for (const OldName& old : oldNames()) {
+      const bool is_option = old.kind == OldName::Kind::kOption && option == old.name;
+      const bool is_choice =
+          old.kind == OldName::Kind::kChoice && before == old.owner && argument == old.name;
+      if (!is_option && !is_choice) continue;
+      sentences.push_back(std::string(old.name) + " is called " + old.now + " now");
+      break;
+    }
+  }
+  return sentences;
+}
+
+}  // namespace
+
+int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& run) {
+  const auto fault = [&app](const std::exception& e, int exit_code) {
+    std::cerr << app.get_name() << ": " << e.what() << '\n';
+    return exit_code;
+  };
+  try {
+    app.parse(argc, argv);
+    const std::string& kernels_fault = instructionSetInUse().fault;
+    if (!kernels_fault.empty()) std::cerr << app.get_name() << ": " << kernels_fault << '\n';
+    return run();
+  } catch (const CLI::ParseError& e) {
+    if (app.exit(e) == 0) return 0;
+    for (const std::string& sentence : oldArguments(argc, argv))
+      std::cerr << app.get_name() << ": " << sentence << '\n';
+    return 2;
+  } catch (const UsageError& e) {
+    return fault(e, 2);
+  } catch (const std::exception& e) {
+    return fault(e, 1);
+  }
+}
+
+CLI::Option* addSeed(CLI::App& app, const std::string& name, std::uint64_t& seed,
+                     const std::string& what) {
+  const auto isWholeNumber = [](const std::string& text) {
+    const bool is_good = text.find_first_not_of("0123456789") == std::string::npos;
+    return is_good ? std::string() : "'" + text + "' must be a whole number from 0";
+  };
+  return app.add_option(name, seed, what)
+      ->capture_default_str()
+      ->check(CLI::Validator(isWholeNumber, "", "seed"));
+}
+
+std::vector<std::uint64_t> parseSeeds(const std::string& text) {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+  char rest = 0;
+  // sscanf alone takes -1 for 2^64 - 1.
+  if (text.find('-') != std::string::npos ||
+      std::sscanf(text.c_str(), "%lu:%lu%c", &first, &last, &rest) != 2 || last < first ||
+      last - first > 9999) {
+    throw UsageError("--seeds: '" + text +
+                     "' must be A:B with 0 <= A <= B, at most 10000 seeds, for example 1:5");
+  }
+  std::vector<std::uint64_t> seeds;
+  // By count: the largest seed has no successor.
+  for (std::uint64_t i = 0; i <= last - first; ++i) seeds.push_back(first + i);
+  return seeds;
+}
+
+}  // namespace ardrone_vslam

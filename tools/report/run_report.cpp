@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/run_report.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "ardrone_vslam/instruction_set.hpp"
+#include "trajectory/metrics.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+Json orNull(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+template <class Value>
+std::vector<double> collect(const RunResult& run, Value&& value) {
+  std::vector<double> values;
+  values.reserve(run.frames.size());
+  for (const RunFrame& frame : run.frames) values.push_back(static_cast<double>(value(frame)));
+  return values;
+}
+
+double peakMemory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+std::vector<double> finite(const std::vector<double>& values) {
+  std::vector<double> kept;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(kept),
+               [](double value) { return std::isfinite(value); });
+  return kept;
+}
+
+void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& label, Json& summary) {
+  const ErrorSummary fused = summarise(finite(e.fused_error_m));
+  const ErrorSummary odometry = summarise(finite(e.odometry_error_m));
+  const bool known = !e.truth.empty();
+  const auto ifKnown = [known](double value) { return known ? orNull(value) : Json(nullptr); };
+  const bool drifts = label.profile != "truth" && odometry.rmse_m > 0;
+  summary["odometry_ate_rmse_m"] = ifKnown(odometry.rmse_m);
+  summary["fused_ate_rmse_m"] = ifKnown(fused.rmse_m);
+  summary["fused_error_mean_m"] = ifKnown(fused.mean_m);
+  summary["fused_error_max_m"] = ifKnown(fused.max_m);
+  summary["ratio"] = drifts ? ifKnown(fused.rmse_m / odometry.rmse_m) : Json(nullptr);
+
+  const Trajectory truth = scaled(e.truth, run.scale_error);
+  const double fused_scaled =
+      known ? summarise(positionErrors_m(e.fused_at_truth, truth)).rmse_m : 0;
+  const double odometry_scaled =
+      known ? summarise(positionErrors_m(e.odometry_at_truth, truth)).rmse_m : 0;
+  summary["odometry_ate_rmse_scale_removed_m"] = ifKnown(odometry_scaled);
+  summary["fused_ate_rmse_scale_removed_m"] = ifKnown(fused_scaled);
+  summary["ratio_scale_removed"] = drifts ? ifKnown(fused_scaled / odometry_scaled) : Json(nullptr);
+  summary["fused_ate_rmse_aligned_m"] = ifKnown(alignedRmse_m(e.fused_at_truth, e.truth));
+  summary["odometry_scale_error"] = run.scale_error;
+
+  summary["fused_error_last_m"] =
+      known && !e.fused_error_m.empty() ? orNull(e.fused_error_m.back()) : Json(nullptr);
+  summary["odometry_error_last_m"] =
+      known && !e.odometry_error_m.empty() ? orNull(e.odometry_error_m.back()) : Json(nullptr);
+  const auto t_rel = known ? translationError_percent(e.fused_at_truth, e.truth) : std::nullopt;
+  const auto odometry_t_rel =
+      known ? translationError_percent(e.odometry_at_truth, e.truth) : std::nullopt;
+  summary["t_rel_percent"] = t_rel ? Json(*t_rel) : Json(nullptr);
+  summary["odometry_t_rel_percent"] = odometry_t_rel ? Json(*odometry_t_rel) : Json(nullptr);
+
+  const std::vector<double> camera = finite(e.camera_error_m);
+  const ErrorSummary camera_summary = summarise(camera);
+  const bool fixed = known && !camera.empty();
+  summary["camera_frames"] = camera.size();
+  summary["camera_error_mean_m"] = fixed ? orNull(camera_summary.mean_m) : Json(nullptr);
+  summary["camera_error_max_m"] = fixed ? orNull(camera_summary.max_m) : Json(nullptr);
+  const std::vector<double> nees_values = finite(e.nees);
+  summary["nees_mean"] =
+      nees_values.empty() ? Json(nullptr) : orNull(summarise(nees_values).mean_m);
+  const auto outside = std::count_if(nees_values.begin(), nees_values.end(),
+                                     [](double n) { return n > kNees3Sigma; });
+  summary["outside_3_sigma"] =
+      nees_values.empty()
+          ? Json(nullptr)
+          : Json(static_cast<double>(outside) / static_cast<double>(nees_values.size()));
+  summary["frames_without_truth"] = e.frames_without_truth;
+  summary["frames_error_not_finite"] = e.frames_error_not_finite;
+}
+
+void addScale(const RunResult& run, Json& summary) {
+  const FrameResult last = run.frames.empty() ? FrameResult{} : run.frames.back().result;
+  const bool is_estimated = last.scale_sigma > 0;
+  const auto count = [&run](HeightOutcome outcome) {
+    return std::count_if(run.frames.begin(), run.frames.end(), [outcome](const RunFrame& frame) {
+      return frame.result.height == outcome;
+    });
+  };
+  summary["fused_scale_error"] = is_estimated ? orNull(last.scale_error) : Json(nullptr);
+  summary["fused_scale_deviation"] = is_estimated ? orNull(last.scale_sigma) : Json(nullptr);
+  summary["heights_used"] = count(HeightOutcome::kApplied);
+  summary["heights_rejected"] = count(HeightOutcome::kRejected);
+  summary["floors"] = count(HeightOutcome::kNewFloor);
+  summary["heights_missing"] = run.heights_missing;
+  summary["heights_tilted"] = run.heights_tilted;
+  summary["ranges_refused"] = run.ranges_refused;
+}
+
+void addCost(const RunResult& run, Json& summary) {
+  const std::vector<double> totals =
+      collect(run, [](const RunFrame& f) { return total_ms(f.times_ms); });
+  summary["ms_per_frame_median"] = quantile(totals, 0.5);
+  summary["ms_per_frame_p95"] = quantile(totals, 0.95);
+  double sum_ms = 0;
+  for (const double ms : totals) sum_ms += ms;
+  summary["frames_per_second"] =
+      sum_ms > 0 ? Json(1000 * static_cast<double>(totals.size()) / sum_ms) : Json(nullptr);
+  Json share;
+  for (std::size_t stage = 0; stage < kStageCount; ++stage) {
+    double stage_ms = 0;
+    for (const RunFrame& frame : run.frames) stage_ms += frame.times_ms[stage];
+    share[kStageNames[stage]] = sum_ms > 0 ? stage_ms / sum_ms : 0.0;
+  }
+  summary["stage_share"] = share;
+  summary["peak_rss_mb"] = peakMemory_mb();
+  summary["instruction_set"] = nameOf(instructionSetInUse().set);
+}
+
+}  // namespace
+
+bool isNotFinite(const Landmark& landmark) {
+  return !landmark.position_map.allFinite() ||
+         !std::isfinite(landmark.sigma_m + landmark.depth_sigma_m);
+}
+
+RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
+  constexpr std::int64_t kLongestTruthGap_ns = 1'000'000'000;
+  RunEvaluation e;
+  for (const RunFrame& frame : run.frames) {
+    const FrameResult& r = frame.result;
+    const std::int64_t exposed_ns = r.stamp_ns + std::llround(run.image_time_offset_s * 1e9);
+    const StampedPose fused{exposed_ns, r.T_map_base};
+    const StampedPose odometry{exposed_ns, r.T_odom_base};
+    e.fused.append(fused);
+    e.odometry.append(odometry);
+    double camera_error = kNone;
+    double fused_nees = kNone;
+    double fused_error = kNone;
+    double odometry_error = kNone;
+    if (truth.covers(exposed_ns, kLongestTruthGap_ns)) {
+      const Eigen::Isometry3d T_map_base = truth.at(exposed_ns);
+      e.truth.append({exposed_ns, T_map_base});
+      e.fused_at_truth.append(fused);
+      e.odometry_at_truth.append(odometry);
+      const Eigen::Vector3d position = T_map_base.translation();
+      const Eigen::Vector3d error = r.T_map_base.translation() - position;
+      fused_error = error.norm();
+      odometry_error = (r.T_odom_base.translation() - position).norm();
+      fused_nees = nees(error, r.covariance.topLeftCorner<3, 3>());
+      if (!std::isfinite(fused_error + odometry_error)) ++e.frames_error_not_finite;
+      if (r.camera_position_map) camera_error = (*r.camera_position_map - position).norm();
+    } else {
+      ++e.frames_without_truth;
+    }
+    e.fused_error_m.push_back(fused_error);
+    e.odometry_error_m.push_back(odometry_error);
+    e.camera_error_m.push_back(camera_error);
+    e.nees.push_back(fused_nees);
+  }
+  return e;
+}
+
+Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunLabel& label) {
+  Json summary;
+  summary["sequence"] = label.sequence;
+  summary["frames"] = run.frames.size();
+  summary["frames_dropped_slow"] = run.frames_dropped_slow;
+  summary["camera_changes"] = run.camera_changes;
+  summary["frames_without_odometry"] = run.frames_without_odometry;
+  summary["odometry_states_refused"] = run.odometry_states_refused;
+  const bool is_offset_known = run.time_offset.state == TimeOffsetState::kKnown;
+  summary["image_time_offset_s"] = run.image_time_offset_s;
+  summary["image_time_offset_estimate_s"] =
+      is_offset_known ? Json(run.time_offset.offset_s) : Json(nullptr);
+  summary["image_time_offset_deviation_s"] =
+      is_offset_known ? Json(run.time_offset.deviation_s) : Json(nullptr);
+  summary["image_time_offset_unknown"] =
+      is_offset_known ? Json(nullptr) : Json(explain(run.time_offset.state));
+  summary["odometry_steps"] =
+      std::count_if(run.frames.begin(), run.frames.end(),
+                    [](const RunFrame& f) { return f.result.odometry_step_m > 0; });
+  summary["odometry_froze"] = run.odometry_froze;
+  summary["frames_distrusted"] = countDistrusted(run);
+  for (std::size_t i = 0; i < kOdometryFaultCount; ++i)
+    summary["odometry_faults"][EnumNames<OdometryFault>::kNames[i]] = run.odometry_faults[i];
+  summary["profile"] = label.profile;
+  summary["seed"] = label.seed ? Json(*label.seed) : Json(nullptr);
+  summary["estimator"] = label.estimator;
+  addErrors(run, evaluation, label, summary);
+  const auto matches = collect(run, [](const RunFrame& f) { return f.result.landmark_matches; });
+  summary["landmark_matches_median"] = quantile(matches, 0.5);
+  summary["landmarks"] = run.landmarks.size();
+  summary["landmarks_not_finite"] =
+      std::count_if(run.landmarks.begin(), run.landmarks.end(), isNotFinite);
+  addScale(run, summary);
+  addCost(run, summary);
+  return summary;
+}
+
+namespace {
+
+bool isWorseWhenLarger(const std::string& key) {
+  for (const char* name :
+       {"seed", "landmark_matches_median", "landmarks", "camera_frames", "frames_per_second",
+        "odometry_scale_error", "image_time_offset_s", "image_time_offset_estimate_s"}) {
+    if (key == name) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Json summaryOfSeeds(const std::vector<Json>& summaries) {
+  Json result;
+  for (const char* name : {"sequence", "frames", "profile", "estimator"})
+    result[name] = summaries.front()[name];
+  Json seeds = Json::array();
+  for (const Json& summary : summaries) seeds.push_back(summary["seed"]);
+  result["seeds"] = seeds;
+  for (const auto& item : summaries.front().items()) {
+    if (result.contains(item.key()) || !isWorseWhenLarger(item.key())) continue;
+    std::vector<double> values;
+    for (const Json& summary : summaries) {
+      if (summary[item.key()].is_number()) values.push_back(summary[item.key()].get<double>());
+    }
+    if (values.size() != summaries.size()) continue;
+    result["median"][item.key()] = quantile(values, 0.5);
+    result["worst"][item.key()] = quantile(values, 1.0);
+  }
+  result["runs"] = summaries;
+  return result;
+}
+
+}  // namespace ardrone_vslam

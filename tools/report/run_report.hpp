@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/offline_run.hpp"
+#include "trajectory/trajectory.hpp"
+
+namespace ardrone_vslam {
+
+/// What a run was made of; goes into every summary.
+struct RunLabel {
+  std::string sequence;
+  std::string profile;                ///< "recorded": the bag's or folder's own odometry
+  std::optional<std::uint64_t> seed;  ///< nothing for a real odometry
+  std::string estimator;
+};
+
+/// A run's trajectories at the images' exposures (stamps plus image_time_offset_s) and its errors;
+/// these have an entry for each frame, NaN where there is no truth.
+struct RunEvaluation {
+  Trajectory fused;
+  Trajectory odometry;        ///< T_odom_base; map equals odom at the start
+  Trajectory truth;           ///< at the frames that it covers
+  Trajectory fused_at_truth;  ///< at the same frames
+  Trajectory odometry_at_truth;
+  int frames_without_truth = 0;  ///< before, after, or in gaps of the truth of more than a second
+  /// The truth is known, but fused or odometry error is not finite; left out of all means.
+  int frames_error_not_finite = 0;
+  std::vector<double> fused_error_m;
+  std::vector<double> odometry_error_m;
+  std::vector<double> camera_error_m;  ///< of camera_position_map; NaN where there was none
+  std::vector<double> nees;
+};
+
+/// Such landmarks are counted in the summary and left out of landmarks.csv.
+bool isNotFinite(const Landmark& landmark);
+
+RunEvaluation evaluate(const RunResult& run, const Trajectory& truth);
+
+/// The numbers of one run (docs/data_path.md explains each). What does not exist is null.
+nlohmann::ordered_json summaryOf(const RunResult& run, const RunEvaluation& evaluation,
+                                 const RunLabel& label);
+
+/// Median and worst over the summaries of several seeds, for every numeric entry where larger is
+/// worse.
+nlohmann::ordered_json summaryOfSeeds(const std::vector<nlohmann::ordered_json>& summaries);
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/run_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+namespace ardrone_vslam {
+namespace {
+
+void throwIfNothingCame(const std::string& name, const RunResult& run) {
+  if (run.frames.empty()) {
+    throw std::runtime_error(name +
+                             ": no image has odometry at its stamp; the stamps of images and "
+                             "odometry do not overlap, or the "
+                             "odometry's gaps are longer than half a second");
+  }
+  const auto isEmpty = [](const RunFrame& frame) { return frame.result.features == 0; };
+  if (std::all_of(run.frames.begin(), run.frames.end(), isEmpty)) {
+    throw std::runtime_error(
+        name +
+        ": no image shows a corner: black, blank or blurred images, or threshold_min too high");
+  }
+}
+
+/// A template, as observed and true poses are kept differently.
+template <class Frames, class PoseOf>
+bool neverMoves(const Frames& frames, const PoseOf& poseOf) {
+  return frames.size() > 1 && std::all_of(frames.begin(), frames.end(), [&](const auto& frame) {
+           const Eigen::Isometry3d& first = poseOf(frames.front());
+           return (poseOf(frame).translation() - first.translation()).norm() <
+                  StandstillWatch::kRest_m;
+         });
+}
+
+/// Images that travel although the positions beside them are constant: zeros instead of poses.
+std::string standstillFault(const std::string& name, const RunResult& run,
+                            const Trajectory& truth) {
+  if (!run.images_travel) return {};
+  const auto observed = [](const RunFrame& f) -> const auto& {
+    return f.result.T_odom_base;
+  };
+  const auto known = [](const StampedPose& p) -> const auto& {
+    return p.T_map_base;
+  };
+  const std::string end = " although the images do; ";
+  if (neverMoves(truth.poses(), known)) {
+    return name + ": the truth never moves" + end +
+           "check the truth's topic or file (poses.txt, poses_tum.txt), or remove it";
+  }
+  if (neverMoves(run.frames, observed)) {
+    return name + ": the odometry never moves" + end +
+           "no landmark can be made: check what publishes it, or corrupt the truth by "
+           "--odometry-profile";
+  }
+  return {};
+}
+
+std::vector<std::string> faultsOf(const std::string& name, const RunResult& run,
+                                  const RunEvaluation& evaluation) {
+  std::vector<std::string> faults;
+  const std::string standstill = standstillFault(name, run, evaluation.truth);
+  if (!standstill.empty()) faults.push_back(standstill);
+  const auto left_out = static_cast<std::size_t>(run.frames_without_odometry);
+  if (left_out > run.frames.size()) {
+    faults.push_back(name + ": " + std::to_string(left_out) + " of " +
+                     std::to_string(left_out + run.frames.size()) +
+                     " images have no usable odometry at their stamp; record the odometry for as "
+                     "long as the images, or choose the frames that have it by --frames");
+  }
+  if (evaluation.frames_error_not_finite > 0) {
+    faults.push_back(name + ": the position error of " +
+                     std::to_string(evaluation.frames_error_not_finite) + " of " +
+                     std::to_string(run.frames.size()) +
+                     " images is not finite, and the means leave them out; check the odometry's "
+                     "and the truth's positions and the camera's mounting");
+  }
+  const auto landmarks = std::count_if(run.landmarks.begin(), run.landmarks.end(), isNotFinite);
+  if (landmarks > 0) {
+    faults.push_back(name + ": " + std::to_string(landmarks) + " of " +
+                     std::to_string(run.landmarks.size()) +
+                     " landmarks are not finite and are left out of landmarks.csv; check the "
+                     "odometry's positions, the calibration and the camera's mounting");
+  }
+  return faults;
+}
+
+constexpr std::int64_t kTellingTracks = 1000;
+constexpr double kRejected = 0.5;    // of the tracks; a good run rejects a tenth
+constexpr int kSeen = 8;             // landmarks in an image; a wrong mounting leaves 2
+constexpr double kDistrusted = 0.2;  // of the images
+
+/// Share of the tracks that do not move as odometry, mounting and calibration foretell; 0 for too
+/// few of them, and where landmarks are seen again all the same (odometry that drifts much).
+double rejectedTracks(const RunResult& run) {
+  std::int64_t tracks = 0, used = 0;
+  const auto sees = std::count_if(run.frames.begin(), run.frames.end(), [](const RunFrame& frame) {
+    return frame.result.landmark_matches >= kSeen;
+  });
+  if (2 * sees >= static_cast<std::ptrdiff_t>(run.frames.size())) return 0;
+  for (const RunFrame& frame : run.frames) {
+    tracks += frame.result.feature_candidates;
+    used += frame.result.feature_matches;
+  }
+  if (tracks < kTellingTracks) return 0;
+  return 1 - static_cast<double>(used) / static_cast<double>(tracks);
+}
+
+/// Whether the recording rather than the flight is to blame.
+bool isDoctorsCase(const RunResult& run, double rejected) {
+  const auto distrusted = static_cast<double>(countDistrusted(run));
+  return rejected > kRejected || run.odometry_froze || run.absurd_speed_m_s > 0 ||
+         distrusted > kDistrusted * static_cast<double>(run.frames.size());
+}
+
+bool isBag(const std::string& name) {
+  return std::filesystem::path(name).extension() == ".bag";
+}
+
+}  // namespace
+
+RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEvaluation& evaluation,
+                    bool truth_moved) {
+  throwIfNothingCame(name, run);
+  RunVerdict verdict;
+  verdict.faults = faultsOf(name, run, evaluation);
+  if (run.frames_without_odometry > 0) {
+    verdict.warnings.push_back(std::to_string(run.frames_without_odometry) +
+                               " images have no odometry at their stamp and are left out");
+  }
+  if (run.absurd_speed_m_s > 0) {
+    verdict.warnings.push_back(name + ": " + explainSpeed("the odometry", run.absurd_speed_m_s));
+  }
+  const std::string offset_advice = adviceOn(run.time_offset, run.image_time_offset_s);
+  if (!offset_advice.empty()) verdict.warnings.push_back(name + ": " + offset_advice);
+  if (run.odometry_froze && verdict.faults.empty()) {
+    verdict.warnings.push_back(
+        name +
+        ": the odometry stood still for seconds while the images moved on; check what "
+        "publishes it");
+  }
+  double largest_step_m = 0;
+  for (const RunFrame& frame : run.frames)
+    largest_step_m = std::max(largest_step_m, frame.result.odometry_step_m);
+  if (largest_step_m > 0)
+    verdict.warnings.push_back(name + ": " + explainStep("the odometry", largest_step_m));
+  const auto distrusted = countDistrusted(run);
+  if (distrusted > 0) {
+    verdict.warnings.push_back(name + ": distrusted at " + std::to_string(distrusted) +
+                               " images: " + explain(SlamState::kDistrusted));
+  }
+  for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
+    const auto fault = static_cast<OdometryFault>(i);
+    if (run.odometry_faults[i] == 0 || !isWorthWarning(fault)) continue;
+    verdict.warnings.push_back(name + ": the odometry " + explain(fault) + " (" + nameOf(fault) +
+                               ": " + std::to_string(run.odometry_faults[i]) + ")");
+  }
+  if (run.landmarks.empty()) {
+    verdict.warnings.push_back(
+        "no landmark came out, so the poses are the odometry's: images too dark, blurred or plain, "
+        "no motion sideways (turning gives no depth), odometry that does not move with the images, "
+        "or another camera's calibration");
+  }
+  const double rejected = rejectedTracks(run);
+  if (rejected > kRejected) {
+    verdict.warnings.push_back(
+        name + ": " + std::to_string(std::lround(100 * rejected)) +
+        " % of the tracks do not move as odometry, calibration and the camera's mounting foretell");
+  }
+  if (isBag(name) && isDoctorsCase(run, rejected)) {
+    verdict.warnings.push_back(
+        "what is wrong with the recording tells: rosrun ardrone_vslam doctor " + name);
+  }
+  if (truth_moved) {
+    verdict.warnings.push_back(
+        "truth and odometry start at different poses; the truth was moved as a whole to the "
+        "odometry's start");
+  }
+  if (evaluation.frames_without_truth > 0) {
+    verdict.warnings.push_back(std::to_string(evaluation.frames_without_truth) +
+                               " images have no truth at their stamp and are not evaluated");
+  }
+  return verdict;
+}
+
+}  // namespace ardrone_vslam

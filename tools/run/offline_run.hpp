@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/height_input.hpp"
+#include "ardrone_vslam/odometry_adapter.hpp"
+#include "ardrone_vslam/slam.hpp"
+#include "ardrone_vslam/stages.hpp"
+#include "ardrone_vslam/time_offset.hpp"
+#include "config_files/config_file.hpp"
+#include "input_checks/speed_watch.hpp"
+#include "input_checks/standstill_watch.hpp"
+#include "sequences/sequence.hpp"
+#include "simulation/odometry_model.hpp"
+
+namespace ardrone_vslam {
+
+using StageTimes_ms = std::array<double, kStageCount>;
+
+double total_ms(const StageTimes_ms& times_ms);
+
+/// One image after the front end.
+struct TrackedFrame {
+  ImageFeatures features;
+  StageTimes_ms times_ms{};
+  /// T_base_cam of another camera than the frame's before.
+  std::optional<Eigen::Isometry3d> other_camera;
+};
+
+/// One image's answer.
+struct RunFrame {
+  FrameResult result;
+  StageTimes_ms times_ms{};
+};
+
+/// One pass over a sequence with one odometry.
+struct RunResult {
+  std::vector<RunFrame> frames;
+  std::vector<Landmark> landmarks;
+  int frames_without_odometry =
+      0;  ///< no odometry at the image's stamp: before the first state, in a gap, or after the last
+  int frames_dropped_slow = 0;      ///< that the emulated slower computer had no time for
+  int odometry_states_refused = 0;  ///< not finite, out of bounds, duplicate or backward stamps
+  OdometryFaultCounts odometry_faults{};
+  std::uint64_t ranges_refused = 0;
+  std::uint64_t heights_missing = 0;  ///< images without a range near their stamp
+  std::uint64_t heights_tilted = 0;   ///< images without a height as base was tilted
+  /// The tracks moved for seconds on end by more than the odometry's turning explains.
+  bool images_travel = false;
+  bool odometry_froze = false;  ///< for a while, although the images travelled
+  double absurd_speed_m_s = 0;  ///< of the odometry, when it is too fast to be in metres
+  int camera_changes = 0;
+  double image_time_offset_s = 0;  ///< the parameter
+  TimeOffset time_offset;          ///< what it seems to be
+  double scale_error = 0;          ///< the one drawn for the odometry
+};
+
+/// Images at which the watchdog left the camera out.
+std::int64_t countDistrusted(const RunResult& run);
+
+/// Called with the number of images done, from the calling thread.
+using Progress = std::function<void(std::size_t)>;
+
+/// With `use_attitude`: poses whose orientation turns the descriptors' pattern, for images exposed
+/// at their stamps plus the offset.
+struct FrontEndAttitude {
+  const std::vector<OdometryState>* states = nullptr;
+  double image_time_offset_s = 0;
+};
+
+/// The image after one that is done; a sequence's size ends the run.
+using NextImage = std::function<std::size_t(std::size_t index)>;
+
+/// Images -> features; images are decoded ahead by a thread of their own when `threads` is 2 or
+/// more.
+/// @param consume  gets each frame in order; `frame` is reused for the next one
+/// @param next_image  asked after each; nothing: all images
+void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEndAttitude& attitude,
+                 int threads, const std::function<void(const TrackedFrame& frame)>& consume,
+                 const NextImage& next_image = {});
+
+/// Features + odometry -> poses and map, as the nodelets do it: odometry through an
+/// OdometryAdapter, interpolated at the image's stamp by an OdometryBuffer, ranges by a
+/// HeightInput.
+class BackEnd {
+ public:
+  BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
+          const std::vector<OdometryState>& odometry, std::vector<RangeReading> ranges = {});
+  /// @throws std::runtime_error when the camera changes and extrinsics_sigma_deg forbids it
+  /// @return what the image has cost, front end included [ms]
+  double process(const TrackedFrame& frame);
+  RunResult finish();
+
+ private:
+  void changeCamera(const Eigen::Isometry3d& T_base_cam);
+  bool odometryAt(std::int64_t stamp_ns, OdometryState& state);
+  void takeNextObserver();
+  std::optional<double> heightAt(const OdometryState& state);
+
+  Slam slam_;
+  Eigen::Isometry3d T_base_cam_;
+  std::int64_t image_time_offset_ns_;
+  TimeOffsetEstimator time_offset_;
+  StandstillWatch watch_;       ///< sees odometry that only turns: what moves then is the images
+  StandstillWatch standstill_;  ///< the same with its positions
+  SpeedWatch speed_;
+  OdometryAdapter adapter_;
+  OdometryBuffer buffer_;
+  std::vector<OdometryState> ready_;  ///< kept for its memory
+  const std::vector<OdometryState>& odometry_;
+  std::size_t next_ = 0;
+  HeightInput heights_;
+  std::vector<RangeReading> ranges_;
+  std::size_t next_range_ = 0;
+  RunResult run_;
+};
+
+/// Accumulates the time between stage changes; the clock that the core does not have.
+class StageTimer {
+ public:
+  explicit StageTimer(StageTimes_ms& times_ms);
+  StageHook hook();
+
+ private:
+  void enter(Stage stage);
+
+  StageTimes_ms& times_ms_;
+  Stage stage_ = Stage::kIdle;
+  std::int64_t since_ns_ = 0;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "world/flight/world_flight.hpp"
+#include "world/flight/world_motion.hpp"
+
+namespace ardrone_vslam {
+
+/// Counter-clockwise laps on an ellipse, no two quite alike, the nose along the path and at times
+/// turned outwards to the wall.
+class Laps : public Flight {
+ public:
+  explicit Laps(const std::optional<FlightStart>& start);
+
+ protected:
+  Eigen::Vector3d position(double t_s) const override;
+  double yaw(double t_s) const override;
+
+ private:
+  double phase(double t_s) const;
+  Eigen::Vector3d pathPosition(double t_s) const;
+  /// Direction of the ellipse's tangent: that of a circle, corrected; never wraps.
+  double pathYaw(double t_s) const;
+
+  FlightStart start_;
+  double first_phase_ = 0;
+  double first_turn_ = 0;
+};
+
+/// One lap, then hovering where it began: within a few centimetres and about a degree.
+class LapsThenHover : public Laps {
+ public:
+  static constexpr double kHoverBegin_s = 21.5;  // the lap is complete
+
+  using Laps::Laps;
+
+ protected:
+  Eigen::Vector3d position(double t_s) const override;
+  double yaw(double t_s) const override;
+
+ private:
+  static double lapTime(double t_s);
+};
+
+/// A slow turn on the spot, then laps.
+class TurnThenLaps : public Laps {
+ public:
+  using Laps::Laps;
+
+ protected:
+  Eigen::Vector3d position(double t_s) const override;
+  double yaw(double t_s) const override;
+};
+
+/// Laps, and after a while much faster ones with quick looks aside.
+class FastLaps : public Laps {
+ public:
+  using Laps::Laps;
+
+ protected:
+  Eigen::Vector3d position(double t_s) const override;
+  double yaw(double t_s) const override;
+
+ private:
+  static double lapTime(double t_s);
+};
+
+}  // namespace ardrone_vslam
