@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "ardrone_vslam/frame_result.hpp"
+
 namespace ardrone_vslam {
 namespace {
 

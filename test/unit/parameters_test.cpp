@@ -9,6 +9,7 @@
 
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/tracker.hpp"
+#include "matching/association.hpp"
 
 namespace ardrone_vslam {
 namespace {
