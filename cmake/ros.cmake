@@ -2,7 +2,7 @@
 set(ARDRONE_VSLAM_ROS_COMPONENTS
   roscpp nodelet pluginlib message_generation std_msgs std_srvs sensor_msgs geometry_msgs nav_msgs visualization_msgs
   cv_bridge image_transport tf2 tf2_ros tf2_msgs diagnostic_updater rosbag)
-find_package(catkin QUIET OPTIONAL_COMPONENTS ${ARDRONE_VSLAM_ROS_COMPONENTS})
+find_package(catkin QUIET OPTIONAL_COMPONENTS ${ARDRONE_VSLAM_ROS_COMPONENTS})  # so that all that miss are named at once
 
 set(ARDRONE_VSLAM_WITH_ROS FALSE)
 if(NOT catkin_FOUND)
@@ -21,6 +21,7 @@ if(missing)
     "ROS by -DCMAKE_DISABLE_FIND_PACKAGE_catkin=1.")
 endif()
 set(ARDRONE_VSLAM_WITH_ROS TRUE)
+find_package(catkin REQUIRED COMPONENTS ${ARDRONE_VSLAM_ROS_COMPONENTS})
 
 file(GLOB message_files RELATIVE ${PROJECT_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
 add_message_files(DIRECTORY msg FILES ${message_files})
@@ -30,5 +31,5 @@ generate_messages(DEPENDENCIES std_msgs geometry_msgs)
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES ${PROJECT_NAME}
-  CATKIN_DEPENDS message_runtime std_msgs geometry_msgs sensor_msgs nav_msgs
+  CATKIN_DEPENDS message_runtime roscpp nodelet std_msgs std_srvs geometry_msgs sensor_msgs nav_msgs visualization_msgs
   DEPENDS EIGEN3)

@@ -9,7 +9,10 @@
 #include <fstream>
 #include <iostream>
 
+#include "ardrone_vslam/landmark.hpp"
 #include "landmarks/simulated_street.hpp"
+#include "map/landmark_map.hpp"
+#include "matching/association.hpp"
 #include "program/tool_main.hpp"
 #include "run/offline_run.hpp"
 #include "sequences/sequence.hpp"
@@ -53,7 +56,8 @@ Scene streetWith(int features) {
     addStreet(world, scene.path, street, 1);
     scene.frames.clear();
     for (const StampedPose& pose : scene.path.poses()) {
-      scene.frames.push_back({world.look(pose.T_map_base * forwardCamera(), pose.stamp_ns), {}});
+      TrackedFrame& frame = scene.frames.emplace_back();
+      frame.features = world.look(pose.T_map_base * forwardCamera(), pose.stamp_ns);
     }
     seen_of_10000 = static_cast<double>(scene.frames[kWarmUp].features.size());
   }
@@ -92,8 +96,7 @@ struct Cost {
   double map_ms = 0;
 };
 
-/// Over the frames that used tracks: between its keyframes the MSCKF does next to
-/// nothing.
+/// Over the frames that used tracks: between its keyframes the MSCKF does next to nothing.
 double medianOf(const std::vector<RunFrame>& frames,
                 const std::function<double(const RunFrame&)>& value) {
   std::vector<double> values;
@@ -205,18 +208,20 @@ void write(std::ostream& out, const char* series, const Cost& c) {
       << ',' << c.associate_ms << ',' << c.localise_ms << ',' << c.map_ms << std::endl;
 }
 
-int run(const std::string& path) {
+int run(const std::string& path, bool quick) {
   std::ofstream out(path);
   if (!out) throw std::runtime_error(path + ": cannot be written; choose another --out");
   out << "series,features,landmarks,in_view,tracks,associate_ms,localise_ms,map_ms\n";
-  for (const int features : {50, 100, 200, 400, 600, 1000, 1500, 2000}) {
+  using Counts = std::vector<int>;
+  for (const int features : quick ? Counts{50} : Counts{50, 100, 200, 400, 600, 1000, 1500, 2000}) {
     const Scene scene = streetWith(features);
     write(out, "thesis", costOf(scene, EstimatorKind::kThesis));
     write(out, "msckf", costOf(scene, EstimatorKind::kMsckf));
     std::cerr << features << " features\n";
   }
-  const Scene scene = streetWith(600);
-  for (const int landmarks : {1000, 3000, 10000, 30000, 100000, 300000, 1000000}) {
+  const Scene scene = streetWith(quick ? 50 : 600);
+  for (const int landmarks :
+       quick ? Counts{1000} : Counts{1000, 3000, 10000, 30000, 100000, 300000, 1000000}) {
     write(out, "map", costOfMap(scene, landmarks));
     std::cerr << landmarks << " landmarks\n";
   }
@@ -229,5 +234,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Measures what a frame costs the mapper.", "mapping_cost"};
   std::string out;
   app.add_option("--out", out, "csv, a line a measurement")->required();
-  return runTool(app, argc, argv, [&out] { return run(out); });
+  bool quick = false;
+  app.add_flag("--quick", quick, "only the smallest of each series");
+  return runTool(app, argc, argv, [&] { return run(out, quick); });
 }

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What vslam_onboard and a flight controller tell each other, by UDP or as the same records one after the other in a file
- * or FIFO. C99 without libraries, so that a controller generated from Simulink can include it. All numbers are little
- * endian whatever the processor; doubles are IEEE 754. Lengths in metres, angles in radians, stamps in nanoseconds of one
- * clock (CLOCK_MONOTONIC by default) for images and observer. Quaternions are x, y, z, w.
+ * What vslam_onboard and a flight controller tell each other, by UDP or as the same records one
+ * after the other in a file or FIFO. C99 without libraries, so that a controller generated from
+ * Simulink can include it. All numbers are little endian whatever the processor; doubles are IEEE
+ * 754. Lengths in metres, angles in radians, stamps in nanoseconds of one clock (CLOCK_MONOTONIC by
+ * default) for images and observer. Quaternions are x, y, z, w.
  *
- * Each record: magic, version, kind, size, sequence, fields in the order below, CRC-32 (as zlib's) of all bytes before it.
+ * Each record: magic, version, kind, size, sequence, fields in the order below, CRC-32 (as zlib's)
+ * of all bytes before it.
  *
  * A controller sends, for each state of its observer:
  *   VslamObserver o;
@@ -62,35 +64,38 @@ enum {
 
 /* The controller's estimate of one instant. */
 typedef struct VslamObserver {
-  uint32_t sequence;    /* one more for each record; one that is not newer is dropped */
-  uint32_t flags;       /* VSLAM_OBSERVER_HAS_... */
+  uint32_t sequence; /* one more for each record; one that is not newer is dropped */
+  uint32_t flags;    /* VSLAM_OBSERVER_HAS_... */
   int64_t stamp_ns;
   double position_m[3]; /* of base in odom: the frame that drifts, z up */
   double quaternion[4]; /* base to odom; base: x forward, y left, z up */
-  double variance[6];   /* position [m^2], rotation vector [rad^2], axes of odom; their growth tells the drift. Beyond 0 ..
-                           1e4 m^2 they count as not given */
+  double variance[6];   /* position [m^2], rotation vector [rad^2], axes of odom; their growth tells
+                           the drift. Beyond 0 .. 1e4 m^2 they count as not given */
   double height_m;      /* of base above the floor, measured at the stamp */
 } VslamObserver;
 
-/* The answer to one image; without VSLAM_POSE_IS_VALID only sequence, state and counters mean something. */
+/* The answer to one image; without VSLAM_POSE_IS_VALID only sequence, state and counters mean
+ * something. */
 typedef struct VslamPose {
   uint32_t sequence;
-  uint32_t flags;               /* VSLAM_POSE_IS_VALID */
+  uint32_t flags; /* VSLAM_POSE_IS_VALID */
   uint32_t state;
-  int64_t stamp_ns;             /* the image's; the pose is of its exposure: that plus image_time_offset_s */
-  double position_m[3];         /* fused, of base in map: equals odom at the first image */
-  double quaternion[4];         /* base to map */
-  double deviation[6];          /* standard deviations: position [m], rotation vector [rad], axes of map */
-  double observer_position_m[3]; /* the observer's estimate at that instant that the fused pose started from, in odom */
+  int64_t stamp_ns; /* the image's; the pose is of its exposure: that plus image_time_offset_s */
+  double position_m[3]; /* fused, of base in map: equals odom at the first image */
+  double quaternion[4]; /* base to map */
+  double deviation[6];  /* standard deviations: position [m], rotation vector [rad], axes of map */
+  double observer_position_m[3]; /* the observer's estimate at that instant that the fused pose
+                                    started from, in odom */
   double observer_quaternion[4];
-  uint32_t frames_dropped;      /* newer ones came, bad stamps, or no observer: since the start */
-  uint32_t records_dropped;     /* observer records: short, corrupted, old, out of bounds */
-  uint32_t landmarks;           /* in the map */
+  uint32_t frames_dropped;  /* newer ones came, bad stamps, or no observer: since the start */
+  uint32_t records_dropped; /* observer records: short, corrupted, old, out of bounds */
+  uint32_t landmarks;       /* in the map */
 } VslamPose;
 
 static inline uint32_t vslam_crc32(const uint8_t* bytes, size_t count) {
-  static const uint32_t kNibble[16] = {0x00000000u, 0x1DB71064u, 0x3B6E20C8u, 0x26D930ACu, 0x76DC4190u, 0x6B6B51F4u,
-                                       0x4DB26158u, 0x5005713Cu, 0xEDB88320u, 0xF00F9344u, 0xD6D6A3E8u, 0xCB61B38Cu,
+  static const uint32_t kNibble[16] = {0x00000000u, 0x1DB71064u, 0x3B6E20C8u, 0x26D930ACu,
+                                       0x76DC4190u, 0x6B6B51F4u, 0x4DB26158u, 0x5005713Cu,
+                                       0xEDB88320u, 0xF00F9344u, 0xD6D6A3E8u, 0xCB61B38Cu,
                                        0x9B64C2B0u, 0x86D3D2D4u, 0xA00AE278u, 0xBDBDF21Cu};
   uint32_t crc = 0xFFFFFFFFu;
   size_t i;
@@ -166,9 +171,9 @@ static inline void vslam_put_crc(uint8_t* record, size_t size) {
 /* What a record is worth. */
 typedef enum VslamFault {
   VSLAM_GOOD = 0,
-  VSLAM_WRONG_SIZE,    /* shorter or longer than it says or must be */
-  VSLAM_WRONG_KIND,    /* another magic, version or kind */
-  VSLAM_CORRUPTED      /* its CRC is another */
+  VSLAM_WRONG_SIZE, /* shorter or longer than it says or must be */
+  VSLAM_WRONG_KIND, /* another magic, version or kind */
+  VSLAM_CORRUPTED   /* its CRC is another */
 } VslamFault;
 
 static inline VslamFault vslam_check(const uint8_t* record, size_t count, int kind, size_t size) {
@@ -176,13 +181,15 @@ static inline VslamFault vslam_check(const uint8_t* record, size_t count, int ki
   if (count < VSLAM_HEADER_BYTES) return VSLAM_WRONG_SIZE;
   vslam_get(record, &magic, 4);
   vslam_get(record + 6, &said, 2);
-  if (magic != VSLAM_MAGIC || record[4] != VSLAM_VERSION || record[5] != kind) return VSLAM_WRONG_KIND;
+  if (magic != VSLAM_MAGIC || record[4] != VSLAM_VERSION || record[5] != kind)
+    return VSLAM_WRONG_KIND;
   if (said != size || count != size) return VSLAM_WRONG_SIZE;
   vslam_get(record + size - VSLAM_CRC_BYTES, &crc, 4);
   return crc == vslam_crc32(record, size - VSLAM_CRC_BYTES) ? VSLAM_GOOD : VSLAM_CORRUPTED;
 }
 
-static inline void vslam_write_observer(const VslamObserver* o, uint8_t record[VSLAM_OBSERVER_BYTES]) {
+static inline void vslam_write_observer(const VslamObserver* o,
+                                        uint8_t record[VSLAM_OBSERVER_BYTES]) {
   uint8_t* to = vslam_put_header(record, VSLAM_KIND_OBSERVER, VSLAM_OBSERVER_BYTES, o->sequence);
   to = vslam_put(to, o->flags, 4);
   to = vslam_put(to, (uint64_t)o->stamp_ns, 8);
@@ -194,7 +201,8 @@ static inline void vslam_write_observer(const VslamObserver* o, uint8_t record[V
 }
 
 /* `observer` is written only when the answer is VSLAM_GOOD. */
-static inline VslamFault vslam_read_observer(const uint8_t* record, size_t count, VslamObserver* observer) {
+static inline VslamFault vslam_read_observer(const uint8_t* record, size_t count,
+                                             VslamObserver* observer) {
   const VslamFault fault = vslam_check(record, count, VSLAM_KIND_OBSERVER, VSLAM_OBSERVER_BYTES);
   if (fault != VSLAM_GOOD) return fault;
   record = vslam_get_u32(record + 8, &observer->sequence);

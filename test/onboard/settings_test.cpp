@@ -7,6 +7,7 @@
 
 #include "flight_records.hpp"
 #include "test_paths.hpp"
+#include "protocol/udp.hpp"
 #include "yaml/calibration.hpp"
 #include "yaml/yaml_sections.hpp"
 

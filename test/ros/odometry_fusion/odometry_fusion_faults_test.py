@@ -1,7 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The standalone odometry_fusion node, given what must not be: it says what is wrong, counts it, and goes on
-as if nothing had been."""
+as if nothing had been.
+
+Odometry and corrections come on two connections, so that the node may take in the one's messages before earlier ones of
+the other. Where the order matters, the tests wait until the node has told what it took in."""
 import math
 import os
 import sys
@@ -12,7 +15,7 @@ import rospy
 import rostest
 from ardrone_vslam.msg import PoseCorrection
 from diagnostic_msgs.msg import DiagnosticArray
-from nav_msgs.msg import Odometry
+from nav_msgs.msg import Odometry, Path
 from rosgraph_msgs.msg import Log
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -32,22 +35,26 @@ class Faults(unittest.TestCase):
         cls.live = Recorder("/odometry_live", Odometry)
         cls.log = Recorder("/rosout", Log)
         cls.diagnostics = Recorder("/diagnostics", DiagnosticArray)
+        cls.used = Recorder("/repropagated", Path)  # one for each correction that is used, with its stamp
         end_s = time.monotonic() + TIMEOUT_S
         while not (cls.odometry_pub.get_num_connections() and cls.correction_pub.get_num_connections()
-                   and cls.live.connected()):
+                   and cls.live.connected() and cls.diagnostics.connected() and cls.used.connected()):
             if time.monotonic() > end_s:
                 raise RuntimeError("the node does not subscribe")
             time.sleep(0.05)
         cls.first_s = cls.time_s = 10000.0
+        cls.restarts = -1  # the first run is none
 
     def setUp(self):
         """A new run: time goes back, and only a second of odometry is known."""
-        time.sleep(0.25)  # sentences that come closer upon each other are not all logged
         self.begin_anew()
+        self.wait_counted("restarts", self.restarts)
+        time.sleep(0.25)  # sentences that come closer upon each other are not all logged
 
     def begin_anew(self):
         """@return the stamps of the first second"""
         cls = type(self)
+        cls.restarts += 1
         cls.first_s -= 100.0
         cls.time_s = cls.first_s
         return [self.step() for _ in range(10)]
@@ -108,25 +115,37 @@ class Faults(unittest.TestCase):
         self.fail("%s is %d, not %d" % (key, self.counted(key), expected))
 
     def correct(self, message):
-        """Sends it, and odometry until it is in use."""
+        """Sends it, and odometry once it is in use."""
         self.correction_pub.publish(message)
-        self.fly_until(message.fused_pose.pose.position.y)
+        self.await_used(message)
+
+    def await_used(self, correction):
+        self.assertIsNotNone(self.used.wait(lambda path: path.header.stamp == correction.header.stamp), "the correction is not used")
+        self.assertTrue(self.is_left(self.answer(self.step()), correction.fused_pose.pose.position.y))
+
+    def is_left(self, answer, left_m):
+        """Of the newest odometry's answer."""
+        self.assertIsNotNone(answer, "no answer to the odometry")
+        self.assertAlmostEqual(answer.pose.pose.position.x, SPEED_M_S * (self.time_s - self.first_s), 6)
+        self.assertTrue(all(math.isfinite(n) for n in answer.pose.covariance))
+        return abs(answer.pose.pose.position.y - left_m) < 1e-9
 
     def fly_until(self, left_m):
-        end_s = time.monotonic() + TIMEOUT_S
-        while time.monotonic() < end_s:
-            stamp = self.step()
-            time.sleep(0.05)
-            for answer in self.live.all():
-                if answer.header.stamp == stamp and abs(answer.pose.pose.position.y - left_m) < 1e-9:
-                    self.assertAlmostEqual(answer.pose.pose.position.x,
-                                           SPEED_M_S * (self.time_s - self.first_s), 6)
-                    self.assertTrue(all(math.isfinite(n) for n in answer.pose.covariance))
-                    return
-        self.fail("no odometry %g m to the left" % left_m)
+        """For as long as the node keeps odometry."""
+        if not any(self.is_left(self.answer(self.step()), left_m) for _ in range(20)):
+            self.fail("no odometry %g m to the left" % left_m)
+
+    def send_ahead(self, *corrections):
+        """Of odometry to come; waits until the node has them: it counts a last one that it refuses."""
+        before = self.counted("corrections refused")
+        last = self.correction(0)
+        last.fused_pose.pose.orientation.w = 0
+        for message in [*corrections, last]:
+            self.correction_pub.publish(message)
+        self.wait_counted("corrections refused", before + 1)
 
     def assert_said(self, *parts):
-        said = self.log.wait(lambda log: all(part in log.msg for part in parts), 5)
+        said = self.log.wait(lambda log: all(part in log.msg for part in parts))
         self.assertIsNotNone(said, "nothing in the log with %s" % (parts,))
 
     def refuse(self, message, *said):
@@ -142,41 +161,38 @@ class Faults(unittest.TestCase):
 
     def test_nothing_before_the_first_correction(self):
         stamps = [self.step() for _ in range(5)]
-        self.correct(self.correction(0.3, 1.0))
-        said = {o.header.stamp for o in self.live.all()}
-        self.assertFalse(said & set(stamps))
+        first = self.correction(-0.15, 1.0)
+        self.correction_pub.publish(first)
+        stamps.append(self.step())
+        self.step()
+        self.await_used(first)
+        self.assertFalse({o.header.stamp for o in self.live.all()} & set(stamps))
 
     def test_it_says_that_no_correction_comes(self):
-        end_s = time.monotonic() + 6
-        while time.monotonic() < end_s:
+        end_s = time.monotonic() + TIMEOUT_S
+        while time.monotonic() < end_s and not any("no correction on /correction yet" in log.msg for log in self.log.all()):
             self.step()
             time.sleep(0.1)
         self.assert_said("no correction on /correction yet")
 
     def test_it_says_that_no_odometry_comes(self):
-        time.sleep(5)
         self.assert_said("no odometry on /odometry")
 
     def test_a_correction_before_its_odometry_waits(self):
         self.correct(self.correction(0.05, 0.25))
-        early = self.correction(-0.15, 0.75)
-        self.correction_pub.publish(early)
-        time.sleep(0.3)
-        self.assertAlmostEqual(self.answer(self.step()).pose.pose.position.y, 0.25)
+        self.send_ahead(self.correction(-0.15, 0.75))
+        self.assertTrue(self.is_left(self.answer(self.step()), 0.25))
         self.fly_until(0.75)
 
     def test_a_correction_that_was_overtaken_leaves_those_that_wait(self):
         self.correct(self.correction(0.05, 0.25))
-        newer, older = self.correction(-0.65, 0.75), self.correction(-0.35, 0.5)
-        self.correction_pub.publish(newer)
-        self.correction_pub.publish(older)
+        self.send_ahead(self.correction(-0.65, 0.75), self.correction(-0.35, 0.5))
         self.fly_until(0.5)
         self.fly_until(0.75)
 
     def test_a_correction_of_a_mapper_that_began_anew_voids_those_that_wait(self):
         self.correct(self.correction(0.05, 0.25))
-        self.correction_pub.publish(self.correction(-1.65, 0.75))
-        self.correction_pub.publish(self.correction(-0.35, 0.5))
+        self.send_ahead(self.correction(-1.65, 0.75), self.correction(-0.35, 0.5))
         self.fly_until(0.5)
         for _ in range(20):
             stamp = self.step()
