@@ -59,7 +59,7 @@ def quality(tools):
         rows.append([label, *(percent(_at(charts[name], method, x, "matching_score")) for method in (ours, orb, brisk))])
     section.table(["share of the features matched correctly", ours, orb, brisk], rows)
     section.text(f"On {measured['sweep_images']}. The thesis takes these figures from a table on the web that names neither pictures nor criterion. It reads from them that ORB is the "
-                 "most robust to blur and scale, that FREAK beats BRISK there, and that BRISK beats FREAK when turned. ORB's place is found again, FREAK's is not. Here it sits on "
+                 "most robust to blur and scale. FREAK beats BRISK there, and BRISK beats FREAK when turned. ORB's place is found again, FREAK's is not. Here it sits on "
                  "corners of one scale, as on the drone, where the sources' SURF had given it a scale. So it fails below half and above twice the size. When blurred, FAST's corners at "
                  "one scale fade before those of pyramids, and FREAK is a little behind BRISK. Turned pictures it matches as well as BRISK, and better when told the roll "
                  "(`use_attitude`).")

@@ -99,8 +99,7 @@ def kitti(tools):
     section.picture("street_matches", draw_matches_over_time(rows), "Matches over time (figure 7.6)")
     section.picture("street_error", errors_over_images(tools, both), "Error of the position by landmarks alone (figure 7.5)")
     section.picture("street_error_matches", errors_against_matches(tools, both), "The same against matches, and how many matches there are (figure 7.7)")
-    section.text("Why they differ: the thesis compares all descriptors with all and ends with 11 matches of 1000 features, and a wrong one among one or two of them made its "
-                 "26 m. Here landmarks are looked for where the prediction puts them (`association`), which matches more than ten times as many. So no single mismatch decides. Even "
+    section.text("Why they differ: the thesis compares all descriptors with all and ends with 11 matches of 1000 features. A wrong one among one or two of them made its 26 m. Here landmarks are looked for where the prediction puts them (`association`), which matches more than ten times as many. So no single mismatch decides. Even "
                  "with as few matches as there the largest error stays far below. The thesis's histogram has Rayleigh's shape with its "
                  f"mode at {thesis.KITTI_MATCHES_MODE}; with as few matches ours is nearly symmetric about its mean.")
     section.claim("mean error by landmarks alone, over the thesis's 0.158 m", fixes.mean() / thesis.KITTI_MEAN_M, high=0.5)
@@ -269,9 +268,9 @@ def thresholds(tools):
     section.picture("thresholds", figure, "Errors and matches against the mismatch threshold and the least number of landmarks")
     narrow, wide = values["mismatch threshold [px]"][8], values["mismatch threshold [px]"][64]
     one, six = values["least number of landmarks"][1], values["least number of landmarks"][6]
-    section.text("With a good prediction it is not: beyond the default of 8 px a threshold eight times as wide brings hardly any matches, and what it brings is wrong. With one that drifts the "
+    section.text("With a good prediction it is not. A threshold eight times as wide as the default of 8 px brings hardly any matches, and what it brings is wrong. With one that drifts the "
                  f"threshold moves the result by a few per cent ({digits(min(drifting))} to {digits(max(drifting))}). More landmarks for a fix lower the "
-                 "largest error, at the price of images without one; with as many matches as the tracker normally finds it makes no difference.")
+                 "largest error, at the price of images without one. With as many matches as the tracker normally finds it makes no difference.")
     section.claim("matches at 64 px over those at 8 px", wide[2] / narrow[2], 1, 1.2)
     section.claim("mean error at 64 px over that at 8 px", wide[0] / narrow[0], low=1.4)
     section.claim("largest error with at least 6 landmarks over that with 1", six[1] / one[1], high=1.0)

@@ -33,8 +33,8 @@ def detectors(tools):
     measured = tools.measure("detectors")
     section = Section("Tables 3.1 to 3.5: detectors")
     stand_ins = {one["name"]: one["stands_for"] for one in measured["detectors"]}
-    section.text("The thesis quotes a comparison of OpenCV's detectors on four pictures of 512x512. Debian's OpenCV has neither SURF nor STAR: SIFT stands "
-                 "in for SURF (both look for blobs over a scale space), AKAZE for STAR (both compute their scales in the full size). Barbara is not at hand"
+    section.text("The thesis quotes a comparison of OpenCV's detectors on four pictures of 512x512. Debian's OpenCV has neither SURF nor STAR: SIFT stands in for SURF, as both look for "
+                 "blobs over a scale space. AKAZE stands in for STAR, as both compute their scales in the full size. Barbara is not at hand"
                  + ("." if tools.data else ", nor are the others here: rendered views stand in for all four."))
     for picture in measured["pictures"]:
         section.text(f"**{picture}**")
@@ -81,8 +81,8 @@ def repeatability(tools):
     noise = measured["noise_grey"]
     section.text(f"Measured on {measured['what']}; a corner is repeated when the other picture has one within 2 px of where the truth puts it. The thesis "
                  "copies Rosten's curves (the smaller s, the better) and does not print numbers. Found again: at a noise of 12 the 500 strongest corners "
-                 f"repeat to {percent(at[9, noise, 500])} with s = 9, {percent(at[12, noise, 500])} with 12 and {percent(at[16, noise, 500])} with 16. FAST-9 "
-                 "repeats better than the thesis's FAST-12, which is the default all the same: it takes less time, and the pose's error shows no difference "
+                 f"repeat to {percent(at[9, noise, 500])} with s = 9, {percent(at[12, noise, 500])} with 12 and {percent(at[16, noise, 500])} with 16. FAST-9 repeats better than the "
+                 "thesis's FAST-12. That is the default all the same: it takes less time, and the pose's error shows no difference "
                  "([tuning.md](tuning.md), `arc_length_px`).")
     section.claim("repeatability at noise 12, 500 corners, s = 9", at[9, noise, 500], 0.6, 0.9)
     section.claim("the same of s = 12, over s = 9", at[12, noise, 500] / at[9, noise, 500], 0.6, 0.95)
@@ -109,11 +109,10 @@ def corner_speed(tools):
     axes.set_ylabel("time of an image of 320x240 [ms]")
     axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
     section.picture("corner_speed", figure, "Time of FAST against the number of corners")
-    section.text("Figures 3.6 to 3.8 were measured on the drone, where Rosten's FAST of 2000 lines of if and else took more than 33 ms and the thesis's compact "
-                 "form half of that. Here the compact form is `kernels/fast/fast_scalar.cpp` (initial test, order (3.3)), each pixel alone. It is what a DSP without vector instructions "
+    section.text("Figures 3.6 to 3.8 were measured on the drone. There Rosten's FAST of 2000 lines of if and else took more than 33 ms, and the thesis's compact form half of that. Here the compact form is `kernels/fast/fast_scalar.cpp` (initial test, order (3.3)), each pixel alone. It is what a DSP without vector instructions "
                  "would run. `cv::FAST`, which descends from Rosten's, and this package's own default (table above) have vector instructions. That is a different class. As printed, fewer corners cost less time. "
-                 "For the same image and threshold s = 12 costs less than s = 9 where there are many corners, and a little more where there are few. There three of the four first "
-                 "pixels have to be looked at, while for s = 9 two neighbours decide. \"By definition\" looks at all arcs of every pixel, the naive way, and takes the same time "
+                 "For the same image and threshold, s = 12 costs less than s = 9 where there are many corners. Where there are few it costs a little more. Three of the four first "
+                 "pixels have to be looked at then, while for s = 9 two neighbours decide. \"By definition\" looks at all arcs of every pixel, the naive way, and takes the same time "
                  "whatever it finds. It stands for the lack of an initial test. The \"original FAST\" is another one: in print it is half as fast as FAST-12.")
     by_name = {one["name"]: one["corners"] for one in small}
     section.claim("corners of FAST-12 over those by definition", by_name[OURS] / by_name["FAST-12 by definition, no initial test"], 1, 1)

@@ -26,7 +26,7 @@ def sentences_of(page):
         text = re.sub(r"\]\([^)]*\)", "]", text)  # a link's address is not read
         text = re.sub(r"`[^`]*`", "CODE", text)
         text = re.sub(r"@ref \S+ ", "", text)
-        yield from (sentence for sentence in re.split(r"""(?<=[.!?])[*)"_]*\s+(?=[("*\[_]*[A-Z0-9])""", text) if sentence)
+        yield from (sentence for sentence in re.split(r"""(?<=[.!?])[*)"_]*\s+(?=[("*_]*(?:\[|[A-Z0-9]))""", text) if sentence)
 
 
 def words_in(sentence):
