@@ -71,6 +71,12 @@ class PagesTest(unittest.TestCase):
         self.assertEqual([str(page.relative_to(ROOT)) for page in PAGES if page not in reached], [])
 
 
+class RoomsTest(unittest.TestCase):
+    def test_every_room_of_the_core_is_named_and_none_that_is_not_there(self):
+        named = set(re.findall(r"`src/(\w+)`", (ROOT / "docs/rooms.md").read_text(encoding="utf-8")))
+        self.assertEqual(named, {path.name for path in (ROOT / "src").iterdir() if path.is_dir()})
+
+
 class DataPathTest(unittest.TestCase):
     def test_it_names_files_that_exist_and_not_too_many(self):
         text = DATA_PATH.read_text(encoding="utf-8")
