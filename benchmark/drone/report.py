@@ -79,7 +79,8 @@ def main():
         arguments.page.write_text(
             "# Instructions a frame on the drone\n\n"
             "Made by `scripts/drone_cost --page`; do not edit. Millions of executed instructions a frame, mean of "
-            f"{frames} frames of `laps`, counted by an emulated Cortex-A8: equal from run to run. "
+            f"the first {frames} frames of `laps`, counted by an emulated Cortex-A8: equal from run to run. A frame of a long flight "
+            "costs more, about twice as much over ten minutes ([why](../docs/onboard.md#what-a-frame-costs-and-what-makes-it-cheaper)). "
             "Instructions are not cycles: on the Cortex-A8 one of scalar VFP takes about ten, a move from NEON to the core about "
             "twenty. Reading the image from its file is not counted.\n\n" + text + "\n")
     for fault in faults:

@@ -58,10 +58,11 @@ def quality(tools):
     for name, x, label in (("rotation", 30, "turned by 30 degrees"), ("scale", 0.8, "scaled by 0.8"), ("blur", 1, "blurred, sigma 1 px")):
         rows.append([label, *(percent(_at(charts[name], method, x, "matching_score")) for method in (ours, orb, brisk))])
     section.table(["share of the features matched correctly", ours, orb, brisk], rows)
-    section.text(f"On {measured['sweep_images']}. The thesis takes these figures from a table on the web that names neither pictures nor criterion, and reads from "
-                 "them: ORB is the most robust to blur and scale, FREAK beats BRISK there, and BRISK beats FREAK when turned. ORB's place is found again. FREAK's is not: here it sits on "
-                 "corners of one scale, as on the drone, where the sources' SURF had given it one, so it fails below half and above twice the size; blurred, FAST's corners at one "
-                 "scale fade before those of pyramids, and it is a little behind BRISK. Turned pictures it matches as well as BRISK, and better when told the roll (`use_attitude`).")
+    section.text(f"On {measured['sweep_images']}. The thesis takes these figures from a table on the web that names neither pictures nor criterion. It reads from them that ORB is the "
+                 "most robust to blur and scale. FREAK beats BRISK there, and BRISK beats FREAK when turned. ORB's place is found again, FREAK's is not. Here it sits on "
+                 "corners of one scale, as on the drone, where the sources' SURF had given it a scale. So it fails below half and above twice the size. When blurred, FAST's corners at "
+                 "one scale fade before those of pyramids, and FREAK is a little behind BRISK. Turned pictures it matches as well as BRISK, and better when told the roll "
+                 "(`use_attitude`).")
     section.claim("matching score when turned by 30 degrees, over cv::BRISK's",
                   _at(charts["rotation"], ours, 30, "matching_score") / _at(charts["rotation"], brisk, 30, "matching_score"), 0.8, 1.25)
     section.claim("matching score at sigma 1 px, over cv::ORB's",

@@ -33,8 +33,8 @@ def detectors(tools):
     measured = tools.measure("detectors")
     section = Section("Tables 3.1 to 3.5: detectors")
     stand_ins = {one["name"]: one["stands_for"] for one in measured["detectors"]}
-    section.text("The thesis quotes a comparison of OpenCV's detectors on four pictures of 512x512. Debian's OpenCV has neither SURF nor STAR: SIFT stands "
-                 "in for SURF (both look for blobs over a scale space), AKAZE for STAR (both compute their scales in the full size). Barbara is not at hand"
+    section.text("The thesis quotes a comparison of OpenCV's detectors on four pictures of 512x512. Debian's OpenCV has neither SURF nor STAR: SIFT stands in for SURF, as both look for "
+                 "blobs over a scale space. AKAZE stands in for STAR, as both compute their scales in the full size. Barbara is not at hand"
                  + ("." if tools.data else ", nor are the others here: rendered views stand in for all four."))
     for picture in measured["pictures"]:
         section.text(f"**{picture}**")
@@ -44,8 +44,8 @@ def detectors(tools):
     section.table(["detector", "thesis: features", "here", "thesis: us a feature", "here", "thesis: tracking error [px]", "here"],
                   [_mean_row(measured, one) for one in measured["detectors"]])
     section.text(f"Why they differ: the machine is some {_median_speed_up(measured)} times as fast as the source's, which prints no thresholds. "
-                 f"cv::FAST without suppression is shown at {measured['fast_threshold']} grey levels, " +
-                 ("where it finds the thesis's number in mandrill but fewer in the others, so its thresholds differed from picture to picture. "
+                 f"Here `cv::FAST` is shown without suppression, at {measured['fast_threshold']} grey levels, " +
+                 ("where it finds the thesis's number in mandrill but fewer in the others. So the source's thresholds differed from picture to picture. "
                   if "mandrill" in measured["pictures"] else "OpenCV's usual threshold less or more. ") +
                  "This package's corners have passed the suppression, at a threshold of 35. The conclusion stands: FAST is the fastest, a feature at a fifth of the next one's "
                  "time or less.")
@@ -81,8 +81,8 @@ def repeatability(tools):
     noise = measured["noise_grey"]
     section.text(f"Measured on {measured['what']}; a corner is repeated when the other picture has one within 2 px of where the truth puts it. The thesis "
                  "copies Rosten's curves (the smaller s, the better) and does not print numbers. Found again: at a noise of 12 the 500 strongest corners "
-                 f"repeat to {percent(at[9, noise, 500])} with s = 9, {percent(at[12, noise, 500])} with 12 and {percent(at[16, noise, 500])} with 16. FAST-9 "
-                 "repeats better than the thesis's FAST-12, which is the default all the same: it takes less time, and the pose's error shows no difference "
+                 f"repeat to {percent(at[9, noise, 500])} with s = 9, {percent(at[12, noise, 500])} with 12 and {percent(at[16, noise, 500])} with 16. FAST-9 repeats better than the "
+                 "thesis's FAST-12. That is the default all the same: it takes less time, and the pose's error shows no difference "
                  "([tuning.md](tuning.md), `arc_length_px`).")
     section.claim("repeatability at noise 12, 500 corners, s = 9", at[9, noise, 500], 0.6, 0.9)
     section.claim("the same of s = 12, over s = 9", at[12, noise, 500] / at[9, noise, 500], 0.6, 0.95)
@@ -109,13 +109,11 @@ def corner_speed(tools):
     axes.set_ylabel("time of an image of 320x240 [ms]")
     axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
     section.picture("corner_speed", figure, "Time of FAST against the number of corners")
-    section.text("Figures 3.6 to 3.8 were measured on the drone, where Rosten's FAST of 2000 lines of if and else took more than 33 ms and the thesis's compact "
-                 "form half of that. Here the compact form is `kernels/fast_scalar.cpp` (initial test, order (3.3)), each pixel alone. cv::FAST, which "
-                 "descends from Rosten's, has vector instructions, as has this package's own default (table above): that is a different class, and the "
-                 "scalar form is what a DSP without them would run. As printed, fewer corners cost less time. For the same image and threshold s = 12 costs less than "
-                 "s = 9 where there are many corners and a little more where there are few: three of the four first pixels have to be looked at there, for s = 9 two neighbours "
-                 "decide. \"By definition\" looks at all arcs of every pixel, the naive way, and takes the same time whatever it finds; it stands for the lack of "
-                 "an initial test, not for the \"original FAST\", which is only half as fast as FAST-12 in print.")
+    section.text("Figures 3.6 to 3.8 were measured on the drone. There Rosten's FAST of 2000 lines of if and else took more than 33 ms, and the thesis's compact form half of that. Here the compact form is `kernels/fast/fast_scalar.cpp` (initial test, order (3.3)), each pixel alone. It is what a DSP without vector instructions "
+                 "would run. `cv::FAST`, which descends from Rosten's, and this package's own default (table above) have vector instructions. That is a different class. As printed, fewer corners cost less time. "
+                 "For the same image and threshold, s = 12 costs less than s = 9 where there are many corners. Where there are few it costs a little more. Three of the four first "
+                 "pixels have to be looked at then, while for s = 9 two neighbours decide. \"By definition\" looks at all arcs of every pixel, the naive way, and takes the same time "
+                 "whatever it finds. It stands for the lack of an initial test. The \"original FAST\" is another one: in print it is half as fast as FAST-12.")
     by_name = {one["name"]: one["corners"] for one in small}
     section.claim("corners of FAST-12 over those by definition", by_name[OURS] / by_name["FAST-12 by definition, no initial test"], 1, 1)
     section.claim("corners of FAST-9 over cv::FAST's", by_name["FAST-9 (this package)"] / by_name["cv::FAST 9_16"], 1, 1)
@@ -146,10 +144,11 @@ def sampling(tools):
     section.table(["", "thesis", "here"], [["corners that 4 of 16 passes find", percent(thesis.SHARE_OF_4_PASSES), percent(share["scalar"][3])],
                                            ["8 passes", percent(thesis.SHARE_OF_8_PASSES), percent(share["scalar"][7])]])
     scalar = measured["scalar"]
-    section.text(f"The share is found again. The gain in speed of figure 3.13 (nearly twice the corners a second with 4 passes) is partly: a pixel at a time 4 passes take "
-                 f"{percent(scalar[3]['time_ms'] / scalar[15]['time_ms'])} of the time, {digits(scalar[3]['corners'] / scalar[3]['time_ms'] * scalar[15]['time_ms'] / scalar[15]['corners'])} times "
-                 "the corners a second. 16 passes are cheaper than 15, as all pixels are tested and no climb has to ask for scores. With vector instructions leaving pixels out gains nothing at all "
-                 "([data_path.md](data_path.md)). Hence 16 passes by default.")
+    gain = scalar[3]["corners"] / scalar[3]["time_ms"] * scalar[15]["time_ms"] / scalar[15]["corners"]
+    section.text("The share is found again. The gain in speed of figure 3.13, nearly twice the corners a second with 4 passes, is found in part. A pixel at a time, 4 passes take "
+                 f"{percent(scalar[3]['time_ms'] / scalar[15]['time_ms'])} of the time, which are {digits(gain)} times the corners a second. That is on these images; "
+                 "on KITTI's larger ones there is hardly any ([front_end.md](front_end.md#sampling-passes)). 16 passes are cheaper than 15, as all pixels are tested and no climb has to ask for "
+                 "scores. With vector instructions leaving pixels out gains nothing at all. Hence 16 passes by default.")
     section.claim("share of the corners that 4 passes find", share["scalar"][3], 0.42, 0.65)
     section.claim("share that 8 passes find", share["scalar"][7], 0.72, 0.87)
     section.claim("largest difference between the scalar form's corners and the vector form's", float(np.abs(share["scalar"] - share["vector"]).max()), 0, 0)

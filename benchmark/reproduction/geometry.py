@@ -66,9 +66,10 @@ def mean_deviation(tools):
         ["(C.2), which the thesis makes of it: N / sum(w)", "-", digits(mean["reduced"])],
         ["(6.5) with the fitted weights and W = (sum w)^2", "-", digits(mean["mended"])],
         ["sqrt(N) / sum(1 / sigma)", "-", digits(mean["exact"], 2)]])
-    section.text(f"{measured['inputs']} random inputs for each number of landmarks, deviations even between 0.01 and 1 m, each against the scatter of {measured['runs']} means (6.4). As printed, with W the "
-                 "sum of the squares, the fitted factor cancels out of (6.5) and what is left does not shrink with the number of landmarks, as the true deviation does. With W the square of the sum the same fit "
-                 "is about nine times better than (C.1): the \"ten-fold\" of the text, so that is probably what was computed and (6.5) is misprinted. (C.2) is not what (C.1) becomes with "
+    section.text(f"{measured['inputs']} random inputs for each number of landmarks, deviations even between 0.01 and 1 m, each against the scatter of {measured['runs']} means (6.4). As "
+                 "printed, with W the sum of the squares, the fitted factor cancels out of (6.5). What is left does not shrink with the number of landmarks, as the true deviation does. "
+                 "With W the square of the sum the same fit is about nine times better than (C.1): the \"ten-fold\" of the text. So that is probably what was computed, and (6.5) is "
+                 "misprinted. (C.2) is not what (C.1) becomes with "
                  "these weights. For independent inputs the last formula is exact, and its error here is that of the simulation.")
     wrong = measured["wrong_observer"]
     section.text("The inputs are not independent, though: each position contains the observer's own error along its ray. 50 landmarks in 80 x 52 degrees, the observer half a metre off "
@@ -114,9 +115,9 @@ def landmark_sigma(tools):
     section.table(["theta, parallax [deg]", "distance [m]", "deviation x, y, z [m]", "across the ray [m]", "along it [m]", "(D.1) [m]", "(D.1) over the sine of the parallax"],
                   [[f"{angle['theta_deg']:g}, {angle['parallax_deg']:g}", digits(angle["depth_m"]), ", ".join(digits(value, 2) for value in angle["sigma_m"]),
                     digits(angle["across_m"], 2), digits(angle["along_m"], 2), digits(angle["formula_m"], 2), digits(angle["formula_along_m"], 2)] for angle in angles])
-    section.text(f"{measured['runs']} drawings of table D.1 each; the thesis prints neither its four angles nor numbers. Its shapes are found again: a ball at 45 degrees, an "
-                 "ellipsoid along y that grows as theta shrinks, and a round cloud on the image plane for the smaller angles. (D.1) tells the error across the ray; at 45 degrees it is a little above both "
-                 "projections that the text says it lies between, at the others between them. Of the depth it says nothing: at 2 degrees of parallax the landmark is off along the ray by some thirty times what it says. The package keeps "
+    section.text(f"{measured['runs']} drawings of table D.1 each; the thesis prints neither its four angles nor numbers. Its shapes are found again: a ball at 45 degrees, and an "
+                 "ellipsoid along y that grows as theta shrinks. On the image plane it is a round cloud for the smaller angles. (D.1) tells the error across the ray. The text says that "
+                 "it lies between both projections. At 45 degrees it is a little above them, at the others between them. Of the depth it says nothing: at 2 degrees of parallax the landmark is off along the ray by some thirty times what it says. The package keeps "
                  "the depth's deviation beside it, (D.1) over the sine of the parallax (`depthSigma_m`): the last column.")
     least = angles[-1]
     section.claim("error along the ray over (D.1) at 2 degrees of parallax", least["along_m"] / least["formula_m"], 25, 40)

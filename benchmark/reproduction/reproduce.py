@@ -23,12 +23,14 @@ SECTIONS = {"detectors": front_end.detectors, "repeatability": front_end.repeata
 
 HEAD = """# The thesis, repeated
 
-Written by `scripts/reproduce`, not by hand. This package implements a master thesis, "Visual SLAM on-board an AR.drone 2.0"; each section repeats one of its tables or
-figures with this package's code: what is printed there, what comes out here, and why they differ. Times are of {machine} and are a rough scale; all other
-numbers are the same each time. "Must lie within" is tested (`ctest -R reproduction`, with fewer pictures and frames).
+Written by `scripts/reproduce`, not by hand. This package implements a master thesis, "Visual SLAM on-board an AR.drone 2.0". Each section repeats one of its tables or
+figures with this package's code: what is printed there, what comes out here, and why they differ. Times are of {machine} and are a rough scale. All other
+numbers are the same each time. "Must lie within" is tested (`ctest -R reproduction`, with fewer pictures and frames). What the thesis calls the observer is called
+the odometry on all other pages. "Landmarks alone" is [not free of it](thesis_estimator.md#what-position-by-landmarks-alone-is).
 
-Not repeated are the figures that explain or show and do not measure (1.1, 1.2a, chapter 2, 3.1, 3.2, 3.4, 3.5, 3.9, 3.10, 4.1 to 4.4, chapter 5 but for the lens, chapter 6, 7.1, 7.2) and the times on
-the drone itself.
+Not repeated are the times on the drone itself, and the figures that explain or show and do not measure:
+- 1.1, 1.2a, those of chapter 2, 3.1, 3.2, 3.4, 3.5, 3.9, 3.10, 4.1 to 4.4;
+- those of chapter 5 but for the lens, those of chapter 6, 7.1, 7.2.
 """
 
 

@@ -8,7 +8,7 @@ import subprocess
 from ardrone_vslam_evaluation.faults import MachineFault
 from ardrone_vslam_evaluation.run_folder import read_run
 
-# The thesis's localisation alone: the corrections of the package's own that docs/data_path.md names are off.
+# The thesis's localisation alone: the corrections of the package's own that docs/thesis_estimator.md names are off.
 AS_PRINTED = ("mapper/as_printed=true", "mapper/min_landmarks=1")
 
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "../onboard/onboard_config.hpp"
+#include "../common/configs/onboard_config.hpp"
 #include "ardrone_vslam/slam_config.hpp"
 
 /// What the nodelets read beside the stages' own parameters. Offline tools pass over these keys

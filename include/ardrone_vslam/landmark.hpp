@@ -27,7 +27,7 @@ struct Landmark {
   Ray first_ray;                ///< of the first view, by which it was triangulated
   double parallax_rad = 0;      ///< between the first view and the one of its last triangulation
   double position_variance_m2 = 0;  ///< of the base position, per axis, when the landmark was made
-                                    ///< (common drift, docs/data_path.md)
+                                    ///< (common drift, docs/thesis_estimator.md)
   std::uint32_t anchor_id = 0;      ///< MSCKF: the frame whose error it shares
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< MSCKF: beside that error
   Descriptor descriptor;                                    ///< as seen last

@@ -21,7 +21,7 @@ constexpr double kFarthestCamera_m = 100;  ///< from base
 std::string extrinsicsFault(const Eigen::Isometry3d& T_base_cam);
 
 /// Features and odometry states -> fused poses and a map (thesis algorithm 5; where it departs from
-/// that: docs/data_path.md).
+/// that: docs/thesis_estimator.md).
 class Slam {
  public:
   /// @param T_base_cam  mounting of the camera: optical frame to base

@@ -67,7 +67,7 @@ def rows_of_files(arguments, settings):
     rows = []
     for name, kind, path in sources:
         option = "--odometry-topic" if kind == "odometry" else "--estimate-topic"
-        topic = arguments.observer_topic if kind == "odometry" else arguments.estimate_topic
+        topic = arguments.odometry_topic if kind == "odometry" else arguments.estimate_topic
         trajectory = read_trajectory(path, times, topic, ESTIMATE_TOPICS if kind == "estimate" else (), option)
         check_kinds(trajectory, truth, times)
         rows.append(Row(name, kind, truth, trajectory))
@@ -93,7 +93,7 @@ def _same(one, other):
             and np.array_equal(one.positions_m, other.positions_m))
 
 
-def _observer_row(run, rows, name, settings):
+def _odometry_row(run, rows, name, settings):
     """Of several runs with the same odometry there is one row."""
     for row in rows:
         if row.kind == "odometry" and _same(row.trajectory, run.odometry) and (run.truth is None or _same(row.truth, run.truth)):
@@ -121,18 +121,18 @@ def rows_of_folders(arguments, settings):
         if run.odometry is None:
             notes.append(f"{name}: no odometry.tum, so no comparison with the odometry")
             continue
-        odometry = _observer_row(run, odometries, f"odometry of {name}", settings)
+        odometry = _odometry_row(run, odometries, f"odometry of {name}", settings)
         is_truth = run.summary.get("profile") == "truth"  # nothing to compare with, as in replay
         compare_with_odometry(row, None if is_truth else odometry, run.summary.get("odometry_scale_error"))
         for key in ("sequence", "profile", "seed", "estimator"):
             row.numbers[key] = run.summary.get(key)
     if len(odometries) == 1:
         odometries[0].name = odometries[0].numbers["name"] = "odometry"
-    notes_of_observers(odometries)
+    notes_of_odometries(odometries)
     return in_groups(odometries, estimates), notes
 
 
-def notes_of_observers(odometries):
+def notes_of_odometries(odometries):
     """What lacks is told once, of the run itself."""
     for odometry in odometries:
         odometry.notes.clear()

@@ -48,7 +48,7 @@ class CornerDetector {
   /// @param corners  receives at most `features_per_frame` corners in raster order, no two equal,
   ///   each at least 3 px from the border and with a score of at least its cell's threshold
   /// Cost: 0.16 ms with AVX2, 2.1 ms scalar, for 1242x375 px of a street, FAST-12, 16 passes, 1000
-  /// corners (one core of a 2-core AMD EPYC virtual machine). Fewer passes: docs/data_path.md.
+  /// corners (one core of a 2-core AMD EPYC virtual machine). Fewer passes: docs/front_end.md.
   /// Allocates for the first image of a size only, and if `corners` has no room for
   /// `features_per_frame` + 1.
   void detect(const ImageView& image, std::vector<Corner>& corners);

@@ -40,7 +40,7 @@ class FrameView {
   }
 
   /// How well the position is known: its variance per axis, and whether drift is shared
-  /// (common drift, docs/data_path.md).
+  /// (common drift, docs/thesis_estimator.md).
   void setPositionVariance(double variance_m2, bool common_drift) {
     position_variance_m2_ = variance_m2;
     common_drift_ = common_drift;

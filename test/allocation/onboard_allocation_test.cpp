@@ -6,7 +6,7 @@
 #include "input/frame_stream.hpp"
 #include "input/observer_input.hpp"
 #include "loop/answer_output.hpp"
-#include "onboard/flight_records.hpp"
+#include "test/onboard/flight_records.hpp"
 #include "protocol/telemetry.hpp"
 #include "protocol/udp.hpp"
 

@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "../../nodes/node_config.hpp"
-#include "../../onboard/onboard_config.hpp"
+#include "../../common/configs/node_config.hpp"
+#include "../../common/configs/onboard_config.hpp"
 #include "ardrone_vslam/delayed_fusion.hpp"
 #include "config_file.hpp"
 #include "fake_driver_config.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "onboard/flight_records.hpp"
+#include "test/onboard/flight_records.hpp"
 #include "settings/settings.hpp"
 
 namespace ardrone_vslam::test {

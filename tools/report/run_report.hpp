@@ -42,7 +42,7 @@ bool isNotFinite(const Landmark& landmark);
 
 RunEvaluation evaluate(const RunResult& run, const Trajectory& truth);
 
-/// The numbers of one run (docs/data_path.md explains each). What does not exist is null.
+/// The numbers of one run (docs/summary_keys.md explains each). What does not exist is null.
 nlohmann::ordered_json summaryOf(const RunResult& run, const RunEvaluation& evaluation,
                                  const RunLabel& label);
 

@@ -116,7 +116,8 @@ TEST(ThesisFilter, GateRejectsAndLeavesThePrediction) {
   EXPECT_TRUE(filter.fuse(fixAt({0.149, 0, 0}, 0.04)));
 }
 
-// Landmarks made a moment ago carry the pose's present error (docs/data_path.md, common drift).
+// Landmarks made a moment ago carry the pose's present error (docs/thesis_estimator.md, common
+// drift).
 TEST(CommonDrift, FreshLandmarksCorrectNothing) {
   ThesisFilterConfig config = printedOnly();
   config.common_drift = true;

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The pages that a newcomer reads first are short, and every link of every page leads somewhere."""
+
+import re
+import unittest
+
+from sources import ROOT
+
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *sorted((ROOT / "benchmark").glob("*.md"))]
+DATA_PATH = ROOT / "docs/data_path.md"
+MOST_LINES = 120
+STORY = "## The story"
+
+
+def links_of(page):
+    text = re.sub(r"^ *```.*?^ *```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    return [target for target in re.findall(r"\]\(([^)\s]+)\)", text) if "://" not in target]
+
+
+def anchors_of(page):
+    """As GitHub makes them of headings."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^a-z0-9 _-]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def sources_named_in(text):
+    """The core's files that are linked, each once, in their order."""
+    return list(dict.fromkeys(path for path in re.findall(r"\]\(\.\./((?:src|include)/[\w/]+\.[ch]pp)\)", text)))
+
+
+def with_other_half(path):
+    """The header of a .cpp, the .cpp of a header, wherever it lies."""
+    stem = path.rpartition("/")[2].partition(".")[0]
+    found = [*(ROOT / "src").rglob(f"{stem}.?pp"), *(ROOT / "include").rglob(f"{stem}.hpp")]
+    return [str(other.relative_to(ROOT)) for other in found]
+
+
+def lines_of(path):
+    return len(path.read_text(encoding="utf-8").splitlines())
+
+
+class PagesTest(unittest.TestCase):
+    def test_first_pages_are_short(self):
+        for page in (ROOT / "README.md", DATA_PATH):
+            self.assertLessEqual(lines_of(page), MOST_LINES, page.relative_to(ROOT))
+
+    def test_readme_says_on_its_first_screen_what_was_not_tried(self):
+        first_screen = "".join((ROOT / "README.md").read_text(encoding="utf-8").splitlines(keepends=True)[:30])
+        self.assertIn("Not yet flown on a real drone", first_screen)
+        self.assertIn("| fused |", first_screen)
+
+    def test_links_lead_somewhere(self):
+        wrong = []
+        for page in PAGES:
+            links = links_of(page)
+            for link in links:
+                path, _, anchor = link.partition("#")
+                target = page.parent / path if path else page
+                if not target.exists() or anchor and anchor not in anchors_of(target):
+                    wrong.append(f"{page.relative_to(ROOT)}: {link}")
+        self.assertEqual(wrong, [])
+
+    def test_every_page_is_reached_from_the_readme(self):
+        reached, todo = set(), [ROOT / "README.md"]
+        while todo:
+            page = todo.pop()
+            if page in reached:
+                continue
+            reached.add(page)
+            todo += [(page.parent / link.partition("#")[0]).resolve() for link in links_of(page) if link.partition("#")[0].endswith(".md")]
+        self.assertEqual([str(page.relative_to(ROOT)) for page in PAGES if page not in reached], [])
+
+
+class RoomsTest(unittest.TestCase):
+    def test_every_room_of_the_core_is_named_and_none_that_is_not_there(self):
+        named = set(re.findall(r"`src/(\w+)`", (ROOT / "docs/rooms.md").read_text(encoding="utf-8")))
+        self.assertEqual(named, {path.name for path in (ROOT / "src").iterdir() if path.is_dir()})
+
+
+class DataPathTest(unittest.TestCase):
+    def test_it_names_files_that_exist_and_not_too_many(self):
+        text = DATA_PATH.read_text(encoding="utf-8")
+        story = text[text.index(STORY):]
+        story = story[:story.index("\n## ", len(STORY))]
+        # The goal is 1,500 lines for the story; the rest is room for a change.
+        for name, part, most_files, most_lines in (("the story", story, 15, 1600), ("all", text, 25, 3000)):
+            files = sources_named_in(part)
+            self.assertEqual([path for path in files if not (ROOT / path).is_file()], [])
+            lines = sum(lines_of(ROOT / path) for path in files)
+            pairs = {other for path in files for other in (path, *with_other_half(path))}
+            print(f"docs/data_path.md, {name}: {len(files)} files, {lines} lines; with their headers and .cpp: {len(pairs)} files, "
+                  f"{sum(lines_of(ROOT / path) for path in pairs)} lines")
+            self.assertGreater(len(files), 8)
+            self.assertLessEqual(len(files), most_files, name)
+            self.assertLessEqual(lines, most_lines, name)
+
+
+if __name__ == "__main__":
+    unittest.main()
