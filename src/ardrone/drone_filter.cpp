@@ -192,9 +192,10 @@ void DroneFilter::updateVelocity(const DroneMeasurement& measured, double dt_s) 
   }
   for (int axis = 0; axis < 2; ++axis) {
     const Foreseen felt = drag(x_, measured.R_odom_base);
-    update(measured.force_base_m_s2[axis] - felt.value[axis], felt.jacobian.row(axis),
-           (squared(errors_.force_noise_m_s2_per_sqrt_hz) + squared(errors_.gust_m_s2_per_sqrt_hz)) /
-               sample_s);
+    update(
+        measured.force_base_m_s2[axis] - felt.value[axis], felt.jacobian.row(axis),
+        (squared(errors_.force_noise_m_s2_per_sqrt_hz) + squared(errors_.gust_m_s2_per_sqrt_hz)) /
+            sample_s);
   }
 }
 

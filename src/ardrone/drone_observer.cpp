@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <optional>
 
 #include "ardrone/commanded_flight.hpp"
-#include "ardrone/drone_filter.hpp"
+#include "ardrone/drone_observer_state.hpp"
 #include "ardrone_vslam/rotation.hpp"
-#include "heights/floor_watch.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -70,42 +67,6 @@ DroneMeasurement between(const DroneMeasurement& a, const DroneMeasurement& b, d
 }
 
 }  // namespace
-
-class DroneObserver::State {
- public:
-  explicit State(const DroneFilterConfig& config);
-  Push push(const NavdataReading& packet, std::vector<OdometryState>& ready);
-  Push push(const DroneImu& imu, std::vector<OdometryState>& ready);
-  Push push(const DroneCommandReading& command);
-  void flush(std::vector<OdometryState>& ready);
-  const OdometryFaultCounts& faults() const { return faults_; }
-
- private:
-  void count(OdometryFault fault) { ++faults_[static_cast<std::size_t>(fault)]; }
-  void beginAnew();
-  void release(std::vector<OdometryState>& ready);
-  void releaseFirst(std::vector<OdometryState>& ready);
-  void takeImu(std::vector<NavdataReading>& packets, std::vector<Eigen::Vector3d>& turn_rates);
-  OdometryState advance(NavdataReading packet);
-  void keepYaw(NavdataReading& packet, double dt_s);
-  void fly(const NavdataReading& packet, double dt_s);
-  void bridge(const NavdataReading& packet, double flown_s);
-  void useHeight(const NavdataReading& packet, double dt_s);
-
-  DroneFilterConfig config_;
-  DroneFilter filter_;
-  FloorWatch floor_{kTableStep_m};
-  std::deque<NavdataReading> packets_;  // that wait; stamps do not go back
-  std::deque<DroneImu> imu_;
-  std::deque<DroneCommandReading> commands_;  // of late; stamps do not go back
-  std::int64_t newest_imu_ns_ = 0;            // 0: none
-  std::int64_t newest_packet_ns_ = 0;         // likewise
-  std::int64_t last_group_ns_ = 0;            // stamp of the packets released last; 0: none
-  std::optional<NavdataReading> last_;        // as it was used
-  std::int64_t first_ns_ = 0;
-  double yaw_offset_rad_ = 0;  // of odom from the reported yaw
-  OdometryFaultCounts faults_{};
-};
 
 DroneObserver::State::State(const DroneFilterConfig& config) : config_(config) {
   validate(config);

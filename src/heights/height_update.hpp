@@ -5,7 +5,7 @@
 
 #include "ardrone_vslam/frame_result.hpp"
 #include "ardrone_vslam/msckf_config.hpp"
-#include "msckf/window_state.hpp"
+#include "window/window_state.hpp"
 
 namespace ardrone_vslam {
 

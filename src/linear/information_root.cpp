@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "msckf/window_state.hpp"
+#include "window/window_state.hpp"
 
 namespace ardrone_vslam {
 

@@ -10,7 +10,7 @@
 #include "ardrone_vslam/msckf_config.hpp"
 #include "map_update/innovation_consistency.hpp"
 #include "map_update/map_fix.hpp"
-#include "msckf/window_state.hpp"
+#include "window/window_state.hpp"
 
 namespace ardrone_vslam {
 

@@ -10,7 +10,7 @@
 #include "matching/frame_view.hpp"
 #include "matching/global_matcher.hpp"
 #include "matching/window_search.hpp"
-#include "msckf/track_order.hpp"
+#include "window/track_order.hpp"
 
 namespace ardrone_vslam {
 

@@ -8,7 +8,7 @@
 #include "ardrone_vslam/msckf_config.hpp"
 #include "matching/frame_view.hpp"
 #include "msckf/re_anchoring.hpp"
-#include "msckf/window_state.hpp"
+#include "window/window_state.hpp"
 
 namespace ardrone_vslam {
 

@@ -11,11 +11,11 @@
 #include "heights/height_update.hpp"
 #include "map_update/map_update.hpp"
 #include "msckf/anchors.hpp"
-#include "msckf/track_order.hpp"
+#include "window/track_order.hpp"
 #include "msckf/track_update.hpp"
-#include "msckf/track_window.hpp"
+#include "window/track_window.hpp"
 #include "msckf/watchdog.hpp"
-#include "msckf/window_state.hpp"
+#include "window/window_state.hpp"
 #include "zero_motion/zero_motion_update.hpp"
 
 namespace ardrone_vslam {

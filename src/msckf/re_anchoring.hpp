@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "msckf/window_state.hpp"
+#include "window/window_state.hpp"
 
 namespace ardrone_vslam {
 

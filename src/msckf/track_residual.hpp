@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "msckf/window_state.hpp"
+#include "window/window_state.hpp"
 
 namespace ardrone_vslam {
 

@@ -8,8 +8,8 @@
 
 #include "ardrone_vslam/msckf_config.hpp"
 #include "msckf/track_residual.hpp"
-#include "msckf/track_window.hpp"
-#include "msckf/window_state.hpp"
+#include "window/track_window.hpp"
+#include "window/window_state.hpp"
 
 namespace ardrone_vslam {
 

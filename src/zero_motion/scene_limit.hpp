@@ -5,9 +5,9 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/msckf_config.hpp"
-#include "msckf/track_order.hpp"
-#include "msckf/track_window.hpp"
-#include "msckf/window_state.hpp"
+#include "window/track_order.hpp"
+#include "window/track_window.hpp"
+#include "window/window_state.hpp"
 
 namespace ardrone_vslam {
 

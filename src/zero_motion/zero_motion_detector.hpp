@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "msckf/track_order.hpp"
+#include "window/track_order.hpp"
 
 namespace ardrone_vslam {
 

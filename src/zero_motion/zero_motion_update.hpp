@@ -6,7 +6,7 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/msckf_config.hpp"
-#include "msckf/window_state.hpp"
+#include "window/window_state.hpp"
 #include "zero_motion/zero_motion_detector.hpp"
 
 namespace ardrone_vslam {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "test/onboard/flight_records.hpp"
 #include "settings/settings.hpp"
+#include "test/onboard/flight_records.hpp"
 
 namespace ardrone_vslam::test {
 

@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "flight_records.hpp"
-#include "test_paths.hpp"
 #include "protocol/udp.hpp"
+#include "test_paths.hpp"
 #include "yaml/calibration.hpp"
 #include "yaml/yaml_sections.hpp"
 

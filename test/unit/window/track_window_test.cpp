@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "msckf/track_window.hpp"
+#include "window/track_window.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "ardrone_vslam/rotation.hpp"
 #include "linear/information_root.hpp"
 #include "linear/tiled_product.hpp"
-#include "msckf/window_state.hpp"
+#include "window/window_state.hpp"
 
 namespace ardrone_vslam {
 

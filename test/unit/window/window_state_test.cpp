@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "msckf/window_state.hpp"
+#include "window/window_state.hpp"
 
 #include <gtest/gtest.h>
 

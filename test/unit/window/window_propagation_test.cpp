@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "ardrone_vslam/rotation.hpp"
-#include "msckf/window_state.hpp"
+#include "window/window_state.hpp"
 
 namespace ardrone_vslam {
 namespace {
