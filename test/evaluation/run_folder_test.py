@@ -57,7 +57,7 @@ class RunFolderTest(unittest.TestCase):
     def copied(self, *names):
         folder = tempfile.mkdtemp(dir=self.temporary.name)
         for name in names:
-            shutil.copy(f"{self.runs}/constraint/seed_1/{name}", folder)
+            shutil.copy(f"{self.runs}/msckf/seed_1/{name}", folder)
         return folder
 
     def test_numbers_are_those_of_the_summary(self):
@@ -72,7 +72,7 @@ class RunFolderTest(unittest.TestCase):
             self.assertAlmostEqual(1 - estimate["nees"]["inside_3_sigma"], summary["outside_3_sigma"], places=12)
 
     def test_all_plots_are_drawn(self):
-        page = self.page(f"{self.runs}/constraint/seed_1")[1]
+        page = self.page(f"{self.runs}/msckf/seed_1")[1]
         self.assertEqual(page.count("<img "), 10)
         self.assertNotIn("Left out", page)
 
