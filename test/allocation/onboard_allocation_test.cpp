@@ -8,7 +8,7 @@
 #include "loop/answer_output.hpp"
 #include "protocol/telemetry.hpp"
 #include "protocol/udp.hpp"
-#include "test/onboard/flight_records.hpp"
+#include "onboard/flight_records.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

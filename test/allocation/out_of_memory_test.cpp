@@ -8,7 +8,7 @@
 
 #include "counted_allocations.hpp"
 #include "loop/onboard_loop.hpp"
-#include "test/onboard/flight_fixture.hpp"
+#include "onboard/flight_fixture.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "settings/settings.hpp"
-#include "test/onboard/flight_records.hpp"
+#include "onboard/flight_records.hpp"
 
 namespace ardrone_vslam::test {
 
