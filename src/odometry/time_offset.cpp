@@ -4,8 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 #include "ardrone_vslam/rotation.hpp"
 #include "odometry/time_offset_state.hpp"
@@ -268,39 +266,6 @@ const TimeOffset& TimeOffsetEstimator::estimate() const {
 
 void TimeOffsetEstimator::useCamera(const Eigen::Isometry3d& T_base_cam) {
   state_->useCamera(T_base_cam);
-}
-
-const char* explain(TimeOffsetState state) {
-  switch (state) {
-    case TimeOffsetState::kTooFewImages:
-      return "too few images with tracks and with odometry around them yet";
-    case TimeOffsetState::kTooLittleTurn:
-      return "the camera has not turned to and fro enough yet: yaw left and right";
-    case TimeOffsetState::kDisagreement:
-      return "camera and odometry do not turn alike at any offset: check the camera's mounting "
-             "(tf base -> camera), its calibration and the odometry's attitude";
-    case TimeOffsetState::kOutOfReach:
-      return "the images' stamps and the odometry's are further apart than is looked at: set "
-             "image_time_offset_s nearer to it, and check the clocks";
-    case TimeOffsetState::kKnown:
-      return "";
-  }
-  return "";
-}
-
-std::string adviceOn(const TimeOffset& found, double used_s) {
-  constexpr double kDeviations = 3;
-  constexpr double kSmallest_s = 0.015;
-  const double off_s = std::abs(found.offset_s - used_s);
-  if (found.state != TimeOffsetState::kKnown || off_s < kSmallest_s ||
-      off_s < kDeviations * found.deviation_s)
-    return {};
-  std::ostringstream advice;
-  advice << std::fixed << std::setprecision(3) << "camera and odometry turn alike when images are "
-         << "taken as exposed at their stamps " << (found.offset_s < 0 ? "- " : "+ ")
-         << std::abs(found.offset_s) << " s (deviation " << found.deviation_s << " s), not "
-         << used_s << " s: set image_time_offset_s: " << found.offset_s;
-  return advice.str();
 }
 
 }  // namespace ardrone_vslam
