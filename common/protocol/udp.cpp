@@ -10,7 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "yaml_sections.hpp"
+#include "yaml/yaml_sections.hpp"
 
 namespace ardrone_vslam {
 namespace {

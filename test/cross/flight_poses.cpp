@@ -130,7 +130,7 @@ void run(int argc, char** argv) {
   Tracker tracker(tracker_config, flight.camera());
   Slam slam(slam_config, T_base_cam);
   ImageFeatures features;
-  OdometryBuffer buffer(slam_config.observer);
+  OdometryBuffer buffer(slam_config.odometry);
   OdometryState state;
   for (std::int64_t stamp_ns; (stamp_ns = flight.next(buffer)) >= 0;) {
     if (buffer.at(stamp_ns, state) != OdometryBuffer::Lookup::kFound) continue;
