@@ -11,6 +11,8 @@ namespace ardrone_vslam {
 /// sections of them, one level deep, values that are scalars or lists of scalars in brackets (also
 /// over several lines), comments, quotes. What goes beyond is a fault, not a guess.
 /// Keys outside of any section are in the section "".
+/// Not yaml-cpp: for the drone it would have to be built, too, and linked with iostreams into a
+/// program that is the core and the C library alone.
 using YamlSections = std::map<std::string, std::map<std::string, std::string>>;
 
 /// @param faults  gets a sentence for each line that cannot be read

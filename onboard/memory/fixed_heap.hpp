@@ -12,6 +12,8 @@ namespace ardrone_vslam {
 /// bitmap each, and join their free neighbours (Masmano et al., TLSF: a new dynamic memory
 /// allocator for real-time systems, ECRTS 2004). Of the memory a sixteenth may be lost to the
 /// rounding of sizes, and 16 bytes with each block. Not for two threads at a time.
+/// Not malloc with mlockall, mallopt and RLIMIT_AS: these keep memory resident and limit it, but
+/// glibc searches and joins its free blocks in a call, for a time that nothing bounds.
 class FixedHeap {
  public:
   /// All addresses and sizes are multiples of it.

@@ -21,6 +21,8 @@ std::vector<double> positionErrors_m(const Trajectory& estimate, const Trajector
 ErrorSummary summarise(const std::vector<double>& errors_m);
 
 /// RMSE after the estimate was moved and turned (never scaled) so that it is least. 0 for no poses.
+/// By Eigen's umeyama. python/ has its own, in align.py: replay needs no Python for its summary,
+/// and scripts/evaluate judges trajectories of any program without this build.
 /// @pre both have the same stamps
 double alignedRmse_m(const Trajectory& estimate, const Trajectory& truth);
 

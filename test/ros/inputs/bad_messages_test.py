@@ -43,7 +43,7 @@ class BadMessages(unittest.TestCase):
         return status
 
     def assert_said(self, *parts):
-        said = self.drone.log.wait(lambda log: all(part in log.msg for part in parts), 5)
+        said = self.drone.log.wait(lambda log: all(part in log.msg for part in parts))
         self.assertIsNotNone(said, "nothing in the log with %s" % (parts,))
 
     def refuse_image(self, change, *said):

@@ -11,7 +11,7 @@ import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from drone import STEP_M, Drone  # noqa: E402
+from drone import STEP_M, TIMEOUT_S, Drone  # noqa: E402
 
 LEFT_PX = 60  # of the second camera from the first one, on the wall
 
@@ -71,7 +71,7 @@ class CameraSwitchTest(unittest.TestCase):
 
     def test_3_a_camera_without_mounting_is_named_and_the_other_goes_on(self):
         self.use("nowhere_optical", 0)
-        waiting, end_s = None, time.monotonic() + 12
+        waiting, end_s = None, time.monotonic() + TIMEOUT_S
         while waiting is None and time.monotonic() < end_s:
             self.drone.next()
             self.drone.send(self.drone.odometry(), self.drone.image(), self.drone.info())

@@ -16,13 +16,13 @@ from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from drone import Drone, Recorder  # noqa: E402
+from drone import TIMEOUT_S, Drone, Recorder  # noqa: E402
 
 
 class MissingOdometry(unittest.TestCase):
     def keep_sending(self, drone, with_odometry, until):
-        """Sends images until a status fulfils the condition. @return it, or None after 15 s"""
-        end_s = time.monotonic() + 15
+        """Sends images until a status fulfils the condition. @return it, or None"""
+        end_s = time.monotonic() + TIMEOUT_S
         while time.monotonic() < end_s:
             drone.next()
             if with_odometry:

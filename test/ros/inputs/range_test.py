@@ -14,7 +14,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from sensor_msgs.msg import Range
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from drone import Drone, Recorder  # noqa: E402
+from drone import TIMEOUT_S, Drone, Recorder  # noqa: E402
 
 SCALE_ERROR = 0.04  # the odometry reports ways so much too long
 CLIMB_M = 0.2  # between two images, as reported: fast, or it might be an error of velocity
@@ -66,7 +66,7 @@ class RangeTest(unittest.TestCase):
     def mapper_says(self, condition, send_image):
         """Sends images until the mapper's diagnostics fulfil the condition. @return the last image's status"""
         seen = len(self.diagnostics.all())
-        end_s = time.monotonic() + 12
+        end_s = time.monotonic() + TIMEOUT_S
         while time.monotonic() < end_s:
             status = send_image()
             time.sleep(0.1)

@@ -46,8 +46,8 @@ class Pipeline(unittest.TestCase):
         play(cls.topics.values())
         last = cls.answerable[-1]
         cls.topics["pose"].wait(lambda p: p.header.stamp == last, PLAY_TIMEOUT_S)
-        cls.topics["path"].wait(lambda p: p.header.stamp == last, 10)
-        cls.topics["landmarks"].wait(lambda c: c.header.stamp == last, 10)
+        cls.topics["path"].wait(lambda p: p.header.stamp == last)
+        cls.topics["landmarks"].wait(lambda c: c.header.stamp == last)
 
     def all(self, name):
         return self.topics[name].all()
