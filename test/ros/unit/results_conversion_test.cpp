@@ -3,6 +3,7 @@
 #include <sensor_msgs/point_cloud2_iterator.h>
 
 #include <limits>
+#include <vector>
 
 #include "conversions/conversions.hpp"
 
@@ -161,27 +162,28 @@ TEST(ResultConversion, TheStatusOfAResultThatIsNotFiniteIsFinite) {
   EXPECT_EQ(status.deviation, 0);
 }
 
-LandmarkMap someMap() {
-  LandmarkMap map(LandmarkMapConfig{});
+std::vector<Landmark> someMap() {
+  std::vector<Landmark> map;
   for (int i = 0; i < 5; ++i) {
     Landmark landmark;
+    landmark.id = static_cast<std::uint32_t>(7 + i);
     landmark.position_map << i, 2 * i, -i;
     landmark.sigma_m = 0.01 + 0.3 * i;
     landmark.times_seen = 3 + i;
-    map.add(landmark);
+    map.push_back(landmark);
   }
   return map;
 }
 
 TEST(MapConversion, Cloud) {
-  const LandmarkMap map = someMap();
-  const auto cloud = toCloud(map.all(), "map", 9);
+  const std::vector<Landmark> map = someMap();
+  const auto cloud = toCloud(map, "map", 9);
   ASSERT_EQ(cloud.width * cloud.height, map.size());
   sensor_msgs::PointCloud2ConstIterator<float> y(cloud, "y");
   sensor_msgs::PointCloud2ConstIterator<float> deviation(cloud, "deviation");
   sensor_msgs::PointCloud2ConstIterator<std::uint32_t> seen(cloud, "times_seen");
   sensor_msgs::PointCloud2ConstIterator<std::uint32_t> id(cloud, "id");
-  for (const Landmark& landmark : map.all()) {
+  for (const Landmark& landmark : map) {
     EXPECT_EQ(*y, static_cast<float>(landmark.position_map.y()));
     EXPECT_EQ(*deviation, static_cast<float>(landmark.sigma_m));
     EXPECT_EQ(*seen, static_cast<std::uint32_t>(landmark.times_seen));
@@ -194,13 +196,12 @@ TEST(MapConversion, Cloud) {
 }
 
 TEST(MapConversion, EmptyMap) {
-  const LandmarkMap map(LandmarkMapConfig{});
-  EXPECT_EQ(toCloud(map.all(), "map", 9).width, 0U);
-  EXPECT_EQ(toMarker(map.all(), "map", 9).action, visualization_msgs::Marker::DELETE);
+  EXPECT_EQ(toCloud({}, "map", 9).width, 0U);
+  EXPECT_EQ(toMarker({}, "map", 9).action, visualization_msgs::Marker::DELETE);
 }
 
 TEST(MapConversion, MarkerColoursByDeviation) {
-  const auto marker = toMarker(someMap().all(), "map", 9);
+  const auto marker = toMarker(someMap(), "map", 9);
   ASSERT_EQ(marker.points.size(), 5U);
   ASSERT_EQ(marker.colors.size(), 5U);
   EXPECT_EQ(marker.points[3].y, 6);
