@@ -290,6 +290,8 @@ DroneObserver::DroneObserver(const DroneFilterConfig& config)
     : state_(std::make_unique<State>(config)) {}
 
 DroneObserver::~DroneObserver() = default;
+DroneObserver::DroneObserver(DroneObserver&&) noexcept = default;
+DroneObserver& DroneObserver::operator=(DroneObserver&&) noexcept = default;
 
 Push DroneObserver::push(const NavdataReading& packet, std::vector<OdometryState>& ready) {
   return state_->push(packet, ready);

@@ -11,10 +11,10 @@
 #include "heights/height_update.hpp"
 #include "map_update/map_update.hpp"
 #include "msckf/anchors.hpp"
-#include "window/track_order.hpp"
 #include "msckf/track_update.hpp"
-#include "window/track_window.hpp"
 #include "msckf/watchdog.hpp"
+#include "window/track_order.hpp"
+#include "window/track_window.hpp"
 #include "window/window_state.hpp"
 #include "zero_motion/zero_motion_update.hpp"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "window/track_order.hpp"
 #include "msckf/track_residual.hpp"
+#include "window/track_order.hpp"
 
 namespace ardrone_vslam {
 

@@ -6,9 +6,9 @@
 #include "input/frame_stream.hpp"
 #include "input/observer_input.hpp"
 #include "loop/answer_output.hpp"
+#include "onboard/flight_records.hpp"
 #include "protocol/telemetry.hpp"
 #include "protocol/udp.hpp"
-#include "onboard/flight_records.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

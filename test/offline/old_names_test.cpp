@@ -8,11 +8,11 @@
 #include <map>
 #include <set>
 
-#include "../../common/configs/node_config.hpp"
-#include "../../common/configs/onboard_config.hpp"
 #include "ardrone_vslam/delayed_fusion.hpp"
-#include "config_file.hpp"
-#include "fake_driver_config.hpp"
+#include "config_files/config_file.hpp"
+#include "configs/node_config.hpp"
+#include "configs/onboard_config.hpp"
+#include "driver/fake_driver_config.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "settings/settings.hpp"
 #include "onboard/flight_records.hpp"
+#include "settings/settings.hpp"
 
 namespace ardrone_vslam::test {
 

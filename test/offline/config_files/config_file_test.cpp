@@ -11,6 +11,7 @@
 #include "ardrone_vslam/delayed_fusion.hpp"
 #include "parameters/parameter_table.hpp"
 #include "support/sequence_folders.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {

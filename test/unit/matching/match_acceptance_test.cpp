@@ -50,13 +50,5 @@ TEST(Accept, RatioOfOneIsOff) {
   EXPECT_TRUE(accept(BestTwo{0, 0, 0}, MatcherConfig{90, 1.0, true}));
 }
 
-TEST(MatcherConfig, DefaultIsValidAndEveryFaultIsNamed) {
-  EXPECT_TRUE(rangeFaults(MatcherConfig{}).empty());
-  const auto faults = rangeFaults(MatcherConfig{600, 1.5, true});
-  ASSERT_EQ(faults.size(), 2U);
-  EXPECT_NE(faults[0].find("max_hamming_bits"), std::string::npos);
-  EXPECT_NE(faults[1].find("match_ratio"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace ardrone_vslam
