@@ -166,7 +166,8 @@ TEST(DelayedFusionProperty, CovarianceFollowsAnErrorOfTheCorrection) {
   constexpr double kStep = 1e-6;
   DelayedFusionConfig config;
   config.walk_m_per_sqrt_m = config.walk_m_per_sqrt_s = config.velocity_bias_m_s = 0;
-  config.scale_sigma = config.tilt_sigma_deg = 0;
+  config.scale_sigma = 1e-6;  // the least
+  config.tilt_sigma_deg = 0;
   config.yaw_walk_deg_per_sqrt_s = config.yaw_walk_deg_per_sqrt_m = 0;
   for (const std::uint64_t seed : test::seeds()) {
     RandomSource random(seed);

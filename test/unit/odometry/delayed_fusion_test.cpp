@@ -43,7 +43,7 @@ DelayedFusionConfig noiseless() {
   config.walk_m_per_sqrt_m = 0;
   config.walk_m_per_sqrt_s = 0;
   config.velocity_bias_m_s = 0;
-  config.scale_sigma = 0;
+  config.scale_sigma = 1e-6;  // the least
   config.tilt_sigma_deg = 0;
   config.yaw_walk_deg_per_sqrt_s = 0;
   config.yaw_walk_deg_per_sqrt_m = 0;
