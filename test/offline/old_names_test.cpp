@@ -14,6 +14,7 @@
 #include "configs/onboard_config.hpp"
 #include "driver/fake_driver_config.hpp"
 #include "support/sequence_folders.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
