@@ -55,6 +55,9 @@ std::unique_ptr<Sequence> openTumFolder(const std::string& path) {
   for (const auto& pose : readOptional(path + "/poses_tum.txt", true, contents.stamps_ns)) {
     contents.truth.append({pose.stamp_ns, pose.T_map_base * T_cam_base});
   }
+  const std::string old_name = path + "/observer_tum.txt";
+  if (std::filesystem::exists(old_name))
+    throw std::runtime_error(old_name + ": is called odometry_tum.txt now; rename it");
   // A recorded odometry keeps its repeated and backward stamps: to stand them is the pipeline's
   // job.
   for (const auto& pose : readOptional(path + "/odometry_tum.txt", false, contents.stamps_ns)) {

@@ -130,7 +130,7 @@ TEST(TumFolder, ImagesCalibrationAndTruthOfOtherStamps) {
   expectSamePose(sequence->truth().at(sequence->stamp_ns(1)), expected);
 }
 
-TEST(TumFolder, RecordedObserverKeepsItsStamps) {
+TEST(TumFolder, RecordedOdometryKeepsItsStamps) {
   TemporaryFolder folder;
   makeTumFolder(folder, 3);
   folder.write("odometry_tum.txt", "0 1 2 3 0 0 0 1\n0.1 2 2 3 0 0 0 1\n0.1 3 2 3 0 0 0 1\n");
@@ -138,6 +138,13 @@ TEST(TumFolder, RecordedObserverKeepsItsStamps) {
   ASSERT_EQ(sequence->odometry().size(), 3u);
   EXPECT_EQ(sequence->odometry()[2].stamp_ns, 100'000'000);
   EXPECT_EQ(sequence->odometry()[2].T_odom_base.translation(), Eigen::Vector3d(3, 2, 3));
+}
+
+TEST(TumFolder, OdometryUnderItsOldNameIsNotLeftOut) {
+  TemporaryFolder folder;
+  makeTumFolder(folder, 3);
+  folder.write("observer_tum.txt", "0 1 2 3 0 0 0 1\n");
+  expectError([&folder] { openFolder(folder.path()); }, {"observer_tum.txt", "odometry_tum.txt"});
 }
 
 TEST(TumFolder, FaultsAreNamedWithFileAndRemedy) {
