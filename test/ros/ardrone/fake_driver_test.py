@@ -143,7 +143,6 @@ class FakeDriver(unittest.TestCase):
         self.assertIn("no fault 'gremlins'; known are", self.refused("_faults:=bursts,gremlins"))
         self.assertIn("no camera 'rear'; known are", self.refused("_camera:=rear"))
         self.assertIn("no flight 'loop'; known are", self.refused("_autopilot:=loop"))
-        self.assertIn("must be X,Y,YAW", self.refused("_start:=here"))
         self.assertIn("must be between 0.1 and 100", self.refused("_rate:=0"))
         self.assertIn("does not fit into the world", self.refused("_autopilot:=corridor", "_world:=room"))
         self.assertIn("known", self.refused("_odometry_profile:=perfect"))
