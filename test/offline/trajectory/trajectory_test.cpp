@@ -97,8 +97,7 @@ TEST(TumFile, ReadsCommentsBlankLinesExponentsAndNegativeStamps) {
 
 TEST(TumFile, NamesFileLineAndFault) {
   const std::string good = "1 0 0 0 0 0 0 1\n";
-  EXPECT_NE(faultOfReading(good + "2 0 0 0 0 0 0\n").find("fault.txt:2: eight"),
-            std::string::npos);
+  EXPECT_NE(faultOfReading(good + "2 0 0 0 0 0 0\n").find("fault.txt:2: eight"), std::string::npos);
   EXPECT_NE(faultOfReading(good + "2 0 nan 0 0 0 0 1\n").find(":2: eight finite"),
             std::string::npos);
   EXPECT_NE(faultOfReading("x 0 0 0 0 0 0 1\n").find(":1: the stamp 'x'"), std::string::npos);
