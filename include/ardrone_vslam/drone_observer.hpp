@@ -52,8 +52,8 @@ class DroneObserver {
   /// @throws ConfigError listing every parameter out of its range
   explicit DroneObserver(const DroneFilterConfig& config);
   ~DroneObserver();
-  DroneObserver(DroneObserver&&) noexcept;
-  DroneObserver& operator=(DroneObserver&&) noexcept;
+  DroneObserver(DroneObserver&&) noexcept;             ///< takes all that waits along
+  DroneObserver& operator=(DroneObserver&&) noexcept;  ///< likewise
 
   /// @param ready  gets the states that are ready, stamps ascending; none, one or more
   /// @return why this packet is not used; else kAccepted

@@ -22,8 +22,8 @@ enum class PagePart {
 
 /// And at which place there: the user's are ordered by what to turn first.
 struct PagePlace {
-  PagePart part = PagePart::kAdvanced;
-  int rank = 0;  ///< the others are in the order of the structs
+  PagePart part = PagePart::kAdvanced;  ///< of the page
+  int rank = 0;                         ///< the others are in the order of the structs
 };
 
 /// One of the first part. @param rank  from 1 on
@@ -116,13 +116,13 @@ void validate(const Config& config) {
 struct OldName {
   /// What it was the name of.
   enum class Kind { kParameter, kChoice, kSection, kOption, kLaunchArgument, kNode };
-  Kind kind;
+  Kind kind;  ///< of these
   /// The section of a parameter, the parameter of a choice, the program of an option, the file of a
   /// launch argument.
   const char* owner;
-  const char* name;
-  const char* now;  ///< empty when nothing has taken its place
-  const char* why;  ///< empty, or why it is a constant now, or what is different
+  const char* name;  ///< the old one
+  const char* now;   ///< empty when nothing has taken its place
+  const char* why;   ///< empty, or why it is a constant now, or what is different
 };
 
 /// All of them.

@@ -16,9 +16,9 @@ namespace ardrone_vslam {
 /// alone. No
 /// parameters: the values hold for the descriptor, not for a robot.
 struct MatcherConfig {
-  int max_hamming_bits = 90;
-  double ratio = 0.85;
-  bool cross_check = true;
+  int max_hamming_bits = 90;  ///< largest distance of a match
+  double ratio = 0.85;        ///< best distance over the second best must be below; 1: any
+  bool cross_check = true;    ///< a match must be the best one seen from both sides
 };
 
 /// How landmarks and map features are looked for, and what is a mismatch.
@@ -37,7 +37,7 @@ struct AssociationConfig {
   double max_window_share = 0.5;
   int index_from_landmarks = 10000;  ///< such maps are then searched by an index
   int index_probes = 32;             ///< of its lists: more find more, slower
-  MatcherConfig matcher;
+  MatcherConfig matcher;             ///< which descriptors match
 };
 
 template <class Visitor>
@@ -148,8 +148,8 @@ void visitParameters(MapperConfig& c, Visitor&& visit) {
 /// How many features wait for depth, and how long. No parameters: a camera that moves gives a
 /// feature its depth within seconds.
 struct FeatureMapConfig {
-  int max_map_features = 4000;
-  double max_feature_age_s = 10.0;
+  int max_map_features = 4000;      ///< the oldest go first
+  double max_feature_age_s = 10.0;  ///< without a second view
 };
 
 /// How large the map may become.
@@ -189,7 +189,7 @@ struct SlamConfig {
   ThesisFilterConfig thesis_filter;
   MsckfConfig msckf;
   MapperConfig mapper;
-  FeatureMapConfig feature_map;
+  FeatureMapConfig feature_map;  ///< has no parameters
   LandmarkMapConfig landmark_map;
 };
 

@@ -35,7 +35,7 @@ struct CornerDetectorConfig {
   int threshold = 35;        ///< grey-level difference of a circle pixel; the start when it adapts
   int threshold_max = 120;   ///< highest that adaptation chooses
   int sampling_passes = 16;  ///< pixels tested in each 4x4 block, 1 to 16: 16 finds every corner
-  Suppression suppression = Suppression::kLocalClimb;
+  Suppression suppression = Suppression::kLocalClimb;  ///< of neighbouring corners
   bool adapt_threshold = true;  ///< each cell's threshold keeps its corner count in a band
 };
 
@@ -57,7 +57,7 @@ void visitParameters(CornerDetectorConfig& c, Visitor&& visit) {
 
 /// Whether the pattern turns with the patch. No parameter: upright patterns lose what turns.
 struct FreakConfig {
-  bool oriented = true;
+  bool oriented = true;  ///< false: upright
 };
 
 /// How far a track may go between two images, and how alike its descriptors must be.
@@ -81,7 +81,7 @@ void visitParameters(FrameTrackerConfig& c, Visitor&& visit) {
 /// All that makes features of an image.
 struct TrackerConfig {
   CornerDetectorConfig corners;
-  FreakConfig freak;
+  FreakConfig freak;  ///< has no parameters
   FrameTrackerConfig tracks;
   bool use_attitude = false;
   UndistortMethod undistort = UndistortMethod::kTable;  ///< no parameter: docs/lens_correction.md
