@@ -141,7 +141,7 @@ std::vector<std::uint64_t> seedsOf(const Options& o) {
   return o.seeds.empty() ? std::vector<std::uint64_t>{o.seed} : parseSeeds(o.seeds);
 }
 
-std::vector<RunOdometry> observersOf(const Sequence& sequence, const Options& o) {
+std::vector<RunOdometry> odometriesOf(const Sequence& sequence, const Options& o) {
   // A bag is what was recorded; image folders have no odometry of their own and get a simulated
   // one.
   const bool is_bag = !std::filesystem::is_directory(o.input);
@@ -194,55 +194,46 @@ PipelineConfig configOf(const Options& given) {
   }
 }
 
-int run(const Options& o) {
-  const PipelineConfig config = configOf(o);
-  const bool is_folder = std::filesystem::is_directory(o.input);
-  if (config.mapper.odometry_adapter.mode == OdometryMode::kNavdata &&
-      (is_folder || !o.odometry_profile.empty())) {
+void checkOdometry(const Options& o, const PipelineConfig& config) {
+  if (!o.odometry_profile.empty()) profileOfOption(o.odometry_profile);
+  if (config.mapper.odometry_adapter.mode != OdometryMode::kNavdata) return;
+  if (std::filesystem::is_directory(o.input) || !o.odometry_profile.empty()) {
     throw UsageError(o.input +
                      ": odometry_mode navdata needs a bag with the AR.Drone's navdata, and no "
                      "--odometry-profile; set it to pose or twist");
   }
-  if (!o.odometry_profile.empty()) profileOfOption(o.odometry_profile);
-  const std::optional<ComputerSpeed> speed = speedOf(o);
-  const FrameSelection selection =
-      asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
-  const auto sequence = select(openInput(o, config), selection);
-  const HeightInputConfig& heights = config.mapper.height_input;
-  if (heights.use_navdata_height && sequence->ranges().empty()) {
+}
+
+void checkHeights(const Sequence& sequence, const HeightInputConfig& heights) {
+  if (!sequence.ranges().empty()) return;
+  if (heights.use_navdata_height) {
     std::cerr
-        << "replay: " << sequence->name()
+        << "replay: " << sequence.name()
         << ": holds no heights of an AR.Drone's navdata (use_navdata_height); the scale stays "
            "the odometry's\n";
   }
-  if (heights.use_range && sequence->ranges().empty()) {
-    throw std::runtime_error(sequence->name() +
+  if (heights.use_range) {
+    throw std::runtime_error(sequence.name() +
                              ": holds no ranges, which use_range asks for: record the sensor's "
                              "topic (a folder: range.txt), or set use_range to false");
   }
-  const std::vector<RunOdometry> odometries = observersOf(*sequence, o);
-  makeFolder(o.out);
-  const std::string evaluate_script = o.report ? findEvaluateScript() : "";
-  std::vector<RunResult> results;
-  {
-    ProgressLine progress("replay", sequence->size());
-    results = runAll(
-        *sequence, config, odometries, o.threads,
-        [&progress](std::size_t done) { progress.update(done); }, speed);
-  }
+}
 
-  removeEarlierRun(o.out);
+/// Prints and writes what came out. @return what is wrong with the input
+std::vector<std::string> reportRuns(const Options& o, const Sequence& sequence,
+                                    const std::vector<RunOdometry>& odometries,
+                                    const std::vector<RunResult>& results,
+                                    const std::string& estimator) {
   std::vector<Json> summaries;
   std::vector<std::string> faults;
   for (std::size_t i = 0; i < results.size(); ++i) {
     bool truth_moved = false;
-    const Trajectory truth = truthFromOdometryStart(sequence->truth(), odometries[i], truth_moved);
+    const Trajectory truth = truthFromOdometryStart(sequence.truth(), odometries[i], truth_moved);
     const RunEvaluation evaluation = evaluate(results[i], truth);
-    const RunVerdict verdict = judgeRun(sequence->name(), results[i], evaluation, truth_moved);
+    const RunVerdict verdict = judgeRun(sequence.name(), results[i], evaluation, truth_moved);
     for (const std::string& text : verdict.warnings) std::cerr << "replay: " << text << '\n';
     faults.insert(faults.end(), verdict.faults.begin(), verdict.faults.end());
-    const RunLabel label{sequence->name(), odometries[i].profile, odometries[i].seed,
-                         nameOf(config.mapper.estimator)};
+    const RunLabel label{sequence.name(), odometries[i].profile, odometries[i].seed, estimator};
     summaries.push_back(summaryOf(results[i], evaluation, label));
     const std::string folder = o.seeds.empty() ? o.out : seedFolder(o.out, *label.seed);
     writeRun(folder, results[i], evaluation, summaries.back());
@@ -254,6 +245,30 @@ int run(const Options& o) {
     writeText(o.out + "/summary.json", all.dump(2) + "\n");
     printSeeds(all, std::cout);
   }
+  return faults;
+}
+
+int run(const Options& o) {
+  const PipelineConfig config = configOf(o);
+  checkOdometry(o, config);
+  const std::optional<ComputerSpeed> speed = speedOf(o);
+  const FrameSelection selection =
+      asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
+  const auto sequence = select(openInput(o, config), selection);
+  checkHeights(*sequence, config.mapper.height_input);
+  const std::vector<RunOdometry> odometries = odometriesOf(*sequence, o);
+  makeFolder(o.out);
+  const std::string evaluate_script = o.report ? findEvaluateScript() : "";
+  std::vector<RunResult> results;
+  {
+    ProgressLine progress("replay", sequence->size());
+    results = runAll(
+        *sequence, config, odometries, o.threads,
+        [&progress](std::size_t done) { progress.update(done); }, speed);
+  }
+  removeEarlierRun(o.out);
+  const auto faults =
+      reportRuns(o, *sequence, odometries, results, nameOf(config.mapper.estimator));
   std::cout << "written to " << o.out << '\n';
   if (o.report) writeRunPage(evaluate_script, o.out);
   for (const std::string& text : faults) std::cerr << "replay: " << text << '\n';

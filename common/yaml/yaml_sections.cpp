@@ -135,9 +135,10 @@ YamlSections readYamlSections(const std::string& text, std::vector<std::string>&
       section.clear();
       indent = 0;
       open_key = line.value.empty() ? line.key : "";
-      auto& there = open_key.empty() ? sections[""] : sections[open_key];
-      if (open_key.empty() && !there.emplace(line.key, line.value).second)
-        fault("'" + line.key + "' is there twice");
+      const bool is_new = open_key.empty()
+                              ? sections[""].emplace(line.key, line.value).second
+                              : sections.emplace(open_key, YamlSections::mapped_type{}).second;
+      if (!is_new) fault("'" + line.key + "' is there twice");
       continue;
     }
     if (!open_key.empty() && indent == 0) {

@@ -34,18 +34,19 @@ enum class HeightOutcome {
 
 /// What a frame's pose rests on; `explain` gives the sentence for users.
 enum class SlamState {
-  kBuildingMap,      ///< no landmark can be in view yet: the pose is the odometry's
-  kLocalised,        ///< landmarks corrected the pose
-  kTooFewLandmarks,  ///< fewer matches than `min_landmarks`: the pose is the odometry's increment
-  kFixRejected,   ///< the landmarks' position failed its gate: the pose is the odometry's increment
-  kOdometryOnly,  ///< `estimator: odometry`
-  kNotFinite,     ///< a number overflowed: the pose is not to be used, the map is to begin anew
-  kTracking,      ///< MSCKF: tracks correct the pose, no place seen before is in view
-  kResting,       ///< MSCKF: the image is still and holds the position
-  kRotating,      ///< MSCKF: the camera turns on the spot, the image holds the position
-  kRelocated,     ///< MSCKF: as kLocalised, by landmarks looked for nearly everywhere
-  kDistrusted,    ///< MSCKF: camera and odometry contradict each other, the pose is the
-                  ///< odometry's (Watchdog)
+  // "Landmarks" are those of earlier visits. With MSCKF tracks correct the pose all the same.
+  kBuildingMap,      ///< no landmark can be in view yet
+  kLocalised,        ///< landmarks corrected the pose, or agreed with it so well that none was due
+  kTooFewLandmarks,  ///< thesis: fewer matches than `min_landmarks`
+  kFixRejected,      ///< the landmarks' position failed its gate and corrected nothing
+  kOdometryOnly,     ///< `estimator: odometry`
+  kNotFinite,        ///< a number overflowed: the pose is not to be used, the map is to begin anew
+  kTracking,         ///< MSCKF: tracks correct the pose, no place seen before is in view
+  kResting,          ///< MSCKF: the image is still and holds the position
+  kRotating,         ///< MSCKF: the camera turns on the spot, the image holds the position
+  kRelocated,        ///< MSCKF: as kLocalised, by landmarks looked for nearly everywhere
+  kDistrusted,       ///< MSCKF: camera and odometry contradict each other, the pose is the
+                     ///< odometry's (Watchdog)
 };
 /// As in Status and frames.csv, by the enumerators' order.
 constexpr std::array<const char*, 11> kSlamStateNames{
@@ -72,10 +73,10 @@ struct FrameResult {
   /// By so much the odometry's position jumped since the last frame; 0: it moved. The MSCKF
   /// does not take it for motion.
   double odometry_step_m = 0;
-  /// Base position by the landmarks alone, before the fusion (6.4); nothing when there were too
+  /// Of base, by the landmarks alone (6.4): shown beside the fused one; nothing when there were too
   /// few.
-  std::optional<Eigen::Vector3d> camera_position_map;
-  double camera_sigma_m = 0;  ///< of camera_position_map, per axis
+  std::optional<Eigen::Vector3d> landmark_position_map;
+  double landmark_sigma_m = 0;  ///< of landmark_position_map, per axis
 
   MatchMethod match_method = MatchMethod::kGuided;  ///< how landmarks were looked for
   int features = 0;                                 ///< in the image

@@ -72,10 +72,12 @@ void visitParameters(MsckfConfig& c, Visitor&& visit) {
         c.max_clones);
   visit(ParameterInfo{"max_anchors", "frames", 1, 1000,
                       "earlier keyframes whose error the landmarks made there share; beyond it "
-                      "the two nearest become one. Fewer are faster on long flights"},
+                      "the two nearest of those that follow each other become one. Fewer are "
+                      "faster on long flights"},
         c.max_anchors);
   visit(ParameterInfo{"fix_min_age_s", "s", 0, 1e6,
-                      "landmarks younger than this share the present drift and do not correct it"},
+                      "landmarks of an anchor younger than this share the present drift and do not "
+                      "correct it"},
         c.fix_min_age_s);
   visit(ParameterInfo{"fix_independent_landmarks", "landmarks", 1, 1000000,
                       "landmarks of one place err alike: together they are not taken as better "

@@ -20,8 +20,8 @@ constexpr double kFarthestCamera_m = 100;  ///< from base
 /// What cannot be the mounting of a camera, and what helps; empty when it can.
 std::string extrinsicsFault(const Eigen::Isometry3d& T_base_cam);
 
-/// Features and odometry states -> fused poses and a map (thesis algorithm 5; where it departs from
-/// that: docs/thesis_estimator.md).
+/// Features and odometry states -> fused poses and a map, by the estimator that the configuration
+/// names (docs/msckf.md; of the thesis's algorithm 5: docs/thesis_estimator.md).
 class Slam {
  public:
   /// @param T_base_cam  mounting of the camera: optical frame to base

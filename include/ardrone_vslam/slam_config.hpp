@@ -141,7 +141,7 @@ struct MapperConfig {
 template <class Visitor>
 void visitParameters(MapperConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"max_depth_m", "m", 0.1, 1e5, "points further away do not become landmarks",
-                      turnFirst(21)},
+                      ofPart(PagePart::kThesis)},
         c.max_depth_m);
 }
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "window/window_state.hpp"
+#include "linear/information.hpp"
 
 namespace ardrone_vslam {
 

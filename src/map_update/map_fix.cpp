@@ -9,7 +9,7 @@
 
 #include "ardrone_vslam/rotation.hpp"
 #include "map_update/observation_rays.hpp"
-#include "msckf/track_residual.hpp"
+#include "window/rays.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -49,13 +49,13 @@ struct FixCoordinates {
 
 }  // namespace
 
-ObservationConsensus agreeOnPosition(const Clone& predicted, const Eigen::Vector3d& camera_base,
+ObservationConsensus agreeOnPosition(const Clone& predicted, const Eigen::Vector3d& camera_rig,
                                      const std::vector<MapObservation>& observations,
                                      double angle_sigma_rad) {
-  const Eigen::Vector3d lever = predicted.R_map_rig * camera_base;
+  const Eigen::Vector3d lever = predicted.R_map_rig * camera_rig;
   std::vector<Eigen::Vector3d> rays;
   rays.reserve(observations.size());
-  for (const MapObservation& s : observations) rays.push_back(predicted.R_map_rig * s.bearing_base);
+  for (const MapObservation& s : observations) rays.push_back(predicted.R_map_rig * s.bearing_rig);
   const auto off = [&](std::size_t i, const Eigen::Vector3d& camera) {
     return offRay(observations[i], rays[i], camera, angle_sigma_rad, kSlack_rad);
   };
@@ -98,7 +98,7 @@ double MapFix::distance() const {
   return whitened().squaredNorm();
 }
 
-MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
+MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_rig,
              const ObservationConsensus& consensus, double angle_sigma_rad, int independent) {
   const FixCoordinates coordinates(state, consensus.observations);
   MapFix fix{Information(coordinates.all)};
@@ -110,7 +110,7 @@ MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
   pose.position_map = consensus.position_map;
   pose.R_map_rig = consensus.R_map_rig;
   for (const MapObservation& s : consensus.observations) {
-    const auto ray = rayResidual(pose, camera_base, s.bearing_base, s.point_map);
+    const auto ray = rayResidual(pose, camera_rig, s.bearing_rig, s.point_map);
     if (!ray) continue;
     const Clone& anchor = state.anchors()[s.anchor];
     const Eigen::Vector3d from_anchor = s.point_map - anchor.position_map;

@@ -13,8 +13,8 @@ namespace ardrone_vslam {
 
 /// A landmark of an earlier visit, matched in the newest frame.
 struct MapObservation {
-  Eigen::Vector3d bearing_base = Eigen::Vector3d::UnitX();  ///< measured unit ray
-  Eigen::Vector3d point_map = Eigen::Vector3d::Zero();      ///< where the map has it
+  Eigen::Vector3d bearing_rig = Eigen::Vector3d::UnitX();  ///< measured unit ray
+  Eigen::Vector3d point_map = Eigen::Vector3d::Zero();     ///< where the map has it
   Eigen::Matrix3d covariance_m2 =
       Eigen::Matrix3d::Zero();  ///< beside what its anchor's errors cause
   std::size_t anchor = 0;       ///< index into WindowState::anchors()
@@ -25,14 +25,14 @@ struct MapObservation {
 /// The observations that agree on one pose of base, and which.
 struct ObservationConsensus {
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();   ///< of base
-  Eigen::Matrix3d R_map_rig = Eigen::Matrix3d::Identity();  ///< of base; the predicted one
+  Eigen::Matrix3d R_map_rig = Eigen::Matrix3d::Identity();  ///< as predicted, or as found
   std::vector<MapObservation> observations;                 ///< those that agree
 };
 
 /// Random sample consensus over pairs: with the attitude known two rays give the position. The
 /// samples are the same in every run. O(samples x observations).
 /// @param angle_sigma_rad  sigma_a of a ray
-ObservationConsensus agreeOnPosition(const Clone& predicted, const Eigen::Vector3d& camera_base,
+ObservationConsensus agreeOnPosition(const Clone& predicted, const Eigen::Vector3d& camera_rig,
                                      const std::vector<MapObservation>& observations,
                                      double angle_sigma_rad);
 
@@ -65,7 +65,7 @@ constexpr int kFewestFixLandmarks = 6;
 
 /// @param independent  the landmarks' errors are alike in groups: their fix is not taken as better
 /// than so many independent ones make it
-MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_base,
+MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_rig,
              const ObservationConsensus& consensus, double angle_sigma_rad, int independent);
 
 }  // namespace ardrone_vslam

@@ -54,10 +54,10 @@ void MapUpdate::beginFrame() {
 }
 
 FixOutcome MapUpdate::apply(const std::vector<LandmarkObservation>& observations,
-                            const Eigen::Vector3d& camera_base, double focal_length_px,
-                            WindowState& state) {
+                            const Eigen::Vector3d& camera_rig, double focal_length_px,
+                            Propagator& propagator, WindowState& state) {
   skip(observations.size());
-  Frame frame{camera_base, config_.track_sigma_px / focal_length_px, state};
+  Frame frame{camera_rig, config_.track_sigma_px / focal_length_px, propagator, state};
   outcome_ = fix(observations, frame);
   return outcome_;
 }
@@ -87,7 +87,7 @@ FixOutcome MapUpdate::fix(const std::vector<LandmarkObservation>& observations, 
     if (!anchor) continue;
     const auto age_ns = frame.state.newest().stamp_ns - anchors[*anchor].stamp_ns;
     if (static_cast<double>(age_ns) * 1e-9 < config_.fix_min_age_s) continue;
-    old.push_back({s.bearing_base, s.point_map, s.covariance_m2, *anchor, i, s.window_rad});
+    old.push_back({s.bearing_rig, s.point_map, s.covariance_m2, *anchor, i, s.window_rad});
     if (s.window_rad <= widest_rad) continue;
     wide.push_back(old.back());
     verdicts_[i] = ObservationVerdict::kDoubtful;
@@ -106,7 +106,7 @@ FixOutcome MapUpdate::fix(const std::vector<LandmarkObservation>& observations, 
 FixOutcome MapUpdate::fixByFew(const std::vector<MapObservation>& observations, Frame& frame) {
   if (static_cast<int>(observations.size()) < kFewestFixLandmarks) return FixOutcome::kNone;
   const auto consensus =
-      relocate(frame.state.newest(), frame.camera_base, observations, frame.angle_sigma_rad,
+      relocate(frame.state.newest(), frame.camera_rig, observations, frame.angle_sigma_rad,
                attitudeSigma_rad(observations, frame.state));
   if (!consensus || static_cast<int>(consensus->observations.size()) < kFewestFixLandmarks)
     return FixOutcome::kNone;
@@ -119,7 +119,7 @@ FixOutcome MapUpdate::fixByMost(const std::vector<MapObservation>& observations,
   if (static_cast<int>(observations.size()) < kFewestFixLandmarks) return FixOutcome::kNone;
   const Clone& newest = frame.state.newest();
   const ObservationConsensus consensus =
-      agreeOnPosition(newest, frame.camera_base, observations, frame.angle_sigma_rad);
+      agreeOnPosition(newest, frame.camera_rig, observations, frame.angle_sigma_rad);
   // In windows some wrong matches agree by chance, but not most of all.
   if (static_cast<int>(consensus.observations.size()) < kFewestFixLandmarks ||
       2 * consensus.observations.size() < observations.size())
@@ -128,7 +128,7 @@ FixOutcome MapUpdate::fixByMost(const std::vector<MapObservation>& observations,
   Clone agreed = newest;
   agreed.position_map = consensus.position_map;
   if (medianWindow_rad(observations) > kHarmlessWindow_rad &&
-      chanceExplains(agreed, frame.camera_base, observations, consensus.observations.size(),
+      chanceExplains(agreed, frame.camera_rig, observations, consensus.observations.size(),
                      frame.angle_sigma_rad, kMostByChance))
     return FixOutcome::kNone;
   const FixOutcome outcome = update(consensus, kGateSigmas, frame);
@@ -138,11 +138,11 @@ FixOutcome MapUpdate::fixByMost(const std::vector<MapObservation>& observations,
 
 FixOutcome MapUpdate::update(const ObservationConsensus& consensus, double gate_sigmas,
                              Frame& frame) {
-  MapFix fix = fixBy(frame.state, frame.camera_base, consensus, frame.angle_sigma_rad,
+  MapFix fix = fixBy(frame.state, frame.camera_rig, consensus, frame.angle_sigma_rad,
                      config_.fix_independent_landmarks);
   consistency_.learn(fix.whitened(), coordinates());
   was_compared_ = true;
-  frame.state.inflate(consistency_.odometryFactor());
+  frame.propagator.inflate(consistency_.odometryFactor(), frame.state);
   if (fix.drift.topLeftCorner<3, 3>().trace() <
       kDriftShare * fix.covariance.topLeftCorner<3, 3>().trace())
     return FixOutcome::kNotNeeded;

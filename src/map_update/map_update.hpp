@@ -10,13 +10,14 @@
 #include "ardrone_vslam/msckf_config.hpp"
 #include "map_update/innovation_consistency.hpp"
 #include "map_update/map_fix.hpp"
+#include "window/propagator.hpp"
 #include "window/window_state.hpp"
 
 namespace ardrone_vslam {
 
 /// A landmark as seen by the newest frame.
 struct LandmarkObservation {
-  Eigen::Vector3d bearing_base = Eigen::Vector3d::UnitX();  ///< measured unit ray
+  Eigen::Vector3d bearing_rig = Eigen::Vector3d::UnitX();   ///< measured unit ray, axes of the rig
   Eigen::Vector3d point_map = Eigen::Vector3d::Zero();      ///< where the map has it
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< Landmark::covariance_m2
   std::uint32_t anchor_id = 0;                              ///< Landmark::anchor_id
@@ -42,9 +43,11 @@ class MapUpdate {
   void beginFrame();
   /// Corrects the state by the newest frame's landmarks, once the drift since they were made is
   /// worth it. O(samples x observations + coordinates^2).
-  /// @param camera_base  the camera's position in base
+  /// @param camera_rig  the camera's position in the rig
+  /// @param propagator  learns how much worse the odometry is than configured
   FixOutcome apply(const std::vector<LandmarkObservation>& observations,
-                   const Eigen::Vector3d& camera_base, double focal_length_px, WindowState& state);
+                   const Eigen::Vector3d& camera_rig, double focal_length_px,
+                   Propagator& propagator, WindowState& state);
   /// The frame's landmarks are not used: none of them is judged.
   void skip(std::size_t observations);
 
@@ -63,8 +66,9 @@ class MapUpdate {
  private:
   /// Of one frame: what the steps below have in common.
   struct Frame {
-    const Eigen::Vector3d& camera_base;
+    const Eigen::Vector3d& camera_rig;
     double angle_sigma_rad;  // of a ray
+    Propagator& propagator;
     WindowState& state;
   };
 

@@ -7,7 +7,7 @@
 
 #include "ardrone_vslam/rotation.hpp"
 #include "map_update/observation_rays.hpp"
-#include "msckf/track_residual.hpp"
+#include "window/rays.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -20,10 +20,10 @@ constexpr std::size_t kFewest = 4;      // three of them are taken by the pose
 
 class Relocator {
  public:
-  Relocator(const Clone& predicted, const Eigen::Vector3d& camera_base,
+  Relocator(const Clone& predicted, const Eigen::Vector3d& camera_rig,
             const std::vector<MapObservation>& observations, double sigma_a, double attitude_rad)
       : predicted_(predicted),
-        camera_base_(camera_base),
+        camera_base_(camera_rig),
         observations_(observations),
         sigma_a_(sigma_a),
         attitude_rad_(std::max(attitude_rad, kLeastAttitude_rad)) {}
@@ -38,7 +38,7 @@ class Relocator {
   std::optional<Clone> poseOf(std::size_t a, std::size_t b) const;
   Clone refined(Clone pose) const;
   double off(const Clone& pose, std::size_t i, double slack_rad) const {
-    return offRay(observations_[i], pose.R_map_rig * observations_[i].bearing_base,
+    return offRay(observations_[i], pose.R_map_rig * observations_[i].bearing_rig,
                   pose.position_map + pose.R_map_rig * camera_base_, sigma_a_, slack_rad);
   }
   double score(const Clone& pose, double slack_rad) const {
@@ -56,8 +56,8 @@ class Relocator {
 };
 
 std::optional<Clone> Relocator::poseOf(std::size_t a, std::size_t b) const {
-  const Eigen::Vector3d ray_a = predicted_.R_map_rig * observations_[a].bearing_base;
-  const Eigen::Vector3d ray_b = predicted_.R_map_rig * observations_[b].bearing_base;
+  const Eigen::Vector3d ray_a = predicted_.R_map_rig * observations_[a].bearing_rig;
+  const Eigen::Vector3d ray_b = predicted_.R_map_rig * observations_[b].bearing_rig;
   if (!(ray_a.cross(ray_b).norm() > kParallelSine)) return std::nullopt;
   const Eigen::Vector3d camera = nearestToRays(observations_[a], ray_a, observations_[b], ray_b);
   if (!camera.allFinite()) return std::nullopt;
@@ -80,7 +80,7 @@ Clone Relocator::refined(Clone pose) const {
         attitude_weight * rotationVectorOf(predicted_.R_map_rig * pose.R_map_rig.transpose());
     for (const std::size_t i : agreeing(pose, slack_rad)) {
       const MapObservation& s = observations_[i];
-      const auto ray = rayResidual(pose, camera_base_, s.bearing_base, s.point_map);
+      const auto ray = rayResidual(pose, camera_base_, s.bearing_rig, s.point_map);
       if (!ray) continue;
       const Eigen::Matrix2d noise = sigma_a_ * sigma_a_ * Eigen::Matrix2d::Identity() +
                                     ray->point * s.covariance_m2 * ray->point.transpose();
@@ -151,7 +151,7 @@ double Relocator::shareByChance(const Clone& pose) const {
     const std::size_t shift = round * count / (kRounds + 1);
     if (shift == 0) continue;
     for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Vector3d ray = pose.R_map_rig * observations_[(i + shift) % count].bearing_base;
+      const Eigen::Vector3d ray = pose.R_map_rig * observations_[(i + shift) % count].bearing_rig;
       by_pairs += offRay(observations_[i], ray, camera, sigma_a_, kSlack_rad) < kInlier ? 1U : 0U;
       ++trials;
     }
@@ -173,25 +173,25 @@ double agreementsByChance(std::size_t matches, std::size_t agreeing, double shar
   return poses * std::exp(-others * divergence);
 }
 
-bool chanceExplains(const Clone& pose, const Eigen::Vector3d& camera_base,
+bool chanceExplains(const Clone& pose, const Eigen::Vector3d& camera_rig,
                     const std::vector<MapObservation>& observations, std::size_t agreeing,
                     double angle_sigma_rad, double most_by_chance) {
-  const Relocator relocator(pose, camera_base, observations, angle_sigma_rad, 0);
+  const Relocator relocator(pose, camera_rig, observations, angle_sigma_rad, 0);
   return agreementsByChance(observations.size(), agreeing, relocator.shareByChance(pose)) >
          most_by_chance;
 }
 
 std::optional<ObservationConsensus> relocate(const Clone& predicted,
-                                             const Eigen::Vector3d& camera_base,
+                                             const Eigen::Vector3d& camera_rig,
                                              const std::vector<MapObservation>& observations,
                                              double angle_sigma_rad, double attitude_sigma_rad) {
   if (observations.size() < kFewest) return std::nullopt;
-  const Relocator relocator(predicted, camera_base, observations, angle_sigma_rad,
+  const Relocator relocator(predicted, camera_rig, observations, angle_sigma_rad,
                             attitude_sigma_rad);
   const auto pose = relocator.search();
   if (!pose) return std::nullopt;
   const std::vector<std::size_t> agreeing = relocator.agreeing(*pose, kSlack_rad);
-  if (chanceExplains(*pose, camera_base, observations, agreeing.size(), angle_sigma_rad,
+  if (chanceExplains(*pose, camera_rig, observations, agreeing.size(), angle_sigma_rad,
                      kMostByChance))
     return std::nullopt;
   ObservationConsensus consensus;

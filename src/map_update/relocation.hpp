@@ -18,7 +18,7 @@ namespace ardrone_vslam {
 /// @param attitude_sigma_rad  of the predicted attitude relative to the landmarks, per axis
 /// @return nothing when so many wrong matches might agree by chance, see agreementsByChance
 std::optional<ObservationConsensus> relocate(const Clone& predicted,
-                                             const Eigen::Vector3d& camera_base,
+                                             const Eigen::Vector3d& camera_rig,
                                              const std::vector<MapObservation>& observations,
                                              double angle_sigma_rad, double attitude_sigma_rad);
 
@@ -30,7 +30,7 @@ double agreementsByChance(std::size_t matches, std::size_t agreeing, double shar
 /// Whether more than so many poses are expected that so many of the observations agree with if all
 /// of them are wrong, given how wide their windows are and how they stand in groups.
 /// @param angle_sigma_rad  sigma_a of a ray
-bool chanceExplains(const Clone& pose, const Eigen::Vector3d& camera_base,
+bool chanceExplains(const Clone& pose, const Eigen::Vector3d& camera_rig,
                     const std::vector<MapObservation>& observations, std::size_t agreeing,
                     double angle_sigma_rad, double most_by_chance);
 

@@ -13,13 +13,13 @@
 #include "msckf/track_update.hpp"
 
 /// What becomes of the map's landmarks at a frame of the MSCKF. The views are from the corrected
-/// pose.
+/// position, at the predicted attitude.
 namespace ardrone_vslam {
 
 /// A used track's point, seen from this view, as a landmark without id.
 Landmark landmarkOf(const UsedTrack& used, const FrameView& view);
 
-/// Whether its point is known to landmark_sigma of its distance.
+/// Whether its point is known well enough, beside its distance, to become a landmark.
 bool isWellKnown(const UsedTrack& one, const FrameView& view);
 
 /// Gives a young landmark its track's newer point, where that is clearly better.

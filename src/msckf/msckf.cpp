@@ -9,7 +9,7 @@
 namespace ardrone_vslam {
 namespace {
 
-// The image has to move on before a frame adds anything: by a fortieth of its width.
+// The image has to move on before tracks say anything new.
 constexpr double kKeyframe_px = 15;
 constexpr double kKeyframe_s = 2;  // a slow camera drifts meanwhile, so it gets one all the same
 
@@ -18,7 +18,7 @@ constexpr double kKeyframe_s = 2;  // a slow camera drifts meanwhile, so it gets
 Msckf::Msckf(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam)
     : config_(config),
       T_rig_cam_(T_base_cam),
-      state_(config.odometry, config.attitude_states),
+      propagator_(config.odometry, config.attitude_states),
       tracks_(T_base_cam.linear()),
       track_update_(config),
       map_update_(config),
@@ -29,7 +29,7 @@ Msckf::Msckf(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam)
 }
 
 void Msckf::start(const OdometryState& odometry) {
-  state_.start(odometry);
+  propagator_.start(odometry, state_);
   height_ = HeightUpdate(config_.height);
 }
 
@@ -42,8 +42,8 @@ void Msckf::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 
 void Msckf::predict(const OdometryState& odometry, const std::optional<OdometryStep>& step) {
   const bool is_kept = isKeyframe() || zero_motion_.isReference(newest().id);
-  state_.propagate(odometry, step);
-  if (step) watchdog_.step(step->step_odom_m);
+  propagator_.propagate(odometry, step, state_);
+  if (step) watchdog_.step(step->jump_odom_m);
   if (!is_kept) state_.removeFrame(state_.frames().size() - 2);
   watchForContradiction();
   map_update_.beginFrame();
@@ -51,9 +51,10 @@ void Msckf::predict(const OdometryState& odometry, const std::optional<OdometryS
 
 void Msckf::watchForContradiction() {
   Contradiction contradiction;
-  contradiction.bias_sigmas = state_.biasSigmas();
+  contradiction.bias_sigmas = propagator_.biasSigmas(state_);
+  // Landmarks and tracks of the last image: of this one nothing has been seen yet.
   contradiction.fix_nis = map_update_.comparedNis();
-  contradiction.is_confirmed = map_update_.isLocated();
+  contradiction.is_camera_confirmed = map_update_.isLocated();
   if (watchdog_.see(newest().stamp_ns, contradiction)) {
     // Nothing that the camera said counts any more. Landmarks keep their anchors: they may be
     // right, and show it later.
@@ -61,17 +62,17 @@ void Msckf::watchForContradiction() {
     track_update_.forgetEarlierCamera();
     map_update_.reset();
     zero_motion_.reset();
-    keyframe_id_ = 0;
     while (state_.frames().size() > 1) dropOldest();
-    state_.returnTo(watchdog_.calmT_map_odom());
+    propagator_.returnTo(watchdog_.calmT_map_odom(), state_);
   }
-  watchdog_.keepWhileCalm(state_.T_map_odom());
+  watchdog_.keepWhileCalm(propagator_.T_map_odom(state_));
 }
 
 FixOutcome Msckf::fix(const std::vector<LandmarkObservation>& observations,
                       double focal_length_px) {
   if (!isDistrustful())
-    return map_update_.apply(observations, T_rig_cam_.translation(), focal_length_px, state_);
+    return map_update_.apply(observations, T_rig_cam_.translation(), focal_length_px, propagator_,
+                             state_);
   map_update_.skip(observations.size());
   return FixOutcome::kNone;
 }
@@ -79,13 +80,12 @@ FixOutcome Msckf::fix(const std::vector<LandmarkObservation>& observations,
 const std::vector<UsedTrack>& Msckf::track(const ImageFeatures& features) {
   track_update_.skip();
   order_.reset(features);
-  holdPosition(features);
+  useStillness(features);
   height_.apply(state_);
   if (isDistrustful() || !needsKeyframe(features)) return track_update_.used();
 
-  keyframe_id_ = newest().id;
-  zero_motion_.noteKeyframe(keyframe_id_);
-  tracks_.add(keyframe_id_, features, order_);
+  zero_motion_.noteKeyframe(newest().id);
+  tracks_.add(newest().id, features, order_);
   anchors_.choose(state_, track_update_.pointDistance_m());
   const int others = zero_motion_.keepsExtraFrame(state_) ? 1 : 0;
   const bool is_full = static_cast<int>(state_.frames().size()) - others > config_.max_clones;
@@ -96,7 +96,7 @@ const std::vector<UsedTrack>& Msckf::track(const ImageFeatures& features) {
   return track_update_.used();
 }
 
-void Msckf::holdPosition(const ImageFeatures& features) {
+void Msckf::useStillness(const ImageFeatures& features) {
   if (isDistrustful()) {
     zero_motion_.skip();
     return;
@@ -110,7 +110,7 @@ void Msckf::holdPosition(const ImageFeatures& features) {
 }
 
 bool Msckf::needsKeyframe(const ImageFeatures& features) {
-  const auto keyframe = indexOf(state_.frames(), keyframe_id_);
+  const auto keyframe = indexOf(state_.frames(), tracks_.keyframeId());
   if (!keyframe) return true;
   if (motion() == CameraMotion::kResting) return false;
   const Clone& last = state_.frames()[*keyframe];

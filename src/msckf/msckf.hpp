@@ -13,6 +13,7 @@
 #include "msckf/anchors.hpp"
 #include "msckf/track_update.hpp"
 #include "msckf/watchdog.hpp"
+#include "window/propagator.hpp"
 #include "window/track_order.hpp"
 #include "window/track_window.hpp"
 #include "window/window_state.hpp"
@@ -35,14 +36,15 @@ class Msckf {
   void start(const OdometryState& odometry);
   /// The next frame is another camera's, on the same base: tracks end, all else goes on.
   void changeCamera(const Eigen::Isometry3d& T_base_cam);
-  /// The next frame, by the odometry's increment. @param step  of that: no displacement
+  /// The next frame, by the odometry's increment. @param step  a jump in it, which is no motion
   void predict(const OdometryState& odometry,
                const std::optional<OdometryStep>& step = std::nullopt);
   /// Corrects the newest pose by landmarks of earlier visits, once the drift since is worth it.
   FixOutcome fix(const std::vector<LandmarkObservation>& observations, double focal_length_px);
   /// Of the observations given to the last fix().
   const std::vector<ObservationVerdict>& verdicts() const { return map_update_.verdicts(); }
-  /// Takes in the newest frame's tracks; at a keyframe uses those that are complete.
+  /// Holds a camera that stands still, takes in the newest frame's height and tracks, and at a
+  /// keyframe uses the tracks that are complete.
   /// @return the tracks used, good until the next call
   const std::vector<UsedTrack>& track(const ImageFeatures& features);
   /// A track belongs to a landmark.
@@ -72,7 +74,7 @@ class Msckf {
   /// Those of candidates() that agreed and were used.
   int used() const { return static_cast<int>(track_update_.used().size()); }
   /// Whether the newest frame is a keyframe.
-  bool isKeyframe() const { return newest().id == keyframe_id_; }
+  bool isKeyframe() const { return newest().id == tracks_.keyframeId(); }
   /// MapUpdate::nis().
   double fixNis() const { return map_update_.nis(); }
   /// The camera contradicts the odometry: for now the pose is the odometry's.
@@ -82,13 +84,14 @@ class Msckf {
 
  private:
   void watchForContradiction();
-  void holdPosition(const ImageFeatures& features);
+  void useStillness(const ImageFeatures& features);
   bool needsKeyframe(const ImageFeatures& features);
   void dropOldest();
 
   MsckfConfig config_;
   Eigen::Isometry3d T_rig_cam_;
   WindowState state_;
+  Propagator propagator_;
   TrackOrder order_;  // of the newest frame's features
   TrackWindow tracks_;
   TrackUpdate track_update_;
@@ -97,7 +100,6 @@ class Msckf {
   HeightUpdate height_;
   Anchors anchors_;
   Watchdog watchdog_;
-  std::uint32_t keyframe_id_ = 0;  // of the last keyframe
 };
 
 }  // namespace ardrone_vslam

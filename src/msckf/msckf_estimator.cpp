@@ -114,6 +114,7 @@ MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView
                                      LandmarkMap& map) {
   MapChanges changes;
   const std::vector<UsedTrack>& used_tracks = filter_.track(view.features());
+  // Landmarks decided on the state, be it that they were rejected: the image's rest stays unsaid.
   const bool is_located = state_ == SlamState::kLocalised || state_ == SlamState::kRelocated ||
                           state_ == SlamState::kFixRejected;
   if (!is_located && filter_.motion() == CameraMotion::kResting)

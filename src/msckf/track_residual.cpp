@@ -2,64 +2,12 @@
 #include "msckf/track_residual.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
-#include "map/triangulation.hpp"
 
 namespace ardrone_vslam {
 namespace {
-
-/// Two unit vectors across a unit vector, as rows.
-Eigen::Matrix<double, 2, 3> tangents(const Eigen::Vector3d& direction) {
-  int least = 0;
-  direction.cwiseAbs().minCoeff(&least);
-  Eigen::Matrix<double, 2, 3> rows;
-  rows.row(0) = direction.cross(Eigen::Vector3d::Unit(least)).normalized().transpose();
-  rows.row(1) = direction.cross(rows.row(0).transpose()).transpose();
-  return rows;
-}
-
-/// What takes a vector's part across a unit vector.
-Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
-  return Eigen::Matrix3d::Identity() - unit * unit.transpose();
-}
-
-/// Where a point lies beside a measured ray.
-struct Prediction {
-  Eigen::Vector3d direction;  // from the camera to the point
-  double distance_m;
-  double along;  // cosine to the measured ray
-};
-
-std::optional<Prediction> predict(const Ray& measured, const Eigen::Vector3d& point_map) {
-  constexpr double kNearest_m = 1e-6;
-  constexpr double kWidestCosine = 0.5;
-  const Eigen::Vector3d offset = point_map - measured.origin_map;
-  const double distance_m = offset.norm();
-  if (!(distance_m > kNearest_m)) return std::nullopt;
-  const Eigen::Vector3d direction = offset / distance_m;
-  const double along = measured.direction_map.dot(direction);
-  if (!(along > kWidestCosine)) return std::nullopt;
-  return Prediction{direction, distance_m, along};
-}
-
-/// The point nearest to all rays, a start for the iteration on angles.
-Eigen::Vector3d nearestPoint(const std::vector<Ray>& rays) {
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d b = Eigen::Vector3d::Zero();
-  for (const Ray& ray : rays) {
-    const Eigen::Matrix3d across = acrossOf(ray.direction_map);
-    A += across;
-    b += across * ray.origin_map;
-  }
-  return A.inverse() * b;
-}
-
-double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 /// Gives the rows of U orthonormal columns, of the same span (Gram and Schmidt, modified).
 void orthonormalise(std::vector<ViewRows>& views) {
@@ -91,63 +39,6 @@ void decompose(Eigen::MatrixXd& lower) {
 }
 
 }  // namespace
-
-std::optional<RayResidual> rayResidual(const Clone& pose, const Eigen::Vector3d& camera_base,
-                                       const Eigen::Vector3d& bearing_base,
-                                       const Eigen::Vector3d& point_map) {
-  const Eigen::Vector3d lever = pose.R_map_rig * camera_base;
-  const Ray measured{pose.position_map + lever, pose.R_map_rig * bearing_base};
-  const auto predicted = predict(measured, point_map);
-  if (!predicted) return std::nullopt;
-  const Eigen::Matrix<double, 2, 3> B = tangents(predicted->direction);
-  RayResidual ray;
-  ray.residual = B * measured.direction_map / predicted->along;
-  ray.point = B / predicted->distance_m;
-  ray.pose.leftCols<3>() = -ray.point;
-  ray.pose.rightCols<3>() = B * skew(predicted->direction) + ray.point * skew(lever);
-  return ray;
-}
-
-std::optional<TrackPoint> triangulateTrack(const std::vector<Clone>& frames,
-                                           const Eigen::Vector3d& camera_base, TrackViews views,
-                                           double angle_sigma_rad) {
-  if (views.size() < 2) return std::nullopt;
-  std::vector<Ray> rays;
-  rays.reserve(views.size());
-  for (const TrackView& view : views) {
-    const Clone& frame = frames[view.frame];
-    rays.push_back(
-        {frame.position_map + frame.R_map_rig * camera_base, frame.R_map_rig * view.bearing_base});
-  }
-  TrackPoint point;
-  point.position_map = nearestPoint(rays);
-  Eigen::Matrix3d inverse;
-  constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds; ++round) {
-    // Of the residuals of rayResidual(), whose tangents are not needed here.
-    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d b = Eigen::Vector3d::Zero();
-    for (const Ray& ray : rays) {
-      const auto predicted = predict(ray, point.position_map);
-      if (!predicted) return std::nullopt;
-      const double per_m = 1 / predicted->distance_m;
-      A += per_m * per_m * acrossOf(predicted->direction);
-      b += per_m * (ray.direction_map / predicted->along - predicted->direction);
-    }
-    inverse = A.inverse();
-    point.position_map += inverse * b;
-    if (!point.position_map.allFinite()) return std::nullopt;
-  }
-  point.covariance_m2 = angle_sigma_rad * angle_sigma_rad * inverse;
-  if (!point.covariance_m2.allFinite()) return std::nullopt;
-  const Eigen::Vector3d first = point.position_map - rays.front().origin_map;
-  for (const Ray& ray : rays) {
-    const Eigen::Vector3d offset = point.position_map - ray.origin_map;
-    if (!(offset.dot(ray.direction_map) > 0)) return std::nullopt;
-    point.parallax_rad = std::max(point.parallax_rad, angleBetween(first, offset));
-  }
-  return point;
-}
 
 double TrackResidual::squaredRest(const Eigen::VectorXd& error, int first) const {
   const auto left = [&](const ViewRows& view) -> Eigen::Vector2d {
@@ -202,15 +93,15 @@ void TrackResidual::addTo(Information& information, double weight) const {
   }
 }
 
-std::optional<TrackResidual> residualOf(const WindowState& state,
-                                        const Eigen::Vector3d& camera_base, TrackViews views,
-                                        const TrackPoint& point, double angle_sigma_rad,
+std::optional<TrackResidual> residualOf(const WindowState& state, const Eigen::Vector3d& camera_rig,
+                                        TrackViews views, const TrackPoint& point,
+                                        double angle_sigma_rad,
                                         const std::optional<FloorHeight>& floor) {
   TrackResidual track;
   track.views.reserve(views.size() + 1);
   for (const TrackView& view : views) {
     const auto ray =
-        rayResidual(state.frames()[view.frame], camera_base, view.bearing_base, point.position_map);
+        rayResidual(state.frames()[view.frame], camera_rig, view.bearing_rig, point.position_map);
     if (!ray) return std::nullopt;
     ViewRows& rows = track.views.emplace_back();
     rows.coordinate = state.frameCoordinate(view.frame);
@@ -240,7 +131,7 @@ std::optional<TrackResidual> residualOf(const WindowState& state,
   return track;
 }
 
-Eigen::Matrix3d covarianceByFrames(const WindowState& state, const Eigen::Vector3d& camera_base,
+Eigen::Matrix3d covarianceByFrames(const WindowState& state, const Eigen::Vector3d& camera_rig,
                                    TrackViews views, const Eigen::Vector3d& point_map,
                                    std::size_t anchor) {
   // Error of the point less that of a point which keeps its place beside the anchor = G e, e the
@@ -254,7 +145,7 @@ Eigen::Matrix3d covarianceByFrames(const WindowState& state, const Eigen::Vector
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   for (const TrackView& view : views) {
     const auto ray =
-        rayResidual(state.frames()[view.frame], camera_base, view.bearing_base, point_map);
+        rayResidual(state.frames()[view.frame], camera_rig, view.bearing_rig, point_map);
     if (!ray) continue;
     A += ray->point.transpose() * ray->point;
     parts.push_back({state.frameCoordinate(view.frame), ray->point.transpose() * ray->pose});

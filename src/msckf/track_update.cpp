@@ -81,12 +81,11 @@ bool hasKnownBaseline(TrackViews views, const WindowState& state) {
 }
 
 /// UsedTrack::stretch_sigma.
-double stretchSigma(TrackViews views, const Eigen::Vector3d& camera_base,
-                    const WindowState& state) {
+double stretchSigma(TrackViews views, const Eigen::Vector3d& camera_rig, const WindowState& state) {
   const Clone& first = state.frames()[views.front().frame];
   const Clone& last = state.frames()[views.back().frame];
-  const Eigen::Vector3d baseline = last.position_map + last.R_map_rig * camera_base -
-                                   first.position_map - first.R_map_rig * camera_base;
+  const Eigen::Vector3d baseline = last.position_map + last.R_map_rig * camera_rig -
+                                   first.position_map - first.R_map_rig * camera_rig;
   const double length_m = baseline.norm();
   const Eigen::Vector3d along_base = last.R_map_rig.transpose() * baseline / length_m;
   constexpr int kBias = WindowState::kBias;
@@ -101,16 +100,16 @@ std::optional<FloorHeight> floorOf(TrackViews views, const HeightConfig& config,
   if (!config.floor_points) return std::nullopt;
   constexpr double kDown = 0.7;  // cosine: 45 degrees
   const Clone& frame = state.frames()[views.back().frame];
-  const double down = -(frame.R_map_rig * views.back().bearing_base).z();
+  const double down = -(frame.R_map_rig * views.back().bearing_rig).z();
   if (!frame.height_m || down < kDown) return std::nullopt;
   return FloorHeight{*frame.height_m, kFloorPointSigma_m};
 }
 
 }  // namespace
 
-void TrackUpdate::changeCamera(const Eigen::Vector3d& camera_base) {
+void TrackUpdate::changeCamera(const Eigen::Vector3d& camera_rig) {
   // With no keyframe since the last change the tracks are still those of the camera before.
-  if (!earlier_camera_) earlier_camera_ = RayCamera{camera_base, angle_sigma_rad_};
+  if (!earlier_camera_) earlier_camera_ = RayCamera{camera_rig, angle_sigma_rad_};
 }
 
 void TrackUpdate::skip() {
@@ -119,11 +118,11 @@ void TrackUpdate::skip() {
 }
 
 void TrackUpdate::apply(const std::vector<FinishedTrack>& finished,
-                        const Eigen::Vector3d& camera_base, double focal_length_px,
+                        const Eigen::Vector3d& camera_rig, double focal_length_px,
                         std::uint32_t anchor_id, TrackWindow& tracks, WindowState& state) {
   skip();
   angle_sigma_rad_ = config_.track_sigma_px / focal_length_px;
-  const RayCamera camera = earlier_camera_.value_or(RayCamera{camera_base, angle_sigma_rad_});
+  const RayCamera camera = earlier_camera_.value_or(RayCamera{camera_rig, angle_sigma_rad_});
   std::vector<Candidate> candidates = gate(finished, camera, state);
   if (correct(candidates, state)) collectUsed(candidates, camera, anchor_id, tracks, state);
   if (earlier_camera_) {  // all its tracks have ended, and this one sees something else
@@ -135,23 +134,23 @@ void TrackUpdate::apply(const std::vector<FinishedTrack>& finished,
 std::vector<TrackUpdate::Candidate> TrackUpdate::gate(const std::vector<FinishedTrack>& finished,
                                                       const RayCamera& camera,
                                                       const WindowState& state) {
-  const Eigen::Vector3d& camera_base = camera.position_base;
+  const Eigen::Vector3d& camera_rig = camera.position_rig;
   const double sigma_a = camera.angle_sigma_rad;
   std::vector<Candidate> candidates;
   for (const FinishedTrack& track : finished) {
     if (static_cast<int>(track.views.size()) < kFewestViews ||
         !hasKnownBaseline(track.views, state))
       continue;
-    const auto point = triangulateTrack(state.frames(), camera_base, track.views, sigma_a);
+    const auto point = triangulateTrack(state.frames(), camera_rig, track.views, sigma_a);
     if (!point || point->parallax_rad < kParallaxSigmas * sigma_a) continue;
-    auto residual = residualOf(state, camera_base, track.views, *point, sigma_a);
+    auto residual = residualOf(state, camera_rig, track.views, *point, sigma_a);
     if (!residual) continue;
     ++candidates_;
     double distance = residual->distance(state);
     int dof = residual->degreesOfFreedom();
     if (!(distance < 2 * chiSquare95(dof))) continue;
     if (const auto floor = floorOf(track.views, config_.height, state)) {
-      auto on_floor = residualOf(state, camera_base, track.views, *point, sigma_a, floor);
+      auto on_floor = residualOf(state, camera_rig, track.views, *point, sigma_a, floor);
       const double with_floor = on_floor->distance(state);
       // Else it is on a table, or the height is that of one.
       if (with_floor - distance < chiSquare95(1)) {
@@ -183,19 +182,19 @@ bool TrackUpdate::correct(std::vector<Candidate>& candidates, WindowState& state
 void TrackUpdate::collectUsed(const std::vector<Candidate>& candidates, const RayCamera& camera,
                               std::uint32_t anchor_id, TrackWindow& tracks,
                               const WindowState& state) {
-  const Eigen::Vector3d& camera_base = camera.position_base;
+  const Eigen::Vector3d& camera_rig = camera.position_rig;
   const std::size_t anchor = *indexOf(state.frames(), anchor_id);
   std::vector<double> distances_m;
   for (const Candidate& c : candidates) {
     if (c.weight == 0) continue;
     tracks.keepNewestView(c.track->track_id);
     const auto point =
-        triangulateTrack(state.frames(), camera_base, c.track->views, camera.angle_sigma_rad);
+        triangulateTrack(state.frames(), camera_rig, c.track->views, camera.angle_sigma_rad);
     if (!point) continue;
     const Eigen::Matrix3d by_frames =
-        covarianceByFrames(state, camera_base, c.track->views, point->position_map, anchor);
+        covarianceByFrames(state, camera_rig, c.track->views, point->position_map, anchor);
     used_.push_back({*c.track, *point, anchor_id, point->covariance_m2 + by_frames,
-                     stretchSigma(c.track->views, camera_base, state)});
+                     stretchSigma(c.track->views, camera_rig, state)});
     distances_m.push_back((point->position_map - state.newest().position_map).norm());
   }
   if (used_.empty()) return;

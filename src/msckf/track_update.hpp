@@ -32,8 +32,8 @@ class TrackUpdate {
   explicit TrackUpdate(const MsckfConfig& config) : config_(config) {}
 
   /// The next frames are another camera's; tracks that were not used yet are still the old one's.
-  /// @param camera_base  the old camera's position in base
-  void changeCamera(const Eigen::Vector3d& camera_base);
+  /// @param camera_rig  the old camera's position in base
+  void changeCamera(const Eigen::Vector3d& camera_rig);
   /// No track of another camera is left.
   void forgetEarlierCamera() { earlier_camera_.reset(); }
   /// A frame without an update.
@@ -42,10 +42,10 @@ class TrackUpdate {
   /// Corrects the state. Of each used track the window keeps the newest view alone.
   /// O(tracks x views^2 + coordinates^3).
   /// @param finished  tracks of the window
-  /// @param camera_base  the camera's position in base
+  /// @param camera_rig  the camera's position in the rig
   /// @param focal_length_px  of the newest frame
   /// @param anchor_id  Clone::id, in the window, of the frame that new points belong to
-  void apply(const std::vector<FinishedTrack>& finished, const Eigen::Vector3d& camera_base,
+  void apply(const std::vector<FinishedTrack>& finished, const Eigen::Vector3d& camera_rig,
              double focal_length_px, std::uint32_t anchor_id, TrackWindow& tracks,
              WindowState& state);
 
@@ -59,7 +59,7 @@ class TrackUpdate {
  private:
   /// What the rays of tracks need of the camera that saw them.
   struct RayCamera {
-    Eigen::Vector3d position_base;
+    Eigen::Vector3d position_rig;
     double angle_sigma_rad;  // of a ray
   };
   struct Candidate;

@@ -20,7 +20,7 @@ bool Watchdog::see(std::int64_t stamp_ns, const Contradiction& contradiction) {
   last_ns_ = stamp_ns;
 
   const double bias = contradiction.bias_sigmas / kMostBiasSigmas;
-  bias_s_ = bias > 1 && !contradiction.is_confirmed ? bias_s_ + passed_s : 0;
+  bias_s_ = bias > 1 && !contradiction.is_camera_confirmed ? bias_s_ + passed_s : 0;
   // Images without old landmarks say nothing of fixes: the time with them counts.
   const double nis = contradiction.fix_nis.value_or(0) / kMostNis;
   if (contradiction.fix_nis) fixes_s_ = nis > 1 ? fixes_s_ + passed_s : 0;

@@ -13,9 +13,9 @@ constexpr double kFirstPause_s = 10;
 
 /// How far camera and odometry contradict each other at one image.
 struct Contradiction {
-  double bias_sigmas = 0;         ///< of the velocity bias that the camera has told the filter
-  std::optional<double> fix_nis;  ///< when landmarks of an earlier visit were compared
-  bool is_confirmed = false;      ///< such landmarks were in agreement with the pose
+  double bias_sigmas = 0;            ///< of the velocity bias that the camera has told the filter
+  std::optional<double> fix_nis;     ///< when landmarks of an earlier visit were compared
+  bool is_camera_confirmed = false;  ///< such landmarks were in agreement with the pose
 };
 
 /// Ends the trust in the camera when it contradicts the odometry for longer than chance or a worse
@@ -35,8 +35,8 @@ class Watchdog {
     if (isCalm()) calm_T_map_odom_ = T_map_odom;
   }
   /// The odometry's frame jumps: what is remembered goes along.
-  void step(const Eigen::Vector3d& step_odom_m) {
-    calm_T_map_odom_.translation() -= calm_T_map_odom_.linear() * step_odom_m;
+  void step(const Eigen::Vector3d& jump_odom_m) {
+    calm_T_map_odom_.translation() -= calm_T_map_odom_.linear() * jump_odom_m;
   }
   /// The last one remembered: to go back to when trust ends.
   const Eigen::Isometry3d& calmT_map_odom() const { return calm_T_map_odom_; }

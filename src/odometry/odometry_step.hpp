@@ -12,7 +12,7 @@ namespace ardrone_vslam {
 /// The odometry's position jumped. Axes of odom.
 struct OdometryStep {
   Eigen::Vector3d motion_odom_m = Eigen::Vector3d::Zero();  ///< the way at the speed before it
-  Eigen::Vector3d step_odom_m = Eigen::Vector3d::Zero();    ///< the rest of the odometry's way
+  Eigen::Vector3d jump_odom_m = Eigen::Vector3d::Zero();    ///< the rest of the odometry's way
   double motion_sigma_m = 0;                                ///< of motion_odom_m, per axis
 };
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "ardrone_vslam/time_offset.hpp"
+#include "odometry/image_rotation.hpp"
 #include "window/track_order.hpp"
-#include "zero_motion/image_rotation.hpp"
 
 namespace ardrone_vslam {
 

@@ -69,7 +69,8 @@ class Estimator {
   /// Corrects the pose by landmarks. @param matches  of the map, in the view from camera()
   virtual Correction correct(const AssociationResult& matches, const FrameView& view,
                              const LandmarkMap& map) = 0;
-  /// Takes in the frame's tracks and changes the map.
+  /// Corrects the pose by what else the image says (standstill, height, tracks), then changes the
+  /// map.
   /// @param view  that of correct(); is moved to the pose that the map is changed from
   virtual MapChanges updateMap(const AssociationResult& matches, FrameView& view,
                                LandmarkMap& map) = 0;
@@ -82,7 +83,7 @@ class Estimator {
   virtual void changeCamera(const Eigen::Isometry3d& T_base_cam) = 0;
 };
 
-/// Moves the view's rays to a camera's position; directions and windows stay.
+/// Moves the view's rays to a camera's position, with its uncertainty; their directions stay.
 void moveTo(CameraPose camera, FrameView& view);
 
 /// The one that the configuration names.

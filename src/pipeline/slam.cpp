@@ -33,8 +33,8 @@ FrameResult resultOf(const Estimate& estimate, const Correction& correction,
   result.scale_sigma = estimate.scale_sigma;
   result.height = estimate.height;
   if (correction.by_landmarks) {
-    result.camera_position_map = correction.by_landmarks->position_map;
-    result.camera_sigma_m = std::sqrt(correction.by_landmarks->covariance.trace() / 3);
+    result.landmark_position_map = correction.by_landmarks->position_map;
+    result.landmark_sigma_m = std::sqrt(correction.by_landmarks->covariance.trace() / 3);
   }
   result.feature_candidates = changes.feature_candidates;
   result.feature_matches = changes.feature_matches;
@@ -166,7 +166,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   s.result = resultOf(estimate, correction, changes);
   s.result.stamp_ns = odometry.stamp_ns;
   s.result.T_odom_base = odometry.T_odom_base;
-  if (step) s.result.odometry_step_m = step->step_odom_m.norm();
+  if (step) s.result.odometry_step_m = step->jump_odom_m.norm();
   s.result.features = static_cast<int>(features.size());
   s.result.landmarks = static_cast<int>(s.map.size());
   noteMatches(s.matches, s.result);

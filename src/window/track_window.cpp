@@ -29,7 +29,7 @@ const TrackWindow::Observation* TrackWindow::Tracks::viewOf(const Track& track,
 TrackWindow::Motion TrackWindow::motionSince(const Clone& frame, const Clone& present,
                                              const ImageFeatures& features,
                                              const TrackOrder& order) {
-  const Eigen::Matrix3d R_frame_cam = frame.R_map_rig.transpose() * present.R_map_rig * R_base_cam_;
+  const Eigen::Matrix3d R_frame_cam = frame.R_map_rig.transpose() * present.R_map_rig * R_rig_cam_;
   moved_px_.clear();
   Motion motion;
   const TrackedFeature* seen = order.begin();
@@ -42,7 +42,7 @@ TrackWindow::Motion TrackWindow::motionSince(const Clone& frame, const Clone& pr
       continue;
     }
     const Eigen::Vector3d now = R_frame_cam * features.bearing_cam[seen->feature].cast<double>();
-    moved_px_.push_back((now - then->bearing_base).norm() * features.focal_length_px);
+    moved_px_.push_back((now - then->bearing_rig).norm() * features.focal_length_px);
   }
   motion.common = static_cast<int>(moved_px_.size());
   if (moved_px_.empty()) return motion;
@@ -54,6 +54,7 @@ TrackWindow::Motion TrackWindow::motionSince(const Clone& frame, const Clone& pr
 
 void TrackWindow::add(std::uint32_t frame_id, const ImageFeatures& features,
                       const TrackOrder& order) {
+  keyframe_id_ = frame_id;
   next_.tracks.clear();
   next_.observations.clear();
   auto known = now_.tracks.begin();
@@ -66,7 +67,7 @@ void TrackWindow::add(std::uint32_t frame_id, const ImageFeatures& features,
     next_.take(goes_on ? *known++ : begun, now_);
     Track& track = next_.tracks.back();
     next_.observations.push_back(
-        {frame_id, R_base_cam_ * features.bearing_cam[seen.feature].cast<double>()});
+        {frame_id, R_rig_cam_ * features.bearing_cam[seen.feature].cast<double>()});
     ++track.count;
     track.descriptor = features.descriptor[seen.feature];
   }
@@ -93,7 +94,7 @@ const std::vector<FinishedTrack>& TrackWindow::takeFinished(const std::vector<Cl
     std::size_t frame = 0;
     for (std::uint32_t i = track.first; i < track.first + track.count; ++i) {
       while (frames[frame].id != now_.observations[i].frame_id) ++frame;
-      finished_views_.push_back({frame, now_.observations[i].bearing_base});
+      finished_views_.push_back({frame, now_.observations[i].bearing_rig});
     }
     finished_.push_back({track.id,
                          {finished_views_.data() + first_view, track.count},

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "msckf/track_residual.hpp"
+#include "window/clone.hpp"
 #include "window/track_order.hpp"
+#include "window/track_views.hpp"
 
 namespace ardrone_vslam {
 
@@ -24,10 +25,10 @@ struct FinishedTrack {
 /// nothing is allocated once there have been as many.
 class TrackWindow {
  public:
-  /// @param R_base_cam  the camera's mounting
-  explicit TrackWindow(const Eigen::Matrix3d& R_base_cam) : R_base_cam_(R_base_cam) {}
+  /// @param R_rig_cam  the camera's mounting
+  explicit TrackWindow(const Eigen::Matrix3d& R_rig_cam) : R_rig_cam_(R_rig_cam) {}
   /// Of the features from now on. None of them may have the track of an earlier one.
-  void changeCamera(const Eigen::Matrix3d& R_base_cam) { R_base_cam_ = R_base_cam; }
+  void changeCamera(const Eigen::Matrix3d& R_rig_cam) { R_rig_cam_ = R_rig_cam; }
 
   /// How far the image has moved since a frame of the window, once its turning is taken out.
   struct Motion {
@@ -39,8 +40,10 @@ class TrackWindow {
   Motion motionSince(const Clone& frame, const Clone& present, const ImageFeatures& features,
                      const TrackOrder& order);
 
-  /// Appends a view to the track of each feature.
+  /// Appends a view to the track of each feature: the frame is a keyframe.
   void add(std::uint32_t frame_id, const ImageFeatures& features, const TrackOrder& order);
+  /// The frame added last; 0: none.
+  std::uint32_t keyframeId() const { return keyframe_id_; }
   /// A track belongs to a landmark; unknown tracks are ignored.
   void assignLandmark(std::uint32_t track_id, std::uint32_t landmark_id);
 
@@ -56,7 +59,7 @@ class TrackWindow {
  private:
   struct Observation {
     std::uint32_t frame_id;
-    Eigen::Vector3d bearing_base;
+    Eigen::Vector3d bearing_rig;
   };
   struct Track {
     std::uint32_t id = 0;
@@ -81,7 +84,8 @@ class TrackWindow {
     void take(const Track& track, const Tracks& from);
   };
 
-  Eigen::Matrix3d R_base_cam_;
+  Eigen::Matrix3d R_rig_cam_;
+  std::uint32_t keyframe_id_ = 0;
   Tracks now_;
   Tracks next_;  // add() builds it and changes it for the other
   std::vector<FinishedTrack> finished_;

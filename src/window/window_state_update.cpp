@@ -10,12 +10,6 @@
 
 namespace ardrone_vslam {
 
-Information::Information(std::vector<int> of_coordinates) : coordinates(std::move(of_coordinates)) {
-  const auto size = static_cast<Eigen::Index>(coordinates.size());
-  matrix = Eigen::MatrixXd::Zero(size, size);
-  vector = Eigen::VectorXd::Zero(size);
-}
-
 // Of (P^-1 + H' W H) e = H' W r, times P, which may be singular. Nobody asks for the covariance,
 // and so the information need not be taken apart.
 std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {

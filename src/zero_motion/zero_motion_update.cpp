@@ -17,16 +17,15 @@ double rotationSigma_rad(const WindowState& state, const MsckfConfig& config, st
 void ZeroMotionUpdate::apply(const ImageFeatures& features, const Eigen::Isometry3d& T_rig_cam,
                              bool is_located, double depth_m, WindowState& state) {
   const auto reference = indexOf(state.frames(), reference_id_);
-  Eigen::Matrix3d R_reference_now = Eigen::Matrix3d::Identity();
-  double attitude_sigma_rad = 0;
+  OdometryTurn turn;
   if (!reference) detector_ = ZeroMotionDetector();
   if (reference && reference_id_ != state.newest().id) {
     const Eigen::Matrix3d R_rig_cam = T_rig_cam.linear();
-    attitude_sigma_rad = rotationSigma_rad(state, config_, *reference);
-    R_reference_now = (state.frames()[*reference].R_map_rig * R_rig_cam).transpose() *
-                      state.newest().R_map_rig * R_rig_cam;
+    turn.sigma_rad = rotationSigma_rad(state, config_, *reference);
+    turn.R_reference_now = (state.frames()[*reference].R_map_rig * R_rig_cam).transpose() *
+                           state.newest().R_map_rig * R_rig_cam;
   }
-  motion_ = detector_.see(features, R_reference_now, attitude_sigma_rad);
+  motion_ = detector_.see(features, turn);
   const bool is_still = motion_ == CameraMotion::kResting || motion_ == CameraMotion::kRotating;
   if (is_still && reference && !is_located && !holdStill(*reference, T_rig_cam, depth_m, state))
     motion_ = CameraMotion::kMoving;
@@ -42,16 +41,16 @@ bool ZeroMotionUpdate::holdStill(std::size_t reference, const Eigen::Isometry3d&
   // Odometry does not err by so much: the image stands still for another reason (a frozen stream).
   constexpr double kFastest_m_s = 0.5;
   constexpr double kSlack_m = 0.1;
-  const Eigen::Vector3d camera_base = T_rig_cam.translation();
+  const Eigen::Vector3d camera_rig = T_rig_cam.translation();
   const Clone& then = state.frames()[reference];
   const Clone& now = state.newest();
-  odometry_displacement_ += now.position_map + now.R_map_rig * camera_base - then.position_map -
-                            then.R_map_rig * camera_base;
+  odometry_displacement_ += now.position_map + now.R_map_rig * camera_rig - then.position_map -
+                            then.R_map_rig * camera_rig;
   if (odometry_displacement_.norm() > kFastest_m_s * detector_.still_s() + kSlack_m) return false;
   const Eigen::Matrix3d R_rig_cam = T_rig_cam.linear();
   const Eigen::Matrix3d R_map_cam = then.R_map_rig * R_rig_cam;
   state.holdNewest(
-      reference, camera_base,
+      reference, camera_rig,
       depth_m * depth_m * R_map_cam * detector_.stillness().hidden * R_map_cam.transpose());
   return true;
 }

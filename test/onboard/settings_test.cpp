@@ -53,7 +53,7 @@ TEST(YamlSectionsTest, WhatGoesBeyondIsAFaultWithItsLine) {
   for (const char* text :
        {"a:\n  b:\n    c: 1\n", "a:\n  b: 1\n   c: 1\n", "  a: 1\n", "a: {b: 1}\n", "a:\n  - 1\n",
         "a: &x 1\n", "a: |\n  text\n", "a: [1, 2\nb: 3\n", "word\n", "a: 'open\n", "a: 1\na: 2\n",
-        "s:\n  a: 1\n  a: 2\n", "\ta: 1\n", "a: b: c\n"})
+        "s:\n  a: 1\n  a: 2\n", "s:\n  a: 1\ns:\n  b: 2\n", "\ta: 1\n", "a: b: c\n"})
     EXPECT_NE(faultsOf(text).find("line "), std::string::npos) << text;
   EXPECT_EQ(faultsOf("").size(), 0U);
 }

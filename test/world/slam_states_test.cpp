@@ -41,14 +41,14 @@ TEST_F(SlamStates, BuildingThenLocalisedThenTooFew) {
   for (std::size_t i = 1; i < 40; ++i) slam.process(look(i), odometry_[i]);
   const FrameResult good = slam.process(look(40), odometry_[40]);
   EXPECT_EQ(good.state, SlamState::kLocalised);
-  EXPECT_TRUE(good.camera_position_map);
-  EXPECT_GT(good.camera_sigma_m, 0);
+  EXPECT_TRUE(good.landmark_position_map);
+  EXPECT_GT(good.landmark_sigma_m, 0);
   EXPECT_GE(good.landmark_candidates, good.landmark_matches);
   EXPECT_GE(good.landmarks_in_view, good.landmark_matches);
 
   const FrameResult blind = slam.process(dark(41), odometry_[41]);
   EXPECT_EQ(blind.state, SlamState::kTooFewLandmarks);
-  EXPECT_FALSE(blind.camera_position_map);
+  EXPECT_FALSE(blind.landmark_position_map);
   EXPECT_EQ(blind.landmark_matches, 0);
   const Eigen::Vector3d increment =
       odometry_[41].T_odom_base.translation() - odometry_[40].T_odom_base.translation();
@@ -79,7 +79,7 @@ TEST_F(SlamStates, FixRejected) {
   jumped.T_odom_base.translation() += Eigen::Vector3d(0.02, 0.02, 0.02);
   const FrameResult result = slam.process(look(40), jumped);
   EXPECT_EQ(result.state, SlamState::kFixRejected);
-  EXPECT_TRUE(result.camera_position_map) << "shown, though not used";
+  EXPECT_TRUE(result.landmark_position_map) << "shown, though not used";
 }
 
 TEST_F(SlamStates, NotFiniteIsNamedAndLeavesTheMapAlone) {

@@ -36,6 +36,11 @@ struct ReadYaml {
 };
 using SectionReader = SectionValues<ReadYaml>;
 
+/// roslaunch takes the last of two without a word, and so leaves out what the first one sets.
+std::string twice(const std::string& section) {
+  return "section '" + section + "' is there twice; put all its keys under one '" + section + ":'";
+}
+
 std::map<std::string, Section> readSections(const std::string& path,
                                             std::vector<std::string>& faults) {
   std::map<std::string, Section> sections;
@@ -49,15 +54,19 @@ std::map<std::string, Section> readSections(const std::string& path,
     }
     for (const auto& section : root) {
       const auto name = section.first.as<std::string>();
-      sections[name];  // one whose keys are all commented out is there, and empty
+      // One whose keys are all commented out is there, and empty.
+      if (!sections.emplace(name, Section{}).second) faults.push_back(path + ": " + twice(name));
       if (section.second.IsNull()) continue;
       if (!section.second.IsMap()) {
         faults.push_back(path + ": '" + name + "' must be a section of keys (tracker: or mapper:)");
         continue;
       }
       for (const auto& entry : section.second) {
-        sections[name][entry.first.as<std::string>()] =
+        const auto key = entry.first.as<std::string>();
+        const std::string value =
             entry.second.IsScalar() ? entry.second.as<std::string>() : YAML::Dump(entry.second);
+        if (!sections[name].emplace(key, value).second)
+          faults.push_back(path + ": '" + name + "/" + key + "' is there twice; keep one of them");
       }
     }
   } catch (const YAML::BadFile&) {

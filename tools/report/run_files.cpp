@@ -49,8 +49,8 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
     cell(r.sigma_m);
     cell(r.fix_nis > 0 ? r.fix_nis : kNone);
     for (int axis = 0; axis < 3; ++axis)
-      cell(r.camera_position_map ? (*r.camera_position_map)[axis] : kNone);
-    cell(r.camera_position_map ? r.camera_sigma_m : kNone);
+      cell(r.landmark_position_map ? (*r.landmark_position_map)[axis] : kNone);
+    cell(r.landmark_position_map ? r.landmark_sigma_m : kNone);
     cell(valueAt(e.fused_error_m, i));
     cell(valueAt(e.odometry_error_m, i));
     cell(valueAt(e.camera_error_m, i));

@@ -166,7 +166,7 @@ RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
       odometry_error = (r.T_odom_base.translation() - position).norm();
       fused_nees = nees(error, r.covariance.topLeftCorner<3, 3>());
       if (!std::isfinite(fused_error + odometry_error)) ++e.frames_error_not_finite;
-      if (r.camera_position_map) camera_error = (*r.camera_position_map - position).norm();
+      if (r.landmark_position_map) camera_error = (*r.landmark_position_map - position).norm();
     } else {
       ++e.frames_without_truth;
     }

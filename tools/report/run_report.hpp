@@ -33,7 +33,7 @@ struct RunEvaluation {
   int frames_error_not_finite = 0;
   std::vector<double> fused_error_m;
   std::vector<double> odometry_error_m;
-  std::vector<double> camera_error_m;  ///< of camera_position_map; NaN where there was none
+  std::vector<double> camera_error_m;  ///< of landmark_position_map; NaN where there was none
   std::vector<double> nees;
 };
 

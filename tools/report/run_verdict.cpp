@@ -118,6 +118,63 @@ bool isBag(const std::string& name) {
   return std::filesystem::path(name).extension() == ".bag";
 }
 
+double largestStep_m(const RunResult& run) {
+  double largest_m = 0;
+  for (const RunFrame& frame : run.frames)
+    largest_m = std::max(largest_m, frame.result.odometry_step_m);
+  return largest_m;
+}
+
+void warnOfOdometry(const std::string& name, const RunResult& run, RunVerdict& verdict) {
+  std::vector<std::string>& warnings = verdict.warnings;
+  if (run.frames_without_odometry > 0) {
+    warnings.push_back(std::to_string(run.frames_without_odometry) +
+                       " images have no odometry at their stamp and are left out");
+  }
+  if (run.absurd_speed_m_s > 0)
+    warnings.push_back(name + ": " + explainSpeed("the odometry", run.absurd_speed_m_s));
+  const std::string offset_advice = adviceOn(run.time_offset, run.image_time_offset_s);
+  if (!offset_advice.empty()) warnings.push_back(name + ": " + offset_advice);
+  if (run.odometry_froze && verdict.faults.empty()) {
+    warnings.push_back(name +
+                       ": the odometry stood still for seconds while the images moved on; check "
+                       "what publishes it");
+  }
+  const double step_m = largestStep_m(run);
+  if (step_m > 0) warnings.push_back(name + ": " + explainStep("the odometry", step_m));
+  for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
+    const auto fault = static_cast<OdometryFault>(i);
+    if (run.odometry_faults[i] == 0 || !isWorthWarning(fault)) continue;
+    warnings.push_back(name + ": the odometry " + explain(fault) + " (" + nameOf(fault) + ": " +
+                       std::to_string(run.odometry_faults[i]) + ")");
+  }
+}
+
+void warnOfCamera(const std::string& name, const RunResult& run,
+                  std::vector<std::string>& warnings) {
+  const auto distrusted = countDistrusted(run);
+  if (distrusted > 0) {
+    warnings.push_back(name + ": distrusted at " + std::to_string(distrusted) +
+                       " images: " + explain(SlamState::kDistrusted));
+  }
+  if (run.landmarks.empty()) {
+    warnings.push_back(
+        "no landmark came out, so the poses are the odometry's: images too dark, blurred or plain, "
+        "no motion sideways (turning gives no depth), odometry that does not move with the images, "
+        "or another camera's calibration");
+  }
+  const double rejected = rejectedTracks(run);
+  if (rejected > kRejected) {
+    warnings.push_back(
+        name + ": " + std::to_string(std::lround(100 * rejected)) +
+        " % of the tracks do not move as odometry, calibration and the camera's mounting foretell");
+  }
+  if (isBag(name) && isDoctorsCase(run, rejected)) {
+    warnings.push_back("what is wrong with the recording tells: rosrun ardrone_vslam doctor " +
+                       name);
+  }
+}
+
 }  // namespace
 
 RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEvaluation& evaluation,
@@ -125,53 +182,8 @@ RunVerdict judgeRun(const std::string& name, const RunResult& run, const RunEval
   throwIfNothingCame(name, run);
   RunVerdict verdict;
   verdict.faults = faultsOf(name, run, evaluation);
-  if (run.frames_without_odometry > 0) {
-    verdict.warnings.push_back(std::to_string(run.frames_without_odometry) +
-                               " images have no odometry at their stamp and are left out");
-  }
-  if (run.absurd_speed_m_s > 0) {
-    verdict.warnings.push_back(name + ": " + explainSpeed("the odometry", run.absurd_speed_m_s));
-  }
-  const std::string offset_advice = adviceOn(run.time_offset, run.image_time_offset_s);
-  if (!offset_advice.empty()) verdict.warnings.push_back(name + ": " + offset_advice);
-  if (run.odometry_froze && verdict.faults.empty()) {
-    verdict.warnings.push_back(
-        name +
-        ": the odometry stood still for seconds while the images moved on; check what "
-        "publishes it");
-  }
-  double largest_step_m = 0;
-  for (const RunFrame& frame : run.frames)
-    largest_step_m = std::max(largest_step_m, frame.result.odometry_step_m);
-  if (largest_step_m > 0)
-    verdict.warnings.push_back(name + ": " + explainStep("the odometry", largest_step_m));
-  const auto distrusted = countDistrusted(run);
-  if (distrusted > 0) {
-    verdict.warnings.push_back(name + ": distrusted at " + std::to_string(distrusted) +
-                               " images: " + explain(SlamState::kDistrusted));
-  }
-  for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
-    const auto fault = static_cast<OdometryFault>(i);
-    if (run.odometry_faults[i] == 0 || !isWorthWarning(fault)) continue;
-    verdict.warnings.push_back(name + ": the odometry " + explain(fault) + " (" + nameOf(fault) +
-                               ": " + std::to_string(run.odometry_faults[i]) + ")");
-  }
-  if (run.landmarks.empty()) {
-    verdict.warnings.push_back(
-        "no landmark came out, so the poses are the odometry's: images too dark, blurred or plain, "
-        "no motion sideways (turning gives no depth), odometry that does not move with the images, "
-        "or another camera's calibration");
-  }
-  const double rejected = rejectedTracks(run);
-  if (rejected > kRejected) {
-    verdict.warnings.push_back(
-        name + ": " + std::to_string(std::lround(100 * rejected)) +
-        " % of the tracks do not move as odometry, calibration and the camera's mounting foretell");
-  }
-  if (isBag(name) && isDoctorsCase(run, rejected)) {
-    verdict.warnings.push_back(
-        "what is wrong with the recording tells: rosrun ardrone_vslam doctor " + name);
-  }
+  warnOfOdometry(name, run, verdict);
+  warnOfCamera(name, run, verdict.warnings);
   if (truth_moved) {
     verdict.warnings.push_back(
         "truth and odometry start at different poses; the truth was moved as a whole to the "

@@ -35,8 +35,8 @@ RunResult someRun() {
     frame.result.features = 100;
     if (i == 3) {
       frame.result.state = SlamState::kLocalised;
-      frame.result.camera_position_map = Eigen::Vector3d(3, 0.4, 0);
-      frame.result.camera_sigma_m = 0.07;
+      frame.result.landmark_position_map = Eigen::Vector3d(3, 0.4, 0);
+      frame.result.landmark_sigma_m = 0.07;
     }
     frame.times_ms = {1, 2, 3, 0, 0, static_cast<double>(i)};
     run.frames.push_back(frame);

@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "support/odometry_window.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -19,12 +21,10 @@ OdometryState odometryAt(int frame, double z_m) {
 /// One frame a second, climbing by `climb_m` each; all stay.
 class Climb {
  public:
-  explicit Climb(double climb_m) : climb_m_(climb_m), state_(OdometryNoiseConfig()) {
-    state_.start(odometryAt(0, 0));
-  }
+  explicit Climb(double climb_m) : climb_m_(climb_m) { state_.add(odometryAt(0, 0)); }
   void step() {
     ++frame_;
-    state_.propagate(odometryAt(frame_, climb_m_ * frame_));
+    state_.add(odometryAt(frame_, climb_m_ * frame_));
   }
   int newestZ() const { return state_.frameCoordinate(state_.frames().size() - 1) + 2; }
   double reported_m() const { return climb_m_ * frame_; }
@@ -33,7 +33,7 @@ class Climb {
  private:
   double climb_m_;
   int frame_ = 0;
-  WindowState state_;
+  OdometryWindow state_;
 };
 
 HeightConfig often() {

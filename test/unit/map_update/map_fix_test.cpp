@@ -4,23 +4,24 @@
 #include <gtest/gtest.h>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "support/odometry_window.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-const Eigen::Vector3d kCamera_base(0.2, 0.05, -0.1);
+const Eigen::Vector3d kCamera_rig(0.2, 0.05, -0.1);
 constexpr double kAngleSigma_rad = 0.002;
 constexpr int kAllIndependent = 1000;
 
 /// Six frames of a curved way, two of them anchors with a stretch of their own.
 WindowState curvedWindow() {
-  WindowState state((OdometryNoiseConfig()));
+  OdometryWindow state;
   for (int i = 0; i < 6; ++i) {
     OdometryState odometry;
     odometry.stamp_ns = 100'000'000LL * i;
     odometry.T_odom_base.translation() << 0.3 * i, 0.05 * i * i, -0.04 * i;
     odometry.T_odom_base.linear() = rotationOf({0.02 * i, -0.03 * i, 0.1 * i});
-    i == 0 ? state.start(odometry) : state.propagate(odometry);
+    state.add(odometry);
   }
   state.makeAnchor(1);
   state.makeAnchor(1);
@@ -67,8 +68,8 @@ ObservationConsensus seen(const WindowState& state, const Clone& agreed,
     const Eigen::Vector3d truly =
         anchor.position_map + error.segment<3>(at) +
         (1 - stretch) * (rotationOf(error.segment<3>(at + 3)) * from_anchor);
-    const Eigen::Vector3d offset = truly - camera.position_map - camera.R_map_rig * kCamera_base;
-    s.bearing_base = (camera.R_map_rig.transpose() * offset).normalized();
+    const Eigen::Vector3d offset = truly - camera.position_map - camera.R_map_rig * kCamera_rig;
+    s.bearing_rig = (camera.R_map_rig.transpose() * offset).normalized();
   }
   return consensus;
 }
@@ -80,7 +81,7 @@ Eigen::VectorXd columnByDifferences(const WindowState& state, const Clone& agree
   const auto vectorOf = [&](double step) {
     Eigen::VectorXd error = Eigen::VectorXd::Zero(state.covariance().rows());
     error(coordinate) = step;
-    return fixBy(state, kCamera_base, seen(state, agreed, error), kAngleSigma_rad, kAllIndependent)
+    return fixBy(state, kCamera_rig, seen(state, agreed, error), kAngleSigma_rad, kAllIndependent)
         .information.vector;
   };
   return (vectorOf(kStep) - vectorOf(-kStep)) / (2 * kStep);
@@ -88,7 +89,7 @@ Eigen::VectorXd columnByDifferences(const WindowState& state, const Clone& agree
 
 Information exactly(const WindowState& state, const Clone& agreed) {
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(state.covariance().rows());
-  return fixBy(state, kCamera_base, seen(state, agreed, none), kAngleSigma_rad, kAllIndependent)
+  return fixBy(state, kCamera_rig, seen(state, agreed, none), kAngleSigma_rad, kAllIndependent)
       .information;
 }
 

@@ -39,17 +39,17 @@ class RelocationTest : public ::testing::Test {
                            random_.uniform(-kHalfHeight, kHalfHeight))
         .normalized();
   }
-  void add(const Eigen::Vector3d& bearing_base, const Eigen::Vector3d& point_map) {
+  void add(const Eigen::Vector3d& bearing_rig, const Eigen::Vector3d& point_map) {
     MapObservation s;
-    s.bearing_base = bearing_base;
+    s.bearing_rig = bearing_rig;
     s.point_map = point_map;
     s.covariance_m2 = 0.01 * 0.01 * Eigen::Matrix3d::Identity();
     s.index = observations_.size();
     observations_.push_back(s);
   }
   /// A landmark that the true camera sees along a bearing.
-  Eigen::Vector3d pointAlong(const Eigen::Vector3d& bearing_base, double distance_m) const {
-    return truth_.position_map + truth_.R_map_rig * (camera_base_ + distance_m * bearing_base);
+  Eigen::Vector3d pointAlong(const Eigen::Vector3d& bearing_rig, double distance_m) const {
+    return truth_.position_map + truth_.R_map_rig * (camera_base_ + distance_m * bearing_rig);
   }
   void addRight() {
     const Eigen::Vector3d bearing = anyBearing();

@@ -7,6 +7,7 @@
 
 #include "ardrone_vslam/rotation.hpp"
 #include "map/landmark_map.hpp"
+#include "support/odometry_window.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -16,13 +17,13 @@ constexpr double kTolerance_rad = 1e-3;
 
 /// Two frames; what is known of one, as an update of the filter would have it.
 WindowState twoFrames() {
-  WindowState state((OdometryNoiseConfig()));
+  OdometryWindow state;
   OdometryState odometry;
   odometry.stamp_ns = 1;
-  state.start(odometry);
+  state.add(odometry);
   odometry.stamp_ns = 1000000001;
   odometry.T_odom_base.translation().x() = 1;
-  state.propagate(odometry);
+  state.add(odometry);
   return state;
 }
 

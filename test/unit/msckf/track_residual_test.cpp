@@ -7,11 +7,12 @@
 
 #include "ardrone_vslam/rotation.hpp"
 #include "simulation/random_source.hpp"
+#include "support/odometry_window.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-const Eigen::Vector3d kCamera_base(0.2, 0.05, -0.1);
+const Eigen::Vector3d kCamera_rig(0.2, 0.05, -0.1);
 
 Clone poseAt(const Eigen::Vector3d& position_map, const Eigen::Vector3d& turn) {
   Clone pose;
@@ -21,7 +22,7 @@ Clone poseAt(const Eigen::Vector3d& position_map, const Eigen::Vector3d& turn) {
 }
 
 Eigen::Vector3d bearingTo(const Eigen::Vector3d& point_map, const Clone& pose) {
-  const Eigen::Vector3d offset = point_map - pose.position_map - pose.R_map_rig * kCamera_base;
+  const Eigen::Vector3d offset = point_map - pose.position_map - pose.R_map_rig * kCamera_rig;
   return (pose.R_map_rig.transpose() * offset).normalized();
 }
 
@@ -34,9 +35,9 @@ OdometryState odometryAt(int frame, const Eigen::Vector3d& position) {
 
 /// Frames that move sideways by 0.1 m, as the odometry says.
 WindowState sidewaysWindow(int frames) {
-  WindowState state((OdometryNoiseConfig()));
-  state.start(odometryAt(0, {0, 0, 0}));
-  for (int i = 1; i < frames; ++i) state.propagate(odometryAt(i, {0, 0.1 * i, 0.01 * (i % 2)}));
+  OdometryWindow state;
+  state.add(odometryAt(0, {0, 0, 0}));
+  for (int i = 1; i < frames; ++i) state.add(odometryAt(i, {0, 0.1 * i, 0.01 * (i % 2)}));
   return state;
 }
 
@@ -54,7 +55,7 @@ TEST(RayResidual, JacobiansAreThoseOfSmallChanges) {
   const Clone pose = poseAt({1, 2, 3}, {0.1, 0.2, 0.3});
   const Eigen::Vector3d point(6, 3, 2.5);
   const Eigen::Vector3d bearing = bearingTo(point, pose);  // residual zero: first order is exact
-  const auto at = rayResidual(pose, kCamera_base, bearing, point);
+  const auto at = rayResidual(pose, kCamera_rig, bearing, point);
   ASSERT_TRUE(at);
   EXPECT_LT(at->residual.norm(), 1e-12);
   constexpr double kStep = 1e-6;
@@ -71,7 +72,7 @@ TEST(RayResidual, JacobiansAreThoseOfSmallChanges) {
     } else {
       wrong_point -= change;
     }
-    const auto moved = rayResidual(wrong_pose, kCamera_base, bearing, wrong_point);
+    const auto moved = rayResidual(wrong_pose, kCamera_rig, bearing, wrong_point);
     ASSERT_TRUE(moved);
     const Eigen::Vector2d analytic =
         k < 6 ? Eigen::Vector2d(at->pose.col(k)) : Eigen::Vector2d(at->point.col(k - 6));
@@ -81,8 +82,8 @@ TEST(RayResidual, JacobiansAreThoseOfSmallChanges) {
 
 TEST(RayResidual, RefusesAPointBehindOrAtTheCamera) {
   const Clone pose = poseAt({0, 0, 0}, {0, 0, 0});
-  EXPECT_FALSE(rayResidual(pose, kCamera_base, {1, 0, 0}, {-3, 0, 0}));
-  EXPECT_FALSE(rayResidual(pose, kCamera_base, {1, 0, 0}, kCamera_base));
+  EXPECT_FALSE(rayResidual(pose, kCamera_rig, {1, 0, 0}, {-3, 0, 0}));
+  EXPECT_FALSE(rayResidual(pose, kCamera_rig, {1, 0, 0}, kCamera_rig));
 }
 
 TEST(TriangulateTrack, FindsThePointAndItsDeviation) {
@@ -93,7 +94,7 @@ TEST(TriangulateTrack, FindsThePointAndItsDeviation) {
   double squared = 0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
-    const auto found = triangulateTrack(state.frames(), kCamera_base,
+    const auto found = triangulateTrack(state.frames(), kCamera_rig,
                                         viewsOf(point, state, kNoise_rad, random), kNoise_rad);
     ASSERT_TRUE(found);
     const Eigen::Vector3d error = found->position_map - point;
@@ -106,13 +107,13 @@ TEST(TriangulateTrack, FindsThePointAndItsDeviation) {
 TEST(TriangulateTrack, HasNoPointForParallelOrSpreadingRays) {
   const WindowState state = sidewaysWindow(3);
   const std::vector<TrackView> parallel{{0, {1, 0, 0}}, {2, {1, 0, 0}}};
-  const auto far = triangulateTrack(state.frames(), kCamera_base, parallel, 0.001);
+  const auto far = triangulateTrack(state.frames(), kCamera_rig, parallel, 0.001);
   EXPECT_TRUE(!far || far->parallax_rad < 1e-3);
   const std::vector<TrackView> spreading{{0, Eigen::Vector3d(1, -0.1, 0).normalized()},
                                          {2, Eigen::Vector3d(1, 0.1, 0).normalized()}};
-  EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_base, spreading, 0.001));
+  EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_rig, spreading, 0.001));
   const std::vector<TrackView> alone{{0, {1, 0, 0}}};
-  EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_base, alone, 0.001));
+  EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_rig, alone, 0.001));
 }
 
 TEST(TrackResidual, DoesNotSeeTheScaleNorWhereTheMapIs) {
@@ -149,9 +150,9 @@ TEST(TrackResidual, DistanceAndInformationAreThoseOfTheProjectedRows) {
   RandomSource random(4);
   auto views = viewsOf({3, 0.2, -0.4}, state, 0.002, random);
   views.erase(views.begin() + 3);
-  const auto point = triangulateTrack(state.frames(), kCamera_base, views, 0.002);
+  const auto point = triangulateTrack(state.frames(), kCamera_rig, views, 0.002);
   ASSERT_TRUE(point);
-  const auto track = residualOf(state, kCamera_base, views, *point, 0.002);
+  const auto track = residualOf(state, kCamera_rig, views, *point, 0.002);
   ASSERT_TRUE(track);
   const int first = state.frameCoordinate(0);
   const int size = state.frameCoordinate(7) - first;
@@ -160,8 +161,8 @@ TEST(TrackResidual, DistanceAndInformationAreThoseOfTheProjectedRows) {
   Eigen::VectorXd r(rows);
   Eigen::MatrixXd on_point(rows, 3);
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const auto ray = rayResidual(state.frames()[views[i].frame], kCamera_base,
-                                 views[i].bearing_base, point->position_map);
+    const auto ray = rayResidual(state.frames()[views[i].frame], kCamera_rig, views[i].bearing_rig,
+                                 point->position_map);
     ASSERT_TRUE(ray);
     const auto row = 2 * static_cast<Eigen::Index>(i);
     H.block<2, 6>(row, state.frameCoordinate(views[i].frame) - first) = ray->pose / 0.002;
@@ -205,9 +206,9 @@ TEST(TrackResidual, ItsDistanceIsAChiSquareForHonestRays) {
   int dof = 0;
   for (int run = 0; run < kRuns; ++run) {
     const auto views = viewsOf({3, 0.2, -0.4}, state, kNoise_rad, random);
-    const auto point = triangulateTrack(state.frames(), kCamera_base, views, kNoise_rad);
+    const auto point = triangulateTrack(state.frames(), kCamera_rig, views, kNoise_rad);
     ASSERT_TRUE(point);
-    const auto track = residualOf(state, kCamera_base, views, *point, kNoise_rad);
+    const auto track = residualOf(state, kCamera_rig, views, *point, kNoise_rad);
     ASSERT_TRUE(track);
     dof = track->degreesOfFreedom();
     const double squared = track->squaredRest(no_error, state.frameCoordinate(0));
@@ -219,9 +220,9 @@ TEST(TrackResidual, ItsDistanceIsAChiSquareForHonestRays) {
 
 /// Looks down from 2 m, as does the flight's ground.
 WindowState levelWindow(int frames) {
-  WindowState state((OdometryNoiseConfig()));
-  state.start(odometryAt(0, {0, 0, 2}));
-  for (int i = 1; i < frames; ++i) state.propagate(odometryAt(i, {0.1 * i, 0.02 * i * i, 2}));
+  OdometryWindow state;
+  state.add(odometryAt(0, {0, 0, 2}));
+  for (int i = 1; i < frames; ++i) state.add(odometryAt(i, {0.1 * i, 0.02 * i * i, 2}));
   return state;
 }
 
@@ -231,11 +232,11 @@ TEST(TrackResidual, AHeightAddsOneRowThatSeesTheScale) {
   constexpr double kSigma_m = 0.05;
   RandomSource random(4);
   const auto views = viewsOf({0.3, 0.2, 0}, state, 0, random);
-  const auto point = triangulateTrack(state.frames(), kCamera_base, views, kNoise_rad);
+  const auto point = triangulateTrack(state.frames(), kCamera_rig, views, kNoise_rad);
   ASSERT_TRUE(point);
-  const auto bare = residualOf(state, kCamera_base, views, *point, kNoise_rad);
+  const auto bare = residualOf(state, kCamera_rig, views, *point, kNoise_rad);
   const auto floor =
-      residualOf(state, kCamera_base, views, *point, kNoise_rad, FloorHeight{2, kSigma_m});
+      residualOf(state, kCamera_rig, views, *point, kNoise_rad, FloorHeight{2, kSigma_m});
   ASSERT_TRUE(bare && floor);
   EXPECT_EQ(floor->degreesOfFreedom(), bare->degreesOfFreedom() + 1);
 
@@ -243,10 +244,10 @@ TEST(TrackResidual, AHeightAddsOneRowThatSeesTheScale) {
   std::vector<int> coordinates;
   for (int k = 0; k < 6 * 5; ++k) coordinates.push_back(first + k);
   Eigen::VectorXd dilation = Eigen::VectorXd::Zero(6 * 5);  // about the first camera
-  const Eigen::Vector3d camera = state.frames()[0].position_map + kCamera_base;
+  const Eigen::Vector3d camera = state.frames()[0].position_map + kCamera_rig;
   for (int i = 0; i < 5; ++i)
     dilation.segment<3>(6 * i) =
-        state.frames()[static_cast<std::size_t>(i)].position_map + kCamera_base - camera;
+        state.frames()[static_cast<std::size_t>(i)].position_map + kCamera_rig - camera;
   const auto seen = [&](const TrackResidual& track) {
     Information information(coordinates);
     information.matrix.setZero();
@@ -265,9 +266,9 @@ TEST(TrackResidual, WithAHeightItsThreeFormsAgree) {
   const WindowState state = levelWindow(5);
   RandomSource random(6);
   const auto views = viewsOf({0.3, 0.2, 0}, state, 0.002, random);
-  const auto point = triangulateTrack(state.frames(), kCamera_base, views, 0.002);
+  const auto point = triangulateTrack(state.frames(), kCamera_rig, views, 0.002);
   ASSERT_TRUE(point);
-  const auto floor = residualOf(state, kCamera_base, views, *point, 0.002, FloorHeight{2.1, 0.05});
+  const auto floor = residualOf(state, kCamera_rig, views, *point, 0.002, FloorHeight{2.1, 0.05});
   ASSERT_TRUE(floor);
   // Stacked rows, projected.
   const int rows = 2 * static_cast<int>(floor->views.size());
@@ -333,7 +334,7 @@ TEST(CovarianceByFrames, IsTheScatterOfPointsSeenFromFramesThatErr) {
       truly.R_map_rig = rotationOf(error.segment<3>(at + 3)) * truly.R_map_rig;
       views.push_back({i, bearingTo(point, truly)});
     }
-    const auto seen = triangulateTrack(state.frames(), kCamera_base, views, 1e-3);
+    const auto seen = triangulateTrack(state.frames(), kCamera_rig, views, 1e-3);
     ASSERT_TRUE(seen);
     const Clone& anchor = state.frames()[kAnchor];
     const int at = state.frameCoordinate(kAnchor);
@@ -346,7 +347,7 @@ TEST(CovarianceByFrames, IsTheScatterOfPointsSeenFromFramesThatErr) {
     scatter += (point - moved) * (point - moved).transpose() / (0.01 * kDraws);
   }
   const std::vector<TrackView> views = viewsOf(point, state, 0, random);
-  const Eigen::Matrix3d covariance = covarianceByFrames(state, kCamera_base, views, point, kAnchor);
+  const Eigen::Matrix3d covariance = covarianceByFrames(state, kCamera_rig, views, point, kAnchor);
   EXPECT_GT(covariance.trace(), 0.01) << "the depth is uncertain by decimetres";
   EXPECT_LT((covariance - scatter).norm(), 0.1 * covariance.norm()) << covariance << "\n\n"
                                                                     << scatter;

@@ -33,7 +33,7 @@ TEST(Watchdog, EndsTrustWhenTheBiasStaysBeyondItsLimit) {
 TEST(Watchdog, APlaceSeenBeforeConfirmsTheBias) {
   Watchdog watchdog;
   Contradiction contradiction = biased(50);
-  contradiction.is_confirmed = true;
+  contradiction.is_camera_confirmed = true;
   EXPECT_FALSE(secondsOfTrust(watchdog, contradiction));
 }
 
@@ -41,7 +41,7 @@ TEST(Watchdog, EndsTrustWhenFixesStayFurtherOffThanTheyClaim) {
   Watchdog watchdog;
   Contradiction contradiction;
   contradiction.fix_nis = 8.1;
-  contradiction.is_confirmed = true;
+  contradiction.is_camera_confirmed = true;
   EXPECT_NEAR(secondsOfTrust(watchdog, contradiction).value(), 3, 0.11);
   Watchdog other;
   contradiction.fix_nis = 7.9;

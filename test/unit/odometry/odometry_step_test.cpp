@@ -27,7 +27,7 @@ TEST_F(OdometryStepTest, AStepIsItsExcessOverTheSpeedSoFar) {
   for (int i = 0; i < 10; ++i) ASSERT_FALSE(see(0.1 * i, 0.2 * i)) << i;
   const auto step = see(1.0, 2.0 - 3);
   ASSERT_TRUE(step);
-  EXPECT_NEAR(step->step_odom_m.x(), -3, 1e-9);
+  EXPECT_NEAR(step->jump_odom_m.x(), -3, 1e-9);
   EXPECT_NEAR(step->motion_odom_m.x(), 0.2, 1e-9);
   EXPECT_FALSE(see(1.1, 2.2 - 3)) << "over at once";
 }
@@ -82,14 +82,14 @@ TEST_F(OdometryStepTest, AfterAFreezeInFlightTheWayMayHaveGoneOn) {
   flyAndFreeze();
   const auto thawed = see(4.0, 1.0);
   ASSERT_TRUE(thawed);
-  EXPECT_EQ(thawed->step_odom_m.norm(), 0);
+  EXPECT_EQ(thawed->jump_odom_m.norm(), 0);
   EXPECT_NEAR(thawed->motion_odom_m.x(), 0.1, 1e-9);
   EXPECT_NEAR(thawed->motion_sigma_m, 3, 0.01) << "1 m/s for 3 s";
   EXPECT_FALSE(see(4.1, 1.1));
   flyAndFreeze();
   const auto caught_up = see(4.0, 4.0);
   ASSERT_TRUE(caught_up);
-  EXPECT_NEAR(caught_up->step_odom_m.x(), 3, 0.01);
+  EXPECT_NEAR(caught_up->jump_odom_m.x(), 3, 0.01);
   watch_ = {};
   for (int i = 0; i < 10; ++i) EXPECT_FALSE(see(0.1 * i, 0)) << "on the ground";
   EXPECT_FALSE(see(1.0, 0.02)) << "and taking off";

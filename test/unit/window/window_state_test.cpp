@@ -8,6 +8,7 @@
 
 #include "ardrone_vslam/rotation.hpp"
 #include "simulation/random_source.hpp"
+#include "support/odometry_window.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -20,12 +21,12 @@ OdometryState odometryAt(int frame, const Eigen::Vector3d& position, double yaw_
   return state;
 }
 
-WindowState circling(int frames) {
-  WindowState state((OdometryNoiseConfig()));
+OdometryWindow circling(int frames) {
+  OdometryWindow state;
   for (int i = 0; i < frames; ++i) {
     const double turn = 0.1 * i;
     const OdometryState odometry = odometryAt(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
-    i == 0 ? state.start(odometry) : state.propagate(odometry);
+    state.add(odometry);
   }
   return state;
 }
@@ -44,7 +45,7 @@ void expectHonest(const WindowState& state) {
 }
 
 TEST(WindowState, FollowsTheObserverAndGrowsLessSure) {
-  const WindowState state = circling(20);
+  const OdometryWindow state = circling(20);
   EXPECT_LT(
       (state.frames().back().position_map - Eigen::Vector3d(std::sin(1.9), 1 - std::cos(1.9), 0))
           .norm(),
@@ -61,15 +62,15 @@ TEST(WindowState, FollowsTheObserverAndGrowsLessSure) {
 
 TEST(WindowState, TheObserversOwnCovarianceIsUsedWhereItGivesOne) {
   const auto grown = [](double variance_m2) {
-    WindowState state((OdometryNoiseConfig()));
+    OdometryWindow state;
     OdometryState first = odometryAt(0, {0, 0, 0});
     OdometryState second = odometryAt(1, {0, 0, 0});
     if (variance_m2 > 0) {
       first.covariance.diagonal().head<3>().setConstant(0.5);
       second.covariance.diagonal().head<3>().setConstant(0.5 + variance_m2);
     }
-    state.start(first);
-    state.propagate(second);
+    state.add(first);
+    state.add(second);
     const int at = state.frameCoordinate(1);
     return state.covariance()(at, at) - state.covariance()(at - 6, at - 6);
   };
@@ -91,10 +92,10 @@ TEST(WindowState, ErrorsThatAreStatesAreNoWhiteNoiseInTheObserversCovariance) {
                                                       std::pow(kWhite_m_per_sqrt_s, 2) * t_s);
     return state;
   };
-  WindowState state(config);
-  state.start(odometry(0));
+  OdometryWindow state(config);
+  state.add(odometry(0));
   for (int frame = 1; frame <= 600; ++frame) {
-    state.propagate(odometry(frame));
+    state.add(odometry(frame));
     if (state.frames().size() > 2) state.removeFrame(0);
   }
   const double after_a_minute_m2 =
@@ -107,7 +108,7 @@ TEST(WindowState, ErrorsThatAreStatesAreNoWhiteNoiseInTheObserversCovariance) {
 TEST(WindowState, AnUpdateIsTheKalmanUpdateInCoordinatesThatItDoesNotTurn) {
   // Of the attitude of a frame whose position does not depend on it: nothing is stretched, so that
   // the textbook's formula holds.
-  WindowState state = circling(1);
+  OdometryWindow state = circling(1);
   const Eigen::MatrixXd P = state.covariance();
   const int at = state.frameCoordinate(0) + 3;
   Information information(coordinatesFrom(at, at + 3));
@@ -130,7 +131,7 @@ TEST(WindowState, AnUpdateIsTheKalmanUpdateInCoordinatesThatItDoesNotTurn) {
 
 TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
   RandomSource random(4);
-  WindowState state = circling(12);
+  OdometryWindow state = circling(12);
   for (int round = 0; round < 60; ++round) {
     Information information(
         coordinatesFrom(state.frameCoordinate(0), state.frameCoordinate(state.frames().size())));
@@ -145,14 +146,14 @@ TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
     if (round % 4 == 0) state.makeAnchor(0);
     if (round % 10 == 9) state.removeAnchor(state.anchors().size() / 2);
     const double turn = 0.1 * (12 + round);
-    state.propagate(odometryAt(12 + round, {std::sin(turn), 1 - std::cos(turn), 0}, turn));
+    state.add(odometryAt(12 + round, {std::sin(turn), 1 - std::cos(turn), 0}, turn));
     if (state.frames().size() > 12) state.removeFrame(3);
     expectHonest(state);
   }
 }
 
 TEST(WindowState, WhatIsLearnedOfTheNewestFrameCorrectsTheAnchorsThatShareItsError) {
-  WindowState state = circling(6);
+  OdometryWindow state = circling(6);
   state.makeAnchor(0);
   state.makeAnchor(0);
   const Eigen::MatrixXd P = state.covariance();
@@ -177,15 +178,15 @@ TEST(WindowState, WhatIsLearnedOfTheNewestFrameCorrectsTheAnchorsThatShareItsErr
 }
 
 TEST(WindowState, ABiasLearnedInTheClimbDoesNotStretchTheWayForward) {
-  WindowState state((OdometryNoiseConfig()));
+  OdometryWindow state;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   const auto fly = [&](int from, int to, const Eigen::Vector3d& step) {
     for (int i = from; i < to; ++i) {
-      state.propagate(odometryAt(i, position += step));
+      state.add(odometryAt(i, position += step));
       state.removeFrame(0);
     }
   };
-  state.start(odometryAt(0, position));
+  state.add(odometryAt(0, position));
   fly(1, 31, {0, 0, 0.02});
   const int at = state.frameCoordinate(0);
   Information height(coordinatesFrom(at + 2, at + 3));
@@ -200,11 +201,11 @@ TEST(WindowState, ABiasLearnedInTheClimbDoesNotStretchTheWayForward) {
 }
 
 TEST(WindowState, TheScaleIsFoundByAPositionThatIsKnown) {
-  WindowState state((OdometryNoiseConfig()));
+  OdometryWindow state;
   constexpr double kScale = 0.02;  // reported ways are too long
   for (int i = 0; i <= 50; ++i) {
     const OdometryState odometry = odometryAt(i, {(1 + kScale) * 0.2 * i, 0, 0});
-    i == 0 ? state.start(odometry) : state.propagate(odometry);
+    state.add(odometry);
     if (state.frames().size() > 2) state.removeFrame(0);
   }
   const double before = state.covariance()(WindowState::kScale, WindowState::kScale);
@@ -221,21 +222,21 @@ TEST(WindowState, TheScaleIsFoundByAPositionThatIsKnown) {
 
 TEST(WindowState, AnInflatedVelocityErrorGrowsAtOnceAndFadesLikeTheOther) {
   const OdometryNoiseConfig config;
-  WindowState state(config);
-  state.start(odometryAt(0, {0, 0, 0}));
+  OdometryWindow state(config);
+  state.add(odometryAt(0, {0, 0, 0}));
   const double variance = config.velocity_bias_m_s * config.velocity_bias_m_s;
-  state.inflate(9);
+  state.propagator.inflate(9, state);
   for (const int at : {3, 4, 5}) EXPECT_NEAR(state.covariance()(at, at), 9 * variance, 1e-12);
-  state.inflate(9);
+  state.propagator.inflate(9, state);
   EXPECT_NEAR(state.covariance()(3, 3), 9 * variance, 1e-12) << "once";
-  state.inflate(1);
+  state.propagator.inflate(1, state);
   EXPECT_NEAR(state.covariance()(3, 3), 9 * variance, 1e-12) << "what is unknown stays unknown";
-  state.propagate(odometryAt(10'000, {0, 0, 0}));
+  state.add(odometryAt(10'000, {0, 0, 0}));
   EXPECT_NEAR(state.covariance()(3, 3), variance, 1e-6) << "after fifty time constants";
 }
 
 TEST(WindowState, ReturnsToWhereTheObserverAloneWouldBe) {
-  WindowState state = circling(10);
+  OdometryWindow state = circling(10);
   while (state.frames().size() > 2) state.removeFrame(0);
   state.makeAnchor(0);
   // The bias is learned, and moves the frame.
@@ -243,15 +244,15 @@ TEST(WindowState, ReturnsToWhereTheObserverAloneWouldBe) {
   information.matrix.diagonal().setConstant(1e5);
   information.vector.setConstant(3e3);
   ASSERT_TRUE(state.update(information));
-  ASSERT_GT(state.biasSigmas(), 0.5);
+  ASSERT_GT(state.propagator.biasSigmas(state), 0.5);
   const Eigen::Vector3d before = state.frames().back().position_map;
 
   Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
   T_map_odom.translation() = Eigen::Vector3d(0.5, 0, -0.2);
   T_map_odom.linear() = rotationOf({0, 0, 0.1});
-  state.returnTo(T_map_odom);
-  EXPECT_TRUE(state.T_map_odom().isApprox(T_map_odom, 1e-12));
-  EXPECT_EQ(state.biasSigmas(), 0);
+  state.propagator.returnTo(T_map_odom, state);
+  EXPECT_TRUE(state.propagator.T_map_odom(state).isApprox(T_map_odom, 1e-12));
+  EXPECT_EQ(state.propagator.biasSigmas(state), 0);
   const Eigen::Vector3d odom(std::sin(0.9), 1 - std::cos(0.9), 0);
   EXPECT_LT((state.frames().back().position_map - T_map_odom * odom).norm(), 1e-9);
   const int at = state.frameCoordinate(0);
@@ -259,13 +260,13 @@ TEST(WindowState, ReturnsToWhereTheObserverAloneWouldBe) {
   EXPECT_GT((state.covariance().block<3, 3>(at, at).trace()), jump_m2);
   expectHonest(state);
 
-  state.propagate(odometryAt(10, {std::sin(1.0), 1 - std::cos(1.0), 0}, 1));
-  EXPECT_TRUE(state.T_map_odom().isApprox(T_map_odom, 1e-9));
+  state.add(odometryAt(10, {std::sin(1.0), 1 - std::cos(1.0), 0}, 1));
+  EXPECT_TRUE(state.propagator.T_map_odom(state).isApprox(T_map_odom, 1e-9));
   expectHonest(state);
 }
 
 TEST(WindowState, NothingChangesWhenTheInformationIsNotFinite) {
-  WindowState state = circling(4);
+  OdometryWindow state = circling(4);
   const Eigen::MatrixXd P = state.covariance();
   Information information(coordinatesFrom(state.frameCoordinate(0), state.frameCoordinate(1)));
   information.vector.setConstant(std::nan(""));
@@ -274,13 +275,13 @@ TEST(WindowState, NothingChangesWhenTheInformationIsNotFinite) {
 }
 
 /// A circle with anchors, and what random measurements of all coordinates make of it.
-WindowState measured(const OdometryNoiseConfig& config, bool attitude_states) {
+OdometryWindow measured(const OdometryNoiseConfig& config, bool attitude_states) {
   RandomSource random(6);
-  WindowState state(config, attitude_states);
+  OdometryWindow state(config, attitude_states);
   for (int i = 0; i < 30; ++i) {
     const double turn = 0.1 * i;
     const OdometryState odometry = odometryAt(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
-    i == 0 ? state.start(odometry) : state.propagate(odometry);
+    state.add(odometry);
     if (i % 5 == 4) state.makeAnchor(0);
     if (i % 3 != 2) continue;
     Information information(coordinatesFrom(0, state.frameCoordinate(state.frames().size())));
@@ -303,8 +304,8 @@ TEST(WindowState, TheLinearFormIsTheOtherOneWithoutErrorsOfAttitude) {
   config.yaw_walk_deg_per_sqrt_s = 0;
   config.yaw_walk_deg_per_sqrt_m = 0;
   config.attitude_noise_deg = 0.001;  // the least that is allowed
-  const WindowState full = measured(config, true);
-  const WindowState linear = measured(OdometryNoiseConfig(), false);
+  const OdometryWindow full = measured(config, true);
+  const OdometryWindow linear = measured(OdometryNoiseConfig(), false);
   const auto P = full.covariance();
   EXPECT_LT((linear.covariance() - P).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_GT(P.diagonal().maxCoeff(), 5e-4);
@@ -317,7 +318,7 @@ TEST(WindowState, TheLinearFormIsTheOtherOneWithoutErrorsOfAttitude) {
 }
 
 TEST(WindowState, TheLinearFormLeavesAttitudesToTheBitAsTheObserverSays) {
-  const WindowState state = measured(OdometryNoiseConfig(), false);
+  const OdometryWindow state = measured(OdometryNoiseConfig(), false);
   for (std::size_t i = 0; i < state.frames().size(); ++i) {
     const int at = state.frameCoordinate(i) + 3;
     EXPECT_TRUE(state.covariance().middleRows<3>(at).isZero(0));

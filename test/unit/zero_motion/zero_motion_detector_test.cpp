@@ -33,7 +33,7 @@ class Film {
     const Eigen::Matrix3d R_reference_now = R_world_reference_.transpose() * R_world_cam *
                                             rotationOf(kAttitude_rad * random_.normal3());
     const CameraMotion motion =
-        detector.see(imageFrom(position, R_world_cam), R_reference_now, kAttitude_rad);
+        detector.see(imageFrom(position, R_world_cam), {R_reference_now, kAttitude_rad});
     if (detector.isReference()) R_world_reference_ = R_world_cam;
     return motion;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "zero_motion/image_rotation.hpp"
+#include "odometry/image_rotation.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

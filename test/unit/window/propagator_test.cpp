@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How WindowState::propagate carries errors on, against differences of the poses themselves.
+// How Propagator::propagate carries errors on, against differences of the poses themselves.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 
 #include "ardrone_vslam/rotation.hpp"
-#include "window/window_state.hpp"
+#include "support/odometry_window.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -42,10 +42,10 @@ void moveMean(WindowState& state, const Eigen::VectorXd& change) {
 
 /// A window whose odom and mounting were found to be turned. Neither bias nor scale have been
 /// corrected: else F stands by the corrected step for the reported one.
-WindowState window(const OdometryNoiseConfig& config, const Eigen::Vector3d& odom_turn_rad) {
-  WindowState state(config);
-  state.start(odometryAt(0));
-  for (int i = 1; i < kFrames; ++i) state.propagate(odometryAt(i));
+OdometryWindow window(const OdometryNoiseConfig& config, const Eigen::Vector3d& odom_turn_rad) {
+  OdometryWindow state(config);
+  state.add(odometryAt(0));
+  for (int i = 1; i < kFrames; ++i) state.add(odometryAt(i));
   Eigen::VectorXd change =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(uncertainCoordinates(state).size()));
   change.segment<3>(WindowState::kAttitude) = odom_turn_rad;
@@ -57,11 +57,12 @@ WindowState window(const OdometryNoiseConfig& config, const Eigen::Vector3d& odo
 /// What the next step makes of the mean: attitude of odom, mounting, newest position and attitude.
 constexpr int kOutputs = 12;
 
-Eigen::Matrix<double, kOutputs, 1> difference(const WindowState& a, const WindowState& b) {
+Eigen::Matrix<double, kOutputs, 1> difference(const OdometryWindow& a, const OdometryWindow& b) {
   Eigen::Matrix<double, kOutputs, 1> d;
   const Clone& pose_a = a.frames().back();
   const Clone& pose_b = b.frames().back();
-  d << rotationVectorOf(a.T_map_odom().linear() * b.T_map_odom().linear().transpose()),
+  d << rotationVectorOf(a.propagator.T_map_odom(a).linear() *
+                        b.propagator.T_map_odom(b).linear().transpose()),
       rotationVectorOf(a.R_base_rig() * b.R_base_rig().transpose()),
       pose_a.position_map - pose_b.position_map,
       rotationVectorOf(pose_a.R_map_rig * pose_b.R_map_rig.transpose());
@@ -69,22 +70,22 @@ Eigen::Matrix<double, kOutputs, 1> difference(const WindowState& a, const Window
 }
 
 /// By central differences of the mean, one coordinate after the other.
-void expectErrorsCarriedAsTheMeanIs(const WindowState& before) {
+void expectErrorsCarriedAsTheMeanIs(const OdometryWindow& before) {
   const std::vector<int> inputs = uncertainCoordinates(before);
   const auto size = static_cast<Eigen::Index>(inputs.size());
   constexpr double kStep = 1e-5;
   Eigen::MatrixXd transition(kOutputs, size);
   for (Eigen::Index k = 0; k < size; ++k) {
-    WindowState more = before;
-    WindowState less = before;
+    OdometryWindow more = before;
+    OdometryWindow less = before;
     moveMean(more, kStep * Eigen::VectorXd::Unit(size, k));
     moveMean(less, -kStep * Eigen::VectorXd::Unit(size, k));
-    more.propagate(odometryAt(kFrames));
-    less.propagate(odometryAt(kFrames));
+    more.add(odometryAt(kFrames));
+    less.add(odometryAt(kFrames));
     transition.col(k) = difference(more, less) / (2 * kStep);
   }
-  WindowState after = before;
-  after.propagate(odometryAt(kFrames));
+  OdometryWindow after = before;
+  after.add(odometryAt(kFrames));
   // Of the errors that a step leaves alone, which take no noise: their covariance with the new ones
   // is the transition times what it was.
   std::vector<int> kept;

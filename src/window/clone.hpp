@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace ardrone_vslam {
+
+/// A pose of base that the filter estimates: a frame of the window, or an anchor of landmarks.
+struct Clone {
+  std::uint32_t id = 0;       ///< ascending, never used again in one run
+  std::int64_t stamp_ns = 0;  ///< of the image
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();   ///< of base
+  Eigen::Matrix3d R_map_rig = Eigen::Matrix3d::Identity();  ///< of the rig, which is base but for
+                                                            ///< the extrinsics' error (WindowState)
+  /// By what share an error of the odometry's velocity, axes of base, stretches the way here: the
+  /// velocity over its square. What is seen from here shares it.
+  Eigen::Vector3d stretch_by_bias_s_m = Eigen::Vector3d::Zero();
+  std::optional<double> height_m;  ///< above the floor, measured
+  double stretch = 1;              ///< by corrections of scale and bias, of what belongs to it
+};
+
+/// Place of the pose of this id among them; nothing when there is none. O(poses).
+std::optional<std::size_t> indexOf(const std::vector<Clone>& poses, std::uint32_t id);
+
+}  // namespace ardrone_vslam

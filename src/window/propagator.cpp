@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/propagator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ardrone_vslam/rotation.hpp"
+#include "linear/scalars.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kAttitude = WindowState::kAttitude;
+constexpr int kBias = WindowState::kBias;
+constexpr int kScale = WindowState::kScale;
+constexpr int kExtrinsics = WindowState::kExtrinsics;
+constexpr int kGlobals = WindowState::kGlobals;
+constexpr int kFrame = WindowState::kFrame;
+
+constexpr double kStartSigma_m = 0.001;  // where the first frame is, map begins
+// Above this speed an error along the way counts as one of scale, which one camera cannot see.
+constexpr double kSlowSpeed_m_s = 0.1;
+constexpr double kVelocitySpan_s = 2;
+
+Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
+  return Eigen::Matrix3d::Identity() - unit * unit.transpose();
+}
+
+// Of the corrected poses: the odometry's noise would make the velocity jitter, and the bias, which
+// counts as across the way or along it, would seem to be seen.
+Eigen::Vector3d recentVelocity_base_m_s(const WindowState& state) {
+  const std::vector<Clone>& frames = state.frames();
+  Eigen::Vector3d displacement_base_m = Eigen::Vector3d::Zero();
+  double passed_s = 0;
+  for (std::size_t i = frames.size() - 1; i-- > 0 && passed_s < kVelocitySpan_s;) {
+    displacement_base_m += state.R_base_rig() * frames[i].R_map_rig.transpose() *
+                           (frames[i + 1].position_map - frames[i].position_map);
+    passed_s = static_cast<double>(frames.back().stamp_ns - frames[i].stamp_ns) * 1e-9;
+  }
+  return passed_s > 0 ? Eigen::Vector3d(displacement_base_m / passed_s) : Eigen::Vector3d::Zero();
+}
+
+}  // namespace
+
+Propagator::Propagator(const OdometryNoiseConfig& config, bool attitude_states) : config_(config) {
+  validate(config);
+  if (attitude_states) return;
+  config_.tilt_sigma_deg = 0;
+  config_.yaw_walk_deg_per_sqrt_s = 0;
+  config_.yaw_walk_deg_per_sqrt_m = 0;
+  config_.attitude_noise_deg = 0;
+  config_.extrinsics_sigma_deg = 0;
+}
+
+void Propagator::start(const OdometryState& odometry, WindowState& state) {
+  odometry_ = odometry;
+  state.R_map_odom_.setIdentity();
+  state.R_base_rig_.setIdentity();
+  inflation_ = 1;
+  state.velocity_bias_m_s_.setZero();
+  odometry_way_m_ = odometry.T_odom_base.translation().norm();  // at least
+  state.scale_error_ = 0;
+  state.floor_map_m_ = 0;
+  state.anchors_.clear();
+  state.frames_.assign(
+      1, {next_id_++, odometry.stamp_ns, odometry.T_odom_base.translation(),
+          odometry.T_odom_base.linear(), Eigen::Vector3d::Zero(), odometry.height_m, 1});
+  state.covariance_.reset(kGlobals + kFrame);
+  auto P = state.covariance_.all();
+  P.diagonal().segment<3>(kBias).setConstant(squared(config_.velocity_bias_m_s));
+  P(kScale, kScale) = squared(config_.scale_sigma);
+  // Yaw is zero by definition; roll and pitch may be off from the start.
+  const Eigen::Matrix3d tilt =
+      squared(radians(config_.tilt_sigma_deg)) * acrossOf(odometry.T_odom_base.linear().col(2));
+  const int attitude = kGlobals + 3;
+  P.block<3, 3>(kAttitude, kAttitude) = tilt;
+  P.block<3, 3>(attitude, kAttitude) = tilt;
+  P.block<3, 3>(kAttitude, attitude) = tilt;
+  P.block<3, 3>(attitude, attitude) = tilt;
+  P.diagonal().segment<3>(kExtrinsics).setConstant(squared(radians(config_.extrinsics_sigma_deg)));
+  P.block<3, 3>(attitude, kExtrinsics) =
+      odometry.T_odom_base.linear() * P.block<3, 3>(kExtrinsics, kExtrinsics);
+  P.block<3, 3>(kExtrinsics, attitude) = P.block<3, 3>(attitude, kExtrinsics).transpose();
+  P.diagonal().segment<3>(attitude).array() +=
+      squared(radians(config_.attitude_noise_deg)) + squared(radians(config_.extrinsics_sigma_deg));
+  P.diagonal().segment<3>(kGlobals).setConstant(squared(kStartSigma_m));
+}
+
+void Propagator::returnTo(const Eigen::Isometry3d& T_map_odom, WindowState& state) {
+  Clone& newest = state.frames_.back();
+  const int to = state.frameCoordinate(0);
+  const Eigen::Isometry3d T_map_base = T_map_odom * odometry_.T_odom_base;
+  const Eigen::Vector3d jump_m = T_map_base.translation() - newest.position_map;
+  const Eigen::Vector3d rotation_rad =
+      rotationVectorOf(T_map_odom.linear() * state.R_map_odom_.transpose());
+  newest.position_map = T_map_base.translation();
+  newest.R_map_rig = T_map_base.linear() * state.R_base_rig_;
+  state.R_map_odom_ = T_map_odom.linear();
+  state.velocity_bias_m_s_.setZero();
+  inflation_ = 1;
+
+  auto P = state.covariance_.all();
+  P.middleRows<3>(kBias).setZero();
+  P.middleCols<3>(kBias).setZero();
+  P.diagonal().segment<3>(kBias).setConstant(squared(config_.velocity_bias_m_s));
+  P.block<3, 3>(to, to) += jump_m * jump_m.transpose();
+  const Eigen::Matrix3d turn_variance = rotation_rad * rotation_rad.transpose();
+  for (const int a : {kAttitude, to + 3})
+    for (const int b : {kAttitude, to + 3}) P.block<3, 3>(a, b) += turn_variance;
+}
+
+Eigen::Isometry3d Propagator::T_map_odom(const WindowState& state) const {
+  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
+  T_map_odom.linear() = state.R_map_odom_;
+  T_map_odom.translation() =
+      state.frames_.back().position_map - state.R_map_odom_ * odometry_.T_odom_base.translation();
+  return T_map_odom;
+}
+
+double Propagator::biasSigmas(const WindowState& state) const {
+  return config_.velocity_bias_m_s > 0 ? state.velocity_bias_m_s_.norm() / config_.velocity_bias_m_s
+                                       : 0;
+}
+
+void Propagator::propagate(const OdometryState& odometry, const std::optional<OdometryStep>& step,
+                           WindowState& state) {
+  Increment increment;
+  increment.duration_s =
+      std::max(static_cast<double>(odometry.stamp_ns - odometry_.stamp_ns) * 1e-9, 0.0);
+  increment.way_odom_m =
+      step ? step->motion_odom_m
+           : odometry.T_odom_base.translation() - odometry_.T_odom_base.translation();
+  increment.displacement_m = increment.way_odom_m.norm();
+
+  Clone next;
+  next.id = next_id_++;
+  next.stamp_ns = odometry.stamp_ns;
+  next.height_m = odometry.height_m;
+  addPosition(odometry, increment, next, state);
+  odometry_way_m_ += increment.displacement_m;
+  if (step) {
+    // Nothing but where the drone is now is in doubt: odometry that had stood still may catch up.
+    const int to = state.frameCoordinate(state.frames_.size());
+    auto P = state.covariance_.all();
+    const Eigen::Vector3d jump_map = state.R_map_odom_ * step->jump_odom_m;
+    P.block<3, 3>(to, to) += jump_map * jump_map.transpose();
+    P.diagonal().segment<3>(to).array() += squared(step->motion_sigma_m);
+  }
+  propagateGlobals(odometry, increment, state);
+  addAttitude(odometry, next, state);
+  state.frames_.push_back(next);
+  odometry_ = odometry;
+}
+
+void Propagator::addPosition(const OdometryState& odometry, const Increment& increment, Clone& next,
+                             WindowState& state) const {
+  const Eigen::Vector3d velocity_base_m_s = recentVelocity_base_m_s(state);
+  next.stretch_by_bias_s_m =
+      velocity_base_m_s / (velocity_base_m_s.squaredNorm() + squared(kSlowSpeed_m_s));
+  const Eigen::Vector3d step =
+      state.R_map_odom_ * increment.way_odom_m *
+      (1 - state.scale_error_ - next.stretch_by_bias_s_m.dot(state.velocity_bias_m_s_));
+  const Eigen::Matrix3d bias_to_step =
+      state.R_map_odom_ * odometry_.T_odom_base.linear() * increment.duration_s *
+      (Eigen::Matrix3d::Identity() - velocity_base_m_s * next.stretch_by_bias_s_m.transpose());
+  const Eigen::Vector3d moved = step - bias_to_step * state.velocity_bias_m_s_;
+  next.position_map = state.newest().position_map + moved;
+
+  const int from = state.frameCoordinate(state.frames_.size() - 1);
+  const int to = state.frameCoordinate(state.frames_.size());
+  state.covariance_.insert(to, kFrame);
+  auto P = state.covariance_.all();
+  Eigen::Matrix<double, 3, kGlobals> F = Eigen::Matrix<double, 3, kGlobals>::Zero();
+  F.middleCols<3>(kAttitude) = -skew(moved);
+  F.middleCols<3>(kBias) = -bias_to_step - moved * next.stretch_by_bias_s_m.transpose();
+  F.col(kScale) = -moved;
+  auto position = P.middleCols<3>(to);
+  position = P.middleCols<3>(from);
+  position.noalias() += P.leftCols<kGlobals>() * F.transpose();
+  position.middleRows<3>(to) = position.middleRows<3>(from) + F * position.topRows<kGlobals>();
+  P.middleRows<3>(to) = position.transpose();
+  P.diagonal().segment<3>(to).array() += walkVariance_m2(odometry, increment);
+}
+
+void Propagator::addAttitude(const OdometryState& odometry, Clone& next, WindowState& state) const {
+  const int to = state.frameCoordinate(state.frames_.size());
+  auto P = state.covariance_.all();
+  const Eigen::Matrix3d R_map_base = state.R_map_odom_ * odometry.T_odom_base.linear();
+  next.R_map_rig = R_map_base * state.R_base_rig_;
+  auto attitude = P.middleCols<3>(to + 3);
+  attitude = P.middleCols<3>(kAttitude);
+  attitude.noalias() += P.middleCols<3>(kExtrinsics) * R_map_base.transpose();
+  attitude.middleRows<3>(to + 3) =
+      attitude.middleRows<3>(kAttitude) + R_map_base * attitude.middleRows<3>(kExtrinsics);
+  P.middleRows<3>(to + 3) = attitude.transpose();
+  P.diagonal().segment<3>(to + 3).array() += squared(radians(config_.attitude_noise_deg));
+}
+
+double Propagator::walkVariance_m2(const OdometryState& odometry,
+                                   const Increment& increment) const {
+  const double dt_s = increment.duration_s;
+  const double displacement_m = increment.displacement_m;
+  const double configured_m2 = squared(config_.walk_m_per_sqrt_m) * displacement_m +
+                               squared(config_.walk_m_per_sqrt_s) * dt_s;
+  const std::optional<double> then = positionVariance_m2(odometry_);
+  const std::optional<double> now = positionVariance_m2(odometry);
+  if (!then || !now || !(*now > *then)) return configured_m2;
+  // Of what the odometry says of itself the slow velocity error and that of the scale, which grows
+  // with the square of the way, are states of their own here. Taken for white noise a second time,
+  // they would leave the camera hardly anything to go by.
+  const double by_bias_m2 =
+      2 * squared(config_.velocity_bias_m_s) * config_.velocity_bias_time_s * dt_s;
+  const double by_scale_m2 = squared(config_.scale_sigma) *
+                             (squared(odometry_way_m_ + displacement_m) - squared(odometry_way_m_));
+  const double rest_m2 = *now - *then - by_bias_m2 - by_scale_m2;
+  return std::max(rest_m2, std::min(configured_m2, *now - *then));
+}
+
+void Propagator::inflate(double factor, WindowState& state) {
+  const double more = (factor - inflation_) * squared(config_.velocity_bias_m_s);
+  inflation_ = factor;
+  if (more <= 0) return;
+  state.covariance_.all().diagonal().segment<3>(kBias).array() += more;
+}
+
+void Propagator::propagateGlobals(const OdometryState& odometry, const Increment& increment,
+                                  WindowState& state) const {
+  const double dt_s = increment.duration_s;
+  // Roll and pitch come back to the odometry's, which gravity holds; yaw walks; biases fade.
+  const Eigen::Vector3d up = state.R_map_odom_ * odometry.T_odom_base.linear().col(2);
+  const double keep_tilt = std::exp(-dt_s / config_.tilt_time_s);
+  const double keep_bias = std::exp(-dt_s / config_.velocity_bias_time_s);
+  state.R_map_odom_ =
+      rotationOf(-(1 - keep_tilt) * acrossOf(up) * rotationVectorOf(state.R_map_odom_)) *
+      state.R_map_odom_;
+  state.velocity_bias_m_s_ *= keep_bias;
+
+  const Eigen::Matrix3d keep_attitude =
+      Eigen::Matrix3d::Identity() - (1 - keep_tilt) * acrossOf(up);
+  auto P = state.covariance_.all();
+  auto globals = P.leftCols<kGlobals>();
+  globals.middleCols<3>(kAttitude) *= keep_attitude.transpose();
+  globals.middleCols<3>(kBias) *= keep_bias;
+  auto corner = P.topLeftCorner<kGlobals, kGlobals>();
+  corner.middleRows<3>(kAttitude) = (keep_attitude * corner.middleRows<3>(kAttitude)).eval();
+  corner.middleRows<3>(kBias) *= keep_bias;
+  const double tilt_variance =
+      squared(radians(config_.tilt_sigma_deg)) * (1 - keep_tilt * keep_tilt);
+  const double yaw_variance =
+      squared(radians(config_.yaw_walk_deg_per_sqrt_s)) * dt_s +
+      squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * increment.displacement_m;
+  const double bias_variance =
+      inflation_ * squared(config_.velocity_bias_m_s) * (1 - keep_bias * keep_bias);
+  P.block<3, 3>(kAttitude, kAttitude) +=
+      tilt_variance * acrossOf(up) + yaw_variance * up * up.transpose();
+  P.diagonal().segment<3>(kBias).array() += bias_variance;
+  const auto others = P.rows() - kGlobals;
+  P.topRightCorner(kGlobals, others) = P.bottomLeftCorner(others, kGlobals).transpose();
+}
+
+}  // namespace ardrone_vslam

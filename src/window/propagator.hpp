@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+
+#include "ardrone_vslam/msckf_config.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
+#include "odometry/odometry_step.hpp"
+#include "window/window_state.hpp"
+
+namespace ardrone_vslam {
+
+/// Carries the window's state on by the odometry: the way since the newest frame, corrected by what
+/// is known of the odometry's errors, and how these grow and fade.
+class Propagator {
+ public:
+  /// @param attitude_states  false: the linear form. Attitudes and mounting are taken as exact:
+  /// their coordinates stay, without variance, and updates leave out what is measured of them.
+  /// @throws ConfigError listing every parameter out of its range
+  explicit Propagator(const OdometryNoiseConfig& config, bool attitude_states = true);
+
+  /// Map equals odom; the first frame is the window's only one.
+  void start(const OdometryState& odometry, WindowState& state);
+  /// Adds a frame by the odometry's increment since the newest one. O(coordinates).
+  /// @param step  of that increment: counts as the newest position's uncertainty, not as a way
+  void propagate(const OdometryState& odometry, const std::optional<OdometryStep>& step,
+                 WindowState& state);
+  /// Begins anew beside the anchors, with one frame where the odometry and this transform put it:
+  /// what was learned of the odometry's velocity and attitude is forgotten. What the frame moves by
+  /// counts as its deviation. There must be no other frame.
+  void returnTo(const Eigen::Isometry3d& T_map_odom, WindowState& state);
+  /// Takes the odometry's velocity for so many times worse, in variance, as it is configured.
+  void inflate(double factor, WindowState& state);
+
+  /// Takes the odometry's newest pose to the newest frame's.
+  Eigen::Isometry3d T_map_odom(const WindowState& state) const;
+  /// The odometry's velocity bias over what is configured.
+  double biasSigmas(const WindowState& state) const;
+
+ private:
+  /// What the odometry reports between two frames.
+  struct Increment {
+    double duration_s = 0;
+    Eigen::Vector3d way_odom_m = Eigen::Vector3d::Zero();
+    double displacement_m = 0;  // length of the way
+  };
+
+  void addPosition(const OdometryState& odometry, const Increment& increment, Clone& next,
+                   WindowState& state) const;
+  void addAttitude(const OdometryState& odometry, Clone& next, WindowState& state) const;
+  void propagateGlobals(const OdometryState& odometry, const Increment& increment,
+                        WindowState& state) const;
+  /// Growth of the position's variance, per axis, by white noise of the odometry.
+  double walkVariance_m2(const OdometryState& odometry, const Increment& increment) const;
+
+  OdometryNoiseConfig config_;
+  OdometryState odometry_;  // of the newest frame
+  std::uint32_t next_id_ = 1;
+  double inflation_ = 1;
+  double odometry_way_m_ = 0;  // since it began
+};
+
+}  // namespace ardrone_vslam

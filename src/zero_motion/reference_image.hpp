@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "window/track_order.hpp"
+#include "zero_motion/stillness.hpp"
+
+namespace ardrone_vslam {
+
+/// The corners of an image that others are compared with.
+class ReferenceImage {
+ public:
+  /// This one is the reference from now on. O(features log features).
+  void take(const ImageFeatures& features);
+  /// Number of its corners.
+  std::size_t size() const { return corners_.size(); }
+  /// Its corners that the image's tracks still hold. O(features log corners).
+  std::vector<BearingPair> pairsWith(const ImageFeatures& features) const;
+  /// Tracks that have begun anew take the places of lost ones whose corner they show, by place and
+  /// descriptor. O(features * lost corners).
+  void findAgain(const ImageFeatures& features, const Eigen::Matrix3d& R_reference_now);
+
+ private:
+  struct Corner {
+    std::uint32_t track_id;
+    Eigen::Vector3d bearing;
+    Descriptor descriptor;
+  };
+
+  const Corner* find(std::uint32_t track_id) const;
+  std::vector<std::size_t> lostIn(const ImageFeatures& features) const;
+
+  TrackOrder order_;             // of the image's features
+  std::vector<Corner> corners_;  // ascending in track id
+};
+
+}  // namespace ardrone_vslam

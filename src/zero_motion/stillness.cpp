@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "zero_motion/stillness.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "ardrone_vslam/rotation.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr double kInlierShare = 0.6;  // a third of the tracks may be wrong
+constexpr double kShiftGate = 16;     // chi-square with three degrees of freedom: 99.9 %
+// Jumps of neighbouring corners are alike (compression, interpolation): more tracks than this say
+// no more.
+constexpr double kIndependentTracks = 20;
+
+std::vector<double> left_rad(const std::vector<BearingPair>& pairs, const Eigen::Matrix3d& R) {
+  std::vector<double> left;
+  left.reserve(pairs.size());
+  for (const BearingPair& pair : pairs) left.push_back((R * pair.now - pair.reference).norm());
+  return left;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The turn that most tracks agree on: weights fall with what is left (Geman and McClure), and what
+// counts as much left shrinks to the corners' own noise.
+Eigen::Matrix3d agreedTurn(const std::vector<BearingPair>& pairs, Eigen::Matrix3d R,
+                           double jump_rad) {
+  constexpr int kRounds = 8;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<double> left = left_rad(pairs, R);
+    const double scale = std::max(2 * median(left), kInlierSigmas * jump_rad);
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d g = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const double off = left[i] / scale;
+      const double weight = 1 / ((1 + off * off) * (1 + off * off));
+      const Eigen::Vector3d now = R * pairs[i].now;
+      A += weight * (Eigen::Matrix3d::Identity() - now * now.transpose());
+      g += weight * now.cross(now - pairs[i].reference);
+    }
+    R = rotationOf(-A.ldlt().solve(g)) * R;
+  }
+  return R;
+}
+
+/// What the pairs that one turn explains say of another small turn and of a shift over depth.
+struct TurnAndShift {
+  Matrix6d A = Matrix6d::Zero();  // turn, shift
+  Vector6d g = Vector6d::Zero();
+  int inliers = 0;
+
+  TurnAndShift(const std::vector<BearingPair>& pairs, const Eigen::Matrix3d& R, double jump_rad) {
+    for (const BearingPair& pair : pairs) {
+      const Eigen::Vector3d now = R * pair.now;
+      const Eigen::Vector3d left = now - pair.reference;
+      if (left.norm() > kInlierSigmas * jump_rad) continue;
+      ++inliers;
+      Eigen::Matrix<double, 3, 6> J;
+      J << -skew(now), now * now.transpose() - Eigen::Matrix3d::Identity();
+      A += J.transpose() * J;
+      g += J.transpose() * left;
+    }
+    const double share = std::min(1.0, kIndependentTracks / inliers);
+    A *= share / (jump_rad * jump_rad);
+    g *= share / (jump_rad * jump_rad);
+  }
+
+  Eigen::Matrix3d turn() const { return A.topLeftCorner<3, 3>(); }
+  Eigen::Matrix3d mixed() const { return A.topRightCorner<3, 3>(); }
+
+  /// Information of the shift, the turn being known as well as this.
+  Eigen::Matrix3d shiftGiven(const Eigen::Matrix3d& turn) const {
+    return A.bottomRightCorner<3, 3>() - mixed().transpose() * turn.ldlt().solve(mixed());
+  }
+
+  /// Squared Mahalanobis length of the shift, the turn being free to make up for it.
+  double squaredShift() const {
+    // Keeps the shifts that a turn makes up for wholly from counting as seen.
+    const Eigen::Matrix3d seen = shiftGiven(turn()) + Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d g_shift =
+        g.tail<3>() - mixed().transpose() * turn().ldlt().solve(g.head<3>());
+    return g_shift.dot(seen.ldlt().solve(g_shift));
+  }
+};
+
+}  // namespace
+
+double medianLeft_rad(const std::vector<BearingPair>& pairs,
+                      const Eigen::Matrix3d& R_reference_now) {
+  return median(left_rad(pairs, R_reference_now));
+}
+
+Stillness stillnessOf(const std::vector<BearingPair>& pairs, const OdometryTurn& odometry,
+                      const Eigen::Matrix3d& R_guess, double focal_length_px) {
+  Stillness s;
+  s.common = static_cast<int>(pairs.size());
+  s.enough_tracks = pairs.size() >= kFewestPairs;
+  if (!s.enough_tracks) return s;
+  const double jump_rad = kCornerJump_px / focal_length_px;
+  const Eigen::Matrix3d R = agreedTurn(pairs, R_guess, jump_rad);
+  if (!R.allFinite()) return s;
+  s.R_reference_now = R;
+
+  const TurnAndShift rest(pairs, R, jump_rad);
+  s.inlier_share = static_cast<double>(rest.inliers) / static_cast<double>(pairs.size());
+  s.median_px = medianLeft_rad(pairs, R) * focal_length_px;
+  if (s.inlier_share < kInlierShare) return s;
+  const double off_rad = Eigen::AngleAxisd(R * odometry.R_reference_now.transpose()).angle();
+  s.is_still = rest.squaredShift() < kShiftGate && off_rad < kTurnSigmas * odometry.sigma_rad;
+
+  // A turn may stand for a shift by as much as it turned, or as little as the attitude is known.
+  const double rotation_rad = std::min(Eigen::AngleAxisd(R).angle(), odometry.sigma_rad) + 1e-6;
+  s.hidden =
+      rest.shiftGiven(rest.turn() + Eigen::Matrix3d::Identity() / (rotation_rad * rotation_rad))
+          .inverse();
+  return s;
+}
+
+}  // namespace ardrone_vslam

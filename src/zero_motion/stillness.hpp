@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace ardrone_vslam {
+
+/// How far a corner at rest jumps between two images, per axis: noise, and the corner's own pixel.
+constexpr double kCornerJump_px = 0.8;
+/// Of so many corners at rest, in deviations, nearly all jump by less: 99 % in the plane.
+constexpr double kInlierSigmas = 3;
+/// By so many deviations a turn may differ from the odometry's.
+constexpr double kTurnSigmas = 3.5;
+/// From fewer tracks nothing is told.
+constexpr std::size_t kFewestPairs = 15;
+
+/// Directions to one corner, axes of the camera, unit length.
+struct BearingPair {
+  Eigen::Vector3d reference;  ///< in the reference image
+  Eigen::Vector3d now;        ///< in the image beside it
+};
+
+/// An image beside the reference.
+struct Stillness {
+  bool enough_tracks = false;  ///< to tell anything of it
+  bool is_still = false;       ///< one turn, within the odometry's, explains how the image moved
+  int common = 0;              ///< tracks that both have
+  double inlier_share = 0;     ///< of these, those that one turn explains
+  double median_px = 0;        ///< of the tracks' motion once the turn is taken out
+  Eigen::Matrix3d R_reference_now = Eigen::Matrix3d::Identity();  ///< by the tracks
+  /// Covariance of the way that the images may hide, over the scene's depth; axes of the
+  /// reference's camera. Largest along the view, and across where a turn may have made up for it.
+  Eigen::Matrix3d hidden = Eigen::Matrix3d::Zero();
+};
+
+/// The camera's turn since the reference, as the odometry has it.
+struct OdometryTurn {
+  Eigen::Matrix3d R_reference_now = Eigen::Matrix3d::Identity();
+  double sigma_rad = 0;  ///< per axis
+};
+
+/// Median of what a turn leaves of the pairs' motion [rad]; 0 without pairs. O(pairs).
+double medianLeft_rad(const std::vector<BearingPair>& pairs,
+                      const Eigen::Matrix3d& R_reference_now);
+
+/// Finds the turn that most pairs agree on, and whether a shift is left beside it. O(pairs).
+/// @param R_guess  of the turn: where the search begins
+Stillness stillnessOf(const std::vector<BearingPair>& pairs, const OdometryTurn& odometry,
+                      const Eigen::Matrix3d& R_guess, double focal_length_px);
+
+}  // namespace ardrone_vslam
