@@ -17,7 +17,7 @@ constexpr std::size_t kVersionAt = 4;
 constexpr std::size_t kKindAt = 5;
 
 bool isKnown(std::uint32_t state) {
-  return state <= VSLAM_DISTRUSTED ||
+  return state <= VSLAM_LAST_STATE ||
          (state >= VSLAM_WAITING_FOR_IMAGES && state <= VSLAM_OUT_OF_MEMORY);
 }
 
@@ -35,7 +35,7 @@ bool isRotation(const double (&q)[4]) {
 bool canBe(const VslamPose& pose) {
   if (!isKnown(pose.state) || pose.stamp_ns < 0 || pose.stamp_ns > kLatestStamp_ns) return false;
   if ((pose.flags & VSLAM_POSE_IS_VALID) == 0) return true;
-  return pose.state <= VSLAM_DISTRUSTED && pose.state != VSLAM_NOT_FINITE && pose.stamp_ns > 0 &&
+  return pose.state <= VSLAM_LAST_STATE && pose.state != VSLAM_NOT_FINITE && pose.stamp_ns > 0 &&
          allFinite(pose.position_m) && isRotation(pose.quaternion) && allFinite(pose.deviation) &&
          std::all_of(std::begin(pose.deviation), std::end(pose.deviation),
                      [](double deviation) { return deviation >= 0; }) &&
