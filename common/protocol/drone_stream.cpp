@@ -61,13 +61,13 @@ const char* explain(DatagramFault fault) {
   switch (fault) {
     case DatagramFault::kForeign:
       return "it is not vslam_onboard's: something else sends to this port; set another one here "
-             "and as its telemetry_port";
+             "and in its telemetry_address";
     case DatagramFault::kVersion:
       return "it is of another version of the protocol: build vslam_onboard and onboard_bridge "
              "from the same release";
     case DatagramFault::kKind:
       return "it is neither an answer nor telemetry: a flight controller sends to this port; its "
-             "records go to vslam_onboard's observer_port";
+             "records go to vslam_onboard's `observer` (ADDRESS:PORT)";
     case DatagramFault::kSize:
       return "it is shorter or longer than it says";
     case DatagramFault::kCorrupted:

@@ -52,7 +52,7 @@ void toStatus(const VslamPose& pose, Status& status) {
     case VSLAM_CONTROLLER_SILENT:
       setState(Status::CONTROLLER_SILENT, "controller_silent",
                "vslam_onboard gets no good record of the flight controller: does that run, and "
-               "send to `observer_port`?",
+               "send to its `observer` (ADDRESS:PORT)?",
                status);
       break;
     case VSLAM_NO_OBSERVER:
