@@ -13,6 +13,7 @@
 #include "report/run_files.hpp"
 #include "report/run_verdict.hpp"
 #include "support/sequence_folders.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -146,6 +147,15 @@ TEST(RunReport, ScaleErrorThatWasDrawnIsRemoved) {
   EXPECT_NEAR(summary["fused_ate_rmse_scale_removed_m"], 0, 1e-12);
   EXPECT_NEAR(summary["odometry_ate_rmse_scale_removed_m"], 0.2, 1e-12);
   EXPECT_NEAR(summary["ratio_scale_removed"], 0, 1e-12);
+}
+
+TEST(RunReport, ThePageNamesEveryKeyOfTheSummary) {
+  std::ifstream file(ARDRONE_VSLAM_SOURCE_DIR "/docs/summary_keys.md");
+  const std::string page((std::istreambuf_iterator<char>(file)), {});
+  ASSERT_FALSE(page.empty());
+  for (const auto& item : summaryFor("drone", straightTruth()).items())
+    EXPECT_NE(page.find('`' + item.key() + '`'), std::string::npos)
+        << item.key() << " has no row in docs/summary_keys.md";
 }
 
 TEST(RunReport, AnEmptyRunIsReportedToo) {
