@@ -40,9 +40,11 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--json", o.json,
                  "also write what was found as JSON to this file; -: to stdout, "
                  "in place of the text");
-  app.add_option("--image", o.topics.image, "topic; default: the one with the most messages");
+  app.add_option("--image", o.topics.image,
+                 "topic; default: the one with the most messages, with --live the shortest name");
   app.add_option("--camera-info", o.topics.camera_info, "topic; default: beside the images");
-  app.add_option("--odometry", o.topics.odometry, "topic; default: the one with the most messages");
+  app.add_option("--odometry", o.topics.odometry,
+                 "topic; default: the one with the most messages, with --live the shortest name");
   app.add_option("--navdata", o.topics.navdata, "topic; default: the driver's");
   app.add_option("--imu", o.topics.imu, "topic; default: beside navdata");
   app.footer(

@@ -17,7 +17,7 @@ constexpr std::size_t kVersionAt = 4;
 constexpr std::size_t kKindAt = 5;
 
 bool isKnown(std::uint32_t state) {
-  return state <= VSLAM_DISTRUSTED ||
+  return state <= VSLAM_LAST_STATE ||
          (state >= VSLAM_WAITING_FOR_IMAGES && state <= VSLAM_OUT_OF_MEMORY);
 }
 
@@ -35,7 +35,7 @@ bool isRotation(const double (&q)[4]) {
 bool canBe(const VslamPose& pose) {
   if (!isKnown(pose.state) || pose.stamp_ns < 0 || pose.stamp_ns > kLatestStamp_ns) return false;
   if ((pose.flags & VSLAM_POSE_IS_VALID) == 0) return true;
-  return pose.state <= VSLAM_DISTRUSTED && pose.state != VSLAM_NOT_FINITE && pose.stamp_ns > 0 &&
+  return pose.state <= VSLAM_LAST_STATE && pose.state != VSLAM_NOT_FINITE && pose.stamp_ns > 0 &&
          allFinite(pose.position_m) && isRotation(pose.quaternion) && allFinite(pose.deviation) &&
          std::all_of(std::begin(pose.deviation), std::end(pose.deviation),
                      [](double deviation) { return deviation >= 0; }) &&
@@ -61,13 +61,13 @@ const char* explain(DatagramFault fault) {
   switch (fault) {
     case DatagramFault::kForeign:
       return "it is not vslam_onboard's: something else sends to this port; set another one here "
-             "and as its telemetry_port";
+             "and in its telemetry_address";
     case DatagramFault::kVersion:
       return "it is of another version of the protocol: build vslam_onboard and onboard_bridge "
              "from the same release";
     case DatagramFault::kKind:
       return "it is neither an answer nor telemetry: a flight controller sends to this port; its "
-             "records go to vslam_onboard's observer_port";
+             "records go to vslam_onboard's `observer` (ADDRESS:PORT)";
     case DatagramFault::kSize:
       return "it is shorter or longer than it says";
     case DatagramFault::kCorrupted:

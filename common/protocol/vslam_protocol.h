@@ -53,10 +53,11 @@ enum {
   VSLAM_ROTATING = 8,
   VSLAM_RELOCATED = 9,
   VSLAM_DISTRUSTED = 10,
+  VSLAM_LAST_STATE = VSLAM_DISTRUSTED, /* of those with a pose */
   /* From here on there is no pose. */
   VSLAM_WAITING_FOR_IMAGES = 32,
   VSLAM_CAMERA_LOST = 33,       /* missing, gone, or silent */
-  VSLAM_CONTROLLER_SILENT = 34, /* no good record of the observer for controller_silent_s */
+  VSLAM_CONTROLLER_SILENT = 34, /* no good record of the observer for half a second */
   VSLAM_NO_OBSERVER = 35,       /* records come, but none for the image's stamp */
   VSLAM_ENDING = 36,            /* the last record before the program ends */
   VSLAM_OUT_OF_MEMORY = 37      /* the map begins anew: raise working_mb or max_map_mb */

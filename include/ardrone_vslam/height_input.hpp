@@ -53,7 +53,7 @@ class HeightInput {
   std::uint64_t refused() const { return refused_; }
   /// Images without a height because no range was near their stamp.
   std::uint64_t missing() const { return missing_; }
-  /// And because base was tilted by more than range_max_tilt_deg.
+  /// And because base was tilted by more than 20 degrees.
   std::uint64_t tilted() const { return tilted_; }
 
  private:

@@ -38,14 +38,14 @@ constexpr PagePlace ofPart(PagePart part) {
 /// What a user needs to know of one parameter. Its default is the value in the freshly constructed
 /// struct, so that it is written only once.
 ///
-/// Every *Config struct S of the project has a free function
+/// Every *Config struct S of the project that has parameters has a free function
 /// @code
 /// template <class Visitor> void visitParameters(S& config, Visitor&& visit);
 /// @endcode
 /// that calls visit(const ParameterInfo&, member) for each parameter, nested structs included: an
-/// int, double, bool or an enumeration with EnumNames. Reading, validation, listing and the
-/// documentation all use it. Members that it leaves out are no parameters: only tests and
-/// benchmarks give them other values.
+/// int, double, bool, string or an enumeration with EnumNames. Reading, validation, listing and the
+/// documentation all use it. Members that it leaves out, and structs without it, are no parameters:
+/// only tests and benchmarks give them other values.
 struct ParameterInfo {
   const char* name;  ///< as in yaml files and in messages
   const char* unit;  ///< "px", "m", "rad", "-" ...; "choice" for enumerations, "switch" for bool

@@ -60,11 +60,10 @@ void OnboardBridgeNodelet::onSecond() {
     if (is_silent) {
       status.state = Status::DRONE_SILENT;
       status.state_name = "drone_silent";
-      status.reason =
-          "nothing comes from vslam_onboard at " + receiving_at_ +
-          ": does it run, does its `telemetry_address` name this computer and its "
-          "`telemetry_port` this port, has the computer joined the drone's network, and "
-          "does its firewall let UDP in?";
+      status.reason = "nothing comes from vslam_onboard at " + receiving_at_ +
+                      ": does it run, does its `telemetry_address` name this computer and this "
+                      "port, has the computer joined the drone's network, and "
+                      "does its firewall let UDP in?";
     }
     if (is_silent || status.state == Status::ENDED) {
       status.header.stamp = ros::Time::now();

@@ -8,7 +8,7 @@
 namespace ardrone_vslam {
 namespace {
 
-static_assert(kSlamStateNames.size() == VSLAM_DISTRUSTED + 1, "the states of the two are the same");
+static_assert(kSlamStateNames.size() == VSLAM_LAST_STATE + 1, "the states of the two are the same");
 
 Eigen::Isometry3d toIsometry(const double (&position_m)[3], const double (&quaternion)[4]) {
   const Eigen::Quaterniond q(quaternion[3], quaternion[0], quaternion[1], quaternion[2]);
@@ -52,7 +52,7 @@ void toStatus(const VslamPose& pose, Status& status) {
     case VSLAM_CONTROLLER_SILENT:
       setState(Status::CONTROLLER_SILENT, "controller_silent",
                "vslam_onboard gets no good record of the flight controller: does that run, and "
-               "send to `observer_port`?",
+               "send to its `observer` (ADDRESS:PORT)?",
                status);
       break;
     case VSLAM_NO_OBSERVER:

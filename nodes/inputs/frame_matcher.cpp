@@ -63,8 +63,8 @@ std::string explain(OdometryBuffer::Lookup miss, const std::string& odometry_top
       return {};
     case Lookup::kEmpty:
       return "no odometry has come on " + odometry_topic +
-             " (nav_msgs/Odometry): start the driver, or remap `odometry` to its topic (see "
-             "`rostopic list`)";
+             " (nav_msgs/Odometry): start the driver, or remap `odometry` to its topic "
+             "(launch files: odometry:=TOPIC; see `rostopic list`)";
     case Lookup::kNotYet:
       return "the odometry on " + odometry_topic +
              " ends before the images' stamps: it has stopped, its clock is behind the camera's, "

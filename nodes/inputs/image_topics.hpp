@@ -34,7 +34,9 @@ inline std::string adviceWithoutImages(const std::string& image_topic,
     return silent + ", but " + other + " has a publisher: start with image_transport:=" +
            (is_compressed ? "raw" : "compressed") + " (the parameter image_transport)";
   }
-  return silent + ": start the camera, or remap `image` to its topic (see `rostopic list`)";
+  return silent +
+         ": start the camera, or remap `image` to its topic (launch files: camera:=NAMESPACE "
+         "image:=NAME; see `rostopic list`)";
 }
 
 }  // namespace ardrone_vslam

@@ -51,7 +51,7 @@ void TrackerNodelet::warnOfLosses(const ImageQueue::Counts& counts) {
     so_far = counts.overflowed;
     loss_ = "images on " + image_topic_ +
             " come faster than the tracker works, the oldest are dropped: lower the camera's rate "
-            "or size, features_per_frame or sampling_passes; for a bag raise queue_size or play "
+            "or size, or features_per_frame; for a bag raise queue_size or play "
             "slower";
   } else if (counts.without_info > counts_before_.without_info && counts_before_.paired > 0) {
     // Those before the first camera_info are none of the user's business once it comes.

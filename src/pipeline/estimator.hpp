@@ -42,7 +42,7 @@ struct Correction {
   std::optional<PositionFix> by_landmarks;    ///< base by the landmarks alone, without prediction
 };
 
-/// What a frame's tracks did to the map.
+/// What updateMap() did to the map, and to what the pose rests on.
 struct MapChanges {
   int new_landmarks = 0;  ///< see FrameResult, as the following ones
   int removed_landmarks = 0;
@@ -69,8 +69,8 @@ class Estimator {
   /// Corrects the pose by landmarks. @param matches  of the map, in the view from camera()
   virtual Correction correct(const AssociationResult& matches, const FrameView& view,
                              const LandmarkMap& map) = 0;
-  /// Corrects the pose by what else the image says (standstill, height, tracks), then changes the
-  /// map.
+  /// Corrects the pose by a still image, a height and the frame's tracks, in this order, and then
+  /// changes the map.
   /// @param view  that of correct(); is moved to the pose that the map is changed from
   virtual MapChanges updateMap(const AssociationResult& matches, FrameView& view,
                                LandmarkMap& map) = 0;

@@ -83,7 +83,7 @@ class DataPathTest(unittest.TestCase):
         story = text[text.index(STORY):]
         story = story[:story.index("\n## ", len(STORY))]
         # The goal is 1,500 lines for the story; the rest is room for a change.
-        for name, part, most_files, most_lines in (("the story", story, 15, 1600), ("all", text, 25, 3000)):
+        for name, part, most_files, most_lines in (("the story", story, 15, 1600), ("all", text, 32, 3500)):
             files = sources_named_in(part)
             self.assertEqual([path for path in files if not (ROOT / path).is_file()], [])
             lines = sum(lines_of(ROOT / path) for path in files)

@@ -106,6 +106,7 @@ void addScale(const RunResult& run, Json& summary) {
   };
   summary["fused_scale_error"] = is_estimated ? orNull(last.scale_error) : Json(nullptr);
   summary["fused_scale_deviation"] = is_estimated ? orNull(last.scale_sigma) : Json(nullptr);
+  // More is better: isWorseWhenLarger names it, as every count of which that is so.
   summary["heights_used"] = count(HeightOutcome::kApplied);
   summary["heights_rejected"] = count(HeightOutcome::kRejected);
   summary["floors"] = count(HeightOutcome::kNewFloor);
@@ -217,10 +218,11 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
 
 namespace {
 
+// A number that is added to the summary, and of which more is better or says nothing, belongs here.
 bool isWorseWhenLarger(const std::string& key) {
-  for (const char* name :
-       {"seed", "landmark_matches_median", "landmarks", "camera_frames", "frames_per_second",
-        "odometry_scale_error", "image_time_offset_s", "image_time_offset_estimate_s"}) {
+  for (const char* name : {"seed", "landmark_matches_median", "landmarks", "heights_used",
+                           "camera_frames", "frames_per_second", "odometry_scale_error",
+                           "image_time_offset_s", "image_time_offset_estimate_s"}) {
     if (key == name) return false;
   }
   return true;

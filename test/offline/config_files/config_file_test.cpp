@@ -6,9 +6,14 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <set>
 #include <sstream>
+#include <string>
 
 #include "ardrone_vslam/delayed_fusion.hpp"
+#include "configs/node_config.hpp"
+#include "configs/onboard_config.hpp"
 #include "parameters/parameter_table.hpp"
 #include "support/sequence_folders.hpp"
 #include "test_paths.hpp"
@@ -216,6 +221,36 @@ int rowsOf(const std::string& table, const std::string& heading = "") {
     rows += line.rfind("| `", 0) == 0 && (heading.empty() || section == heading) ? 1 : 0;
   }
   return rows;
+}
+
+/// The parameters of each rank of the page's first part.
+using Ranks = std::map<int, std::set<std::string>>;
+
+template <class Config>
+void addRanks(Ranks& ranks) {
+  Config config;
+  visitParameters(config, [&ranks](const ParameterInfo& info, const auto&) {
+    if (info.place.part == PagePart::kUser) ranks[info.place.rank].insert(info.name);
+  });
+}
+
+TEST(ParameterTable, RanksOfWhatToTurnFirstAreOneByOneFromOne) {
+  Ranks ranks;
+  addRanks<TrackerConfig>(ranks);
+  addRanks<TrackerNodeConfig>(ranks);
+  addRanks<SlamConfig>(ranks);
+  addRanks<MapperNodeConfig>(ranks);
+  addRanks<DelayedFusionConfig>(ranks);
+  addRanks<OdometryFusionNodeConfig>(ranks);
+  addRanks<OnboardConfig>(ranks);
+  addRanks<OnboardBridgeConfig>(ranks);
+  ASSERT_GE(ranks.size(), 20U);
+  int expected = 0;
+  for (const auto& [rank, names] : ranks) {
+    EXPECT_EQ(rank, ++expected) << "a gap before turnFirst(" << rank << ") of " << *names.begin();
+    EXPECT_EQ(names.size(), 1U) << "two have turnFirst(" << rank
+                                << "): " << ::testing::PrintToString(names);
+  }
 }
 
 TEST(ParameterTable, DoesNotGrow) {

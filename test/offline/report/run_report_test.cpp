@@ -13,6 +13,7 @@
 #include "report/run_files.hpp"
 #include "report/run_verdict.hpp"
 #include "support/sequence_folders.hpp"
+#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -148,6 +149,15 @@ TEST(RunReport, ScaleErrorThatWasDrawnIsRemoved) {
   EXPECT_NEAR(summary["ratio_scale_removed"], 0, 1e-12);
 }
 
+TEST(RunReport, ThePageNamesEveryKeyOfTheSummary) {
+  std::ifstream file(ARDRONE_VSLAM_SOURCE_DIR "/docs/summary_keys.md");
+  const std::string page((std::istreambuf_iterator<char>(file)), {});
+  ASSERT_FALSE(page.empty());
+  for (const auto& item : summaryFor("drone", straightTruth()).items())
+    EXPECT_NE(page.find('`' + item.key() + '`'), std::string::npos)
+        << item.key() << " has no row in docs/summary_keys.md";
+}
+
 TEST(RunReport, AnEmptyRunIsReportedToo) {
   const RunResult run;
   const Json summary = summaryOf(run, evaluate(run, straightTruth()), {"s", "drone", 1, "thesis"});
@@ -169,7 +179,8 @@ TEST(RunReport, WorstOfSeedsIsTheLargestWhereLargerIsWorse) {
   EXPECT_EQ(all["worst"]["ratio"], 0.9);
   EXPECT_EQ(all["seeds"], (Json{1, 2, 3}));
   EXPECT_EQ(all["runs"].size(), 3U);
-  for (const char* better : {"frames_per_second", "landmark_matches_median", "landmarks"})
+  for (const char* better :
+       {"frames_per_second", "landmark_matches_median", "landmarks", "heights_used"})
     EXPECT_FALSE(all["worst"].contains(better)) << better;
   EXPECT_FALSE(all["median"].contains("t_rel_percent")) << "null in some";
 }

@@ -17,8 +17,8 @@ struct DoctorTopicNames {
 };
 
 /// Sets the recording's topics, `choices` and `replay_options` by its `topics`. Of several that fit
-/// the one with the most messages is taken, of these the shortest name, so that doctor has
-/// something to look at where replay asks.
+/// the one with the most messages is taken (before a system is listened to all have none), of these
+/// the shortest name, so that doctor has something to look at where replay asks.
 /// @throws std::runtime_error when a named topic is not there or of another type
 void chooseTopics(const DoctorTopicNames& names, DoctorRecording& recording);
 
