@@ -52,24 +52,12 @@ WANTED = {"fast9_kitti": 2.2, "fast9_320x240": 2.2, "fast12_kitti": 2.7, "fast12
           "project_100k": 8, "project_100k_avx2": 8, "freak_kitti_avx2": 5, "tracker_kitti": 8, "tracker_320x240": 8}
 # Where the time goes (perf record) in rows that may miss their figure; shown when they do.
 PROFILES = {
-    "fast12_320x240": "62 % in the test of a row's pixels, 9 % in the local maxima, 7 % at the rows' ends, 4 % in grouping; on a "
-                      "KITTI frame 66, 8, 7 and 5 %. Its corners are 1.3 times as dense, and the test takes 1.3 times as long a "
-                      "pixel. Runs lie between 3.2 and 3.4.",
-    "freak_kitti": "of 241 ns a keypoint, each stage alone: integral image 62, means of the 43 fields twice 119 (172 reads of "
-                   "the integral image each time, at places that the orientation decides), orientation 17, comparisons 7. "
-                   "The scalar form does the same reads: its means take 113 ns a time, its integral image 375 to 490. The ratio of single "
-                   "runs lies between 3.9 and 5.1 with AVX-512, between 4.0 and 4.5 with AVX2.",
-    "project_100k": "no wait for memory: arithmetic and branches that cannot be foretold (47 % of the landmarks pass the "
-                    "test of the image, 1.7 % are visible); a landmark takes 1.3 ns among 5,000 as among 100,000. The scalar "
-                    "form leaves each landmark at the first test that fails.",
+    "fast12_320x240": "most of it in the test of a row's pixels. Its corners are denser than a KITTI frame's, and the test takes longer a pixel.",
+    "freak_kitti": "half of it in the means of the 43 fields, which are read twice at places that the orientation decides. The scalar form does the "
+                   "same reads; its integral image is what takes so much longer.",
+    "project_100k": "no wait for memory: arithmetic and branches that cannot be foretold. The scalar form leaves each landmark at the first test "
+                    "that fails.",
 }
-FIRST_VERSION = """## The scalar build beside the first working version
-
-One core of a 2-core AMD EPYC, gcc 12, `ARDRONE_VSLAM_KERNELS=scalar`, image to features with tracks, 24 frames of KITTI 03 in
-rotation, medians of 9 rounds in which the programs took turns. The first working version (10f256c) took 2.85 ms for 518
-features (budget 600, a seventh of it lost at the border): corners 2.06, descriptors 0.74, tracks 0.31. The scalar
-build takes 2.16 ms for as many (budget 520), **1.3 times as fast**, and 2.36 ms for 599 (budget 600): corners 1.39, descriptors 0.64,
-tracks 0.34. In the same rounds AVX2 took 0.42 ms for the 599, AVX-512 0.39 (corners 0.14, descriptors 0.16, tracks 0.08)."""
 
 
 def read_sides(path):
@@ -223,7 +211,7 @@ def page(rows, others, context, revision, pictures, quality):
         parts += ["## Other instruction sets of the same machine", "",
                   "Rows ending in `_avx2`: a second run with `ARDRONE_VSLAM_KERNELS=avx2`.", "",
                   table({r: rows[r] for r in others}), ""]
-    parts += ["## Wanted and reached", "", wanted_table(rows, context), "", FIRST_VERSION, ""]
+    parts += ["## Wanted and reached", "", wanted_table(rows, context), ""]
     if passes:
         parts += ["## Sampling passes", "", "FAST-12, t = 35, climbing; every pixel of a 4x4 block is a pass. What "
                   "follows from it: [docs/front_end.md](../docs/front_end.md).", "", table(passes), ""]

@@ -47,7 +47,7 @@ class PagesTest(unittest.TestCase):
     def test_readme_says_on_its_first_screen_what_was_not_tried(self):
         first_screen = "".join((ROOT / "README.md").read_text(encoding="utf-8").splitlines(keepends=True)[:30])
         self.assertIn("Not yet flown on a real drone", first_screen)
-        self.assertIn("| fused |", first_screen)
+        self.assertIn("| fused [m] |", first_screen)
 
     def test_links_lead_somewhere(self):
         wrong = []
@@ -69,6 +69,37 @@ class PagesTest(unittest.TestCase):
             reached.add(page)
             todo += [(page.parent / link.partition("#")[0]).resolve() for link in links_of(page) if link.partition("#")[0].endswith(".md")]
         self.assertEqual([str(page.relative_to(ROOT)) for page in PAGES if page not in reached], [])
+
+
+class FiguresTest(unittest.TestCase):
+    def test_the_readme_says_what_the_benchmark_measured(self):
+        results = {cells[1]: cells for cells in (line.split("|") for line in (ROOT / "benchmark/RESULTS.md").read_text(encoding="utf-8").splitlines())
+                   if len(cells) > 7}
+        readme = (ROOT / "README.md").read_text(encoding="utf-8")
+        for row, what in (("tracker_kitti", "image to 600 tracked features, KITTI"), ("fast9_kitti", "FAST-9, the same corners"),
+                          ("exact_100k", "1000 descriptors among 100,000, exactly")):
+            time, unit = results[f" {row} "][3].split()
+            ms = float(time) / {"us": 1000, "ms": 1}[unit]
+            ratio = float(results[f" {row} "][6].strip(" *"))
+            times = f"{ratio:.0f}" if ratio >= 10 else f"{ratio:.1f}"
+            with self.subTest(row):
+                self.assertRegex(readme, rf"\| {what} \| {ms:.2g} ms \| [^|]* \| {times} times as long \|")
+                if row == "tracker_kitti":
+                    self.assertIn(f"600 tracked features it takes {ms:.2g} ms", readme)
+
+    def test_the_readme_says_what_evaluate_all_measured(self):
+        results = {}
+        for line in (ROOT / "docs/results.md").read_text(encoding="utf-8").splitlines():
+            cells = [cell.strip() for cell in line.split("|")]
+            if len(cells) > 9:
+                results[tuple(cells[i] for i in (1, 3, 4))] = cells
+        rows = re.findall(r"^\| `(\w+)`: [^|]* \| `([^`]*)` \| (.*) \| (.*) \| (.*) \| (.*) \|$", (ROOT / "README.md").read_text(encoding="utf-8"), re.M)
+        self.assertGreater(len(rows), 4)
+        for sequence, profile, odometry_m, fused_m, ratio, ratio_thesis in rows:
+            with self.subTest(sequence):
+                cells = results[sequence, profile, "msckf"]
+                self.assertEqual([odometry_m, fused_m, ratio], [cells[i] for i in (8, 6, 9)])
+                self.assertEqual(ratio_thesis, results[sequence, profile, "thesis"][9])
 
 
 class RoomsTest(unittest.TestCase):
