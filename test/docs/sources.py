@@ -10,7 +10,7 @@ OLD_NAMES = ROOT / "src/config/old_names.cpp"
 
 
 def old_names_table():
-    return re.search(r"kTable\{.*?\n  \};", OLD_NAMES.read_text(encoding="utf-8"), re.DOTALL).group()
+    return re.search(r"kTable\[\] = \{.*?\n\};", OLD_NAMES.read_text(encoding="utf-8"), re.DOTALL).group()
 
 
 def old_parameters():
