@@ -41,10 +41,6 @@ struct MsckfConfig {
   double fix_min_age_s = 3;
   int fix_independent_landmarks = 10;
   HeightConfig height;
-
-  /// Whether attitude errors are estimated. No parameter: without them the pose is worse and no
-  /// cheaper. Tests compare with this linear form.
-  bool attitude_states = true;
 };
 
 template <class Visitor>

@@ -7,6 +7,7 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr int kCoordinates = 6;
 constexpr double kShare = 0.1;  // of one fix in the means
 constexpr double kWorst = 10;   // one fix counts no more
 // The velocity's variance must grow by more than the fixes are off by: they see of it what has
@@ -15,16 +16,15 @@ constexpr double kGain = 3;
 
 }  // namespace
 
-void InnovationConsistency::learn(const Vector6d& whitened, int coordinates) {
-  const double nis = whitened.squaredNorm() / coordinates;
+void InnovationConsistency::learn(const Vector6d& whitened) {
+  const double nis = whitened.squaredNorm() / kCoordinates;
   const double bounded = std::min(nis, kWorst);
-  coordinates_ = coordinates;
   nis_ += kShare * (bounded - nis_);
   mean_ += kShare * ((nis > 0 ? std::sqrt(bounded / nis) : 1) * whitened - mean_);
 }
 
 double InnovationConsistency::common() const {
-  return mean_.squaredNorm() / coordinates_;
+  return mean_.squaredNorm() / kCoordinates;
 }
 
 double InnovationConsistency::odometryFactor() const {

@@ -10,9 +10,8 @@ namespace ardrone_vslam {
 /// than it claims pulls them to and fro. Both are means over the last ten fixes or so.
 class InnovationConsistency {
  public:
-  /// @param whitened     the fix's offset in deviations (MapFix)
-  /// @param coordinates  how many of its six coordinates can be off
-  void learn(const Vector6d& whitened, int coordinates);
+  /// @param whitened  the fix's offset in deviations (MapFix)
+  void learn(const Vector6d& whitened);
 
   /// Normalised innovation squared over its coordinates: 1 is honest.
   double nis() const { return nis_; }
@@ -26,7 +25,6 @@ class InnovationConsistency {
   double common() const;
 
   double nis_ = 1;
-  int coordinates_ = 6;
   Vector6d mean_ = Vector6d::Zero();
 };
 

@@ -19,6 +19,7 @@ constexpr double kRelocationWindow_deg = 15;
 constexpr double kRelocationGateSigmas = 5;
 // In the mean of a fix's six coordinates: a fix that disagrees by more is a wrong one.
 constexpr double kGateSigmas = 2;
+constexpr int kPoseCoordinates = 6;
 // A fix waits until the drift's variance is so many times its own, so that the same landmarks do
 // not count again and again.
 constexpr double kDriftShare = 1;
@@ -140,13 +141,14 @@ FixOutcome MapUpdate::update(const ObservationConsensus& consensus, double gate_
                              Frame& frame) {
   MapFix fix = fixBy(frame.state, frame.camera_rig, consensus, frame.angle_sigma_rad,
                      config_.fix_independent_landmarks);
-  consistency_.learn(fix.whitened(), coordinates());
+  consistency_.learn(fix.whitened());
   was_compared_ = true;
   frame.propagator.inflate(consistency_.odometryFactor(), frame.state);
   if (fix.drift.topLeftCorner<3, 3>().trace() <
       kDriftShare * fix.covariance.topLeftCorner<3, 3>().trace())
     return FixOutcome::kNotNeeded;
-  if (!(fix.distance() < coordinates() * gate_sigmas * gate_sigmas)) return FixOutcome::kRejected;
+  if (!(fix.distance() < kPoseCoordinates * gate_sigmas * gate_sigmas))
+    return FixOutcome::kRejected;
   fix.information.matrix /= consistency_.mapFactor();
   fix.information.vector /= consistency_.mapFactor();
   return frame.state.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;

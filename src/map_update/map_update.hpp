@@ -78,8 +78,6 @@ class MapUpdate {
   FixOutcome update(const ObservationConsensus& consensus, double gate_sigmas, Frame& frame);
   void judge(const std::vector<MapObservation>& observations,
              const ObservationConsensus& consensus);
-  /// Coordinates of a pose that a fix may find wrong.
-  int coordinates() const { return config_.attitude_states ? 6 : 3; }
 
   MsckfConfig config_;
   InnovationConsistency consistency_;

@@ -18,11 +18,10 @@ constexpr double kKeyframe_s = 2;  // a slow camera drifts meanwhile, so it gets
 Msckf::Msckf(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam)
     : config_(config),
       T_rig_cam_(T_base_cam),
-      propagator_(config.odometry, config.attitude_states),
+      propagator_(config.odometry),
       tracks_(T_base_cam.linear()),
       track_update_(config),
       map_update_(config),
-      zero_motion_(config),
       height_(config.height),
       anchors_(config) {
   validate(config);
@@ -106,7 +105,8 @@ void Msckf::useStillness(const ImageFeatures& features) {
   zero_motion_.apply(features, T_rig_cam_, is_located,
                      seen_m > 0 ? seen_m : config_.zero_motion_depth_m, state_);
   if (is_located || motion() == CameraMotion::kResting) return;
-  limitByScene(features, order_, tracks_, T_rig_cam_.linear().col(2), config_, state_);
+  limitByScene(features, order_, tracks_, T_rig_cam_.linear().col(2), config_.zero_motion_depth_m,
+               state_);
 }
 
 bool Msckf::needsKeyframe(const ImageFeatures& features) {
@@ -147,12 +147,6 @@ Matrix6d Msckf::covariance() const {
   covariance.bottomRows<3>() -= shared.transpose();
   covariance.bottomRightCorner<3, 3>() +=
       R_map_base * P.block<3, 3>(kExtrinsics, kExtrinsics) * R_map_base.transpose();
-  // The linear form takes the attitude as exact, but nobody else should.
-  if (!config_.attitude_states) {
-    const OdometryNoiseConfig& noise = config_.odometry;
-    covariance.diagonal().tail<3>().array() +=
-        (squared(noise.attitude_noise_deg) + squared(noise.tilt_sigma_deg)) * squared(M_PI / 180);
-  }
   return 0.5 * (covariance + covariance.transpose());  // to the bit, whatever rounding did
 }
 

@@ -42,14 +42,8 @@ Eigen::Vector3d recentVelocity_base_m_s(const WindowState& state) {
 
 }  // namespace
 
-Propagator::Propagator(const OdometryNoiseConfig& config, bool attitude_states) : config_(config) {
+Propagator::Propagator(const OdometryNoiseConfig& config) : config_(config) {
   validate(config);
-  if (attitude_states) return;
-  config_.tilt_sigma_deg = 0;
-  config_.yaw_walk_deg_per_sqrt_s = 0;
-  config_.yaw_walk_deg_per_sqrt_m = 0;
-  config_.attitude_noise_deg = 0;
-  config_.extrinsics_sigma_deg = 0;
 }
 
 void Propagator::start(const OdometryState& odometry, WindowState& state) {

@@ -17,10 +17,8 @@ namespace ardrone_vslam {
 /// is known of the odometry's errors, and how these grow and fade.
 class Propagator {
  public:
-  /// @param attitude_states  false: the linear form. Attitudes and mounting are taken as exact:
-  /// their coordinates stay, without variance, and updates leave out what is measured of them.
   /// @throws ConfigError listing every parameter out of its range
-  explicit Propagator(const OdometryNoiseConfig& config, bool attitude_states = true);
+  explicit Propagator(const OdometryNoiseConfig& config);
 
   /// Map equals odom; the first frame is the window's only one.
   void start(const OdometryState& odometry, WindowState& state);

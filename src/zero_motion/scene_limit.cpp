@@ -37,9 +37,7 @@ void limitDisplacement(std::size_t frame, double across_m, const Eigen::Vector3d
 }  // namespace
 
 void limitByScene(const ImageFeatures& features, const TrackOrder& order, TrackWindow& tracks,
-                  const Eigen::Vector3d& view_rig, const MsckfConfig& config, WindowState& state) {
-  // Not the landmarks' distance: what drift made is as much too far away.
-  const double depth_m = config.zero_motion_depth_m;
+                  const Eigen::Vector3d& view_rig, double depth_m, WindowState& state) {
   const double least_rad = kCornerJump_px / features.focal_length_px;
   const Clone& newest = state.newest();
   // The oldest frame that shows the same: since then most drift has added up.
@@ -52,7 +50,7 @@ void limitByScene(const ImageFeatures& features, const TrackOrder& order, TrackW
     if (motion.common < kFewestTracks || motion.lost > motion.common) continue;
     // Half of what is seen is no further away; an attitude that is off may hide as much.
     const double seen_rad = std::max(motion.median_px / features.focal_length_px, least_rad);
-    const double hidden_rad = kAttitudeSigmas * rotationSigma_rad(state, config, frame);
+    const double hidden_rad = kAttitudeSigmas * rotationSigma_rad(state, frame);
     limitDisplacement(frame, depth_m * std::hypot(seen_rad, hidden_rad),
                       newest.R_map_rig * view_rig, state);
     return;

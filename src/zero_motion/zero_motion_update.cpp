@@ -5,10 +5,7 @@
 
 namespace ardrone_vslam {
 
-double rotationSigma_rad(const WindowState& state, const MsckfConfig& config, std::size_t frame) {
-  // Taken as exact or not, the attitude is noisy.
-  if (!config.attitude_states)
-    return std::sqrt(2.0) * config.odometry.attitude_noise_deg * M_PI / 180;
+double rotationSigma_rad(const WindowState& state, std::size_t frame) {
   const Matrix6d relative = state.relativeCovariance(
       state.frameCoordinate(frame), state.frameCoordinate(state.frames().size() - 1));
   return std::sqrt(relative.bottomRightCorner<3, 3>().trace() / 3);
@@ -21,7 +18,7 @@ void ZeroMotionUpdate::apply(const ImageFeatures& features, const Eigen::Isometr
   if (!reference) detector_ = ZeroMotionDetector();
   if (reference && reference_id_ != state.newest().id) {
     const Eigen::Matrix3d R_rig_cam = T_rig_cam.linear();
-    turn.sigma_rad = rotationSigma_rad(state, config_, *reference);
+    turn.sigma_rad = rotationSigma_rad(state, *reference);
     turn.R_reference_now = (state.frames()[*reference].R_map_rig * R_rig_cam).transpose() *
                            state.newest().R_map_rig * R_rig_cam;
   }

@@ -5,22 +5,18 @@
 #include <cstdint>
 
 #include "ardrone_vslam/features.hpp"
-#include "ardrone_vslam/msckf_config.hpp"
 #include "window/window_state.hpp"
 #include "zero_motion/zero_motion_detector.hpp"
 
 namespace ardrone_vslam {
 
 /// How well the rotation from a frame of the window to the newest one is known, per axis.
-double rotationSigma_rad(const WindowState& state, const MsckfConfig& config, std::size_t frame);
+double rotationSigma_rad(const WindowState& state, std::size_t frame);
 
 /// Holds the newest pose where the image is still (a zero-motion update). The frame that it
 /// compares the image with, its reference, stays in the window even when it is no keyframe.
 class ZeroMotionUpdate {
  public:
-  /// @param config  is taken as valid: the filter that holds it has checked it
-  explicit ZeroMotionUpdate(const MsckfConfig& config) : config_(config) {}
-
   /// Looks at the newest frame, and holds its position when the camera rests or turns on the spot.
   /// @param is_located  landmarks say where the camera is, so that nothing is held
   /// @param depth_m  of the scene: how far a motion that the image hides may have gone
@@ -53,7 +49,6 @@ class ZeroMotionUpdate {
                  WindowState& state);
   void dropReference(WindowState& state) const;
 
-  MsckfConfig config_;
   ZeroMotionDetector detector_;
   CameraMotion motion_ = CameraMotion::kUnknown;
   std::uint32_t reference_id_ = 0;  // 0: none

@@ -115,7 +115,7 @@ TEST_P(SlamProperty, EqualInputGivesEqualBytes) {
 
 TEST_P(SlamProperty, OutputIsFiniteAndTheCovariancePositiveDefinite) {
   for (const bool common_drift : {true, false}) {
-    SlamConfig with = config();
+    SlamConfig with;
     with.thesis_filter.common_drift = common_drift;
     const Recording recording = recordLaps(5);
     for (const FrameResult& r : test::run(recording.frames, recording.odometry, with).results) {
@@ -142,20 +142,10 @@ INSTANTIATE_TEST_SUITE_P(Means, SlamProperty,
                          ::testing::Values(MeanKind::kPrinted, MeanKind::kExact),
                          [](const auto& mean) { return std::string(nameOf(mean.param)); });
 
-/// The MSCKF, with and without errors of attitude.
-class MsckfProperty : public ::testing::TestWithParam<bool> {
- protected:
-  static SlamConfig config() {
-    SlamConfig config;
-    config.msckf.attitude_states = GetParam();
-    return config;
-  }
-};
-
-TEST_P(MsckfProperty, EveryCovarianceIsSymmetricAndPositiveDefinite) {
+TEST(MsckfProperty, EveryCovarianceIsSymmetricAndPositiveDefinite) {
   const Recording recording = recordLaps(5);
   for (const double extrinsics_sigma_deg : {0, 1}) {
-    SlamConfig with = config();
+    SlamConfig with;
     with.msckf.odometry.extrinsics_sigma_deg = extrinsics_sigma_deg;
     const FlightRun run = test::run(recording.frames, recording.odometry, with);
     for (std::size_t i = 0; i < run.results.size(); ++i) {
@@ -172,9 +162,6 @@ TEST_P(MsckfProperty, EveryCovarianceIsSymmetricAndPositiveDefinite) {
     }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Forms, MsckfProperty, ::testing::Values(true, false),
-                         [](const auto& form) { return form.param ? "full" : "linear"; });
 
 }  // namespace
 }  // namespace ardrone_vslam

@@ -8,8 +8,7 @@ namespace ardrone_vslam {
 
 /// A window with what carries it on.
 struct OdometryWindow : WindowState {
-  explicit OdometryWindow(const OdometryNoiseConfig& config = {}, bool attitude_states = true)
-      : propagator(config, attitude_states) {}
+  explicit OdometryWindow(const OdometryNoiseConfig& config = {}) : propagator(config) {}
 
   /// Begins with the first odometry, and adds a frame by each that follows.
   void add(const OdometryState& odometry) {

@@ -79,16 +79,5 @@ TEST_F(FixAfterAGap, AFewThatAgreeBecauseTheyStandInGroupsDoNot) {
   EXPECT_EQ(filter_.newest().position_map, before_map);
 }
 
-TEST(MsckfCovariance, TheLinearFormDoesNotClaimAnExactAttitude) {
-  MsckfConfig config;
-  config.attitude_states = false;
-  Msckf filter(config, test::forwardExtrinsics());
-  filter.start(OdometryState());
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(filter.covariance());
-  EXPECT_GT(eigen.eigenvalues()(0), 0);
-  const double noise_rad = config.odometry.attitude_noise_deg * M_PI / 180;
-  EXPECT_GE(filter.covariance().diagonal().tail<3>().minCoeff(), noise_rad * noise_rad);
-}
-
 }  // namespace
 }  // namespace ardrone_vslam

@@ -274,59 +274,5 @@ TEST(WindowState, NothingChangesWhenTheInformationIsNotFinite) {
   EXPECT_EQ(state.covariance(), P);
 }
 
-/// A circle with anchors, and what random measurements of all coordinates make of it.
-OdometryWindow measured(const OdometryNoiseConfig& config, bool attitude_states) {
-  RandomSource random(6);
-  OdometryWindow state(config, attitude_states);
-  for (int i = 0; i < 30; ++i) {
-    const double turn = 0.1 * i;
-    const OdometryState odometry = odometryAt(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
-    state.add(odometry);
-    if (i % 5 == 4) state.makeAnchor(0);
-    if (i % 3 != 2) continue;
-    Information information(coordinatesFrom(0, state.frameCoordinate(state.frames().size())));
-    for (int row = 0; row < 4; ++row) {
-      Eigen::VectorXd h(information.vector.size());
-      for (Eigen::Index k = 0; k < h.size(); ++k) h(k) = 10 * random.normal();
-      information.matrix += h * h.transpose();
-      information.vector += h * random.normal();
-    }
-    const auto preview = state.preview(information);
-    EXPECT_TRUE(preview && preview->size() == information.vector.size());
-    EXPECT_TRUE(state.update(information));
-  }
-  return state;
-}
-
-TEST(WindowState, TheLinearFormIsTheOtherOneWithoutErrorsOfAttitude) {
-  OdometryNoiseConfig config;
-  config.tilt_sigma_deg = 0;
-  config.yaw_walk_deg_per_sqrt_s = 0;
-  config.yaw_walk_deg_per_sqrt_m = 0;
-  config.attitude_noise_deg = 0.001;  // the least that is allowed
-  const OdometryWindow full = measured(config, true);
-  const OdometryWindow linear = measured(OdometryNoiseConfig(), false);
-  const auto P = full.covariance();
-  EXPECT_LT((linear.covariance() - P).cwiseAbs().maxCoeff(), 1e-6);
-  EXPECT_GT(P.diagonal().maxCoeff(), 5e-4);
-  EXPECT_NEAR(linear.scaleError(), full.scaleError(), 1e-6);
-  EXPECT_GT(std::abs(full.scaleError()), 1e-3);
-  for (std::size_t i = 0; i < full.frames().size(); ++i)
-    EXPECT_LT((linear.frames()[i].position_map - full.frames()[i].position_map).norm(), 1e-5) << i;
-  for (std::size_t i = 0; i < full.anchors().size(); ++i)
-    EXPECT_LT((linear.anchors()[i].position_map - full.anchors()[i].position_map).norm(), 1e-5);
-}
-
-TEST(WindowState, TheLinearFormLeavesAttitudesToTheBitAsTheObserverSays) {
-  const OdometryWindow state = measured(OdometryNoiseConfig(), false);
-  for (std::size_t i = 0; i < state.frames().size(); ++i) {
-    const int at = state.frameCoordinate(i) + 3;
-    EXPECT_TRUE(state.covariance().middleRows<3>(at).isZero(0));
-  }
-  const double yaw_rad = 0.1 * 29;
-  EXPECT_LT((state.frames().back().R_map_rig - rotationOf({0, 0, yaw_rad})).norm(), 1e-12);
-  expectHonest(state);
-}
-
 }  // namespace
 }  // namespace ardrone_vslam
