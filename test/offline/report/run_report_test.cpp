@@ -153,7 +153,8 @@ TEST(RunReport, ThePageNamesEveryKeyOfTheSummary) {
   std::ifstream file(ARDRONE_VSLAM_SOURCE_DIR "/docs/summary_keys.md");
   const std::string page((std::istreambuf_iterator<char>(file)), {});
   ASSERT_FALSE(page.empty());
-  for (const auto& item : summaryFor("drone", straightTruth()).items())
+  const Json summary = summaryFor("drone", straightTruth());
+  for (const auto& item : summary.items())
     EXPECT_NE(page.find('`' + item.key() + '`'), std::string::npos)
         << item.key() << " has no row in docs/summary_keys.md";
 }
