@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "../common/configs/onboard_config.hpp"
 #include "ardrone_vslam/slam_config.hpp"
+#include "configs/onboard_config.hpp"
 
 /// What the nodelets read beside the stages' own parameters. Offline tools pass over these keys
 /// (tools/config_files/config_file.cpp; a test holds the two lists together).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 
 namespace ardrone_vslam {
@@ -11,6 +12,11 @@ inline double squared(double value) {
 
 inline double radians(double degrees) {
   return degrees * M_PI / 180;
+}
+
+/// What takes a vector's part across a unit vector.
+inline Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
+  return Eigen::Matrix3d::Identity() - unit * unit.transpose();
 }
 
 }  // namespace ardrone_vslam

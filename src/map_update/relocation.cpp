@@ -23,7 +23,7 @@ class Relocator {
   Relocator(const Clone& predicted, const Eigen::Vector3d& camera_rig,
             const std::vector<MapObservation>& observations, double sigma_a, double attitude_rad)
       : predicted_(predicted),
-        camera_base_(camera_rig),
+        camera_rig_(camera_rig),
         observations_(observations),
         sigma_a_(sigma_a),
         attitude_rad_(std::max(attitude_rad, kLeastAttitude_rad)) {}
@@ -39,7 +39,7 @@ class Relocator {
   Clone refined(Clone pose) const;
   double off(const Clone& pose, std::size_t i, double slack_rad) const {
     return offRay(observations_[i], pose.R_map_rig * observations_[i].bearing_rig,
-                  pose.position_map + pose.R_map_rig * camera_base_, sigma_a_, slack_rad);
+                  pose.position_map + pose.R_map_rig * camera_rig_, sigma_a_, slack_rad);
   }
   double score(const Clone& pose, double slack_rad) const {
     double sum = 0;
@@ -49,7 +49,7 @@ class Relocator {
   }
 
   const Clone& predicted_;
-  const Eigen::Vector3d& camera_base_;
+  const Eigen::Vector3d& camera_rig_;
   const std::vector<MapObservation>& observations_;
   double sigma_a_;
   double attitude_rad_;
@@ -62,7 +62,7 @@ std::optional<Clone> Relocator::poseOf(std::size_t a, std::size_t b) const {
   const Eigen::Vector3d camera = nearestToRays(observations_[a], ray_a, observations_[b], ray_b);
   if (!camera.allFinite()) return std::nullopt;
   Clone pose = predicted_;
-  pose.position_map = camera - predicted_.R_map_rig * camera_base_;
+  pose.position_map = camera - predicted_.R_map_rig * camera_rig_;
   // Two rays have one angle to spare: most wrong pairs end here.
   if (!(off(pose, a, attitude_rad_) < kInlier && off(pose, b, attitude_rad_) < kInlier))
     return std::nullopt;
@@ -80,7 +80,7 @@ Clone Relocator::refined(Clone pose) const {
         attitude_weight * rotationVectorOf(predicted_.R_map_rig * pose.R_map_rig.transpose());
     for (const std::size_t i : agreeing(pose, slack_rad)) {
       const MapObservation& s = observations_[i];
-      const auto ray = rayResidual(pose, camera_base_, s.bearing_rig, s.point_map);
+      const auto ray = rayResidual(pose, camera_rig_, s.bearing_rig, s.point_map);
       if (!ray) continue;
       const Eigen::Matrix2d noise = sigma_a_ * sigma_a_ * Eigen::Matrix2d::Identity() +
                                     ray->point * s.covariance_m2 * ray->point.transpose();
@@ -133,7 +133,7 @@ std::optional<Clone> Relocator::search() const {
 }
 
 double Relocator::shareByChance(const Clone& pose) const {
-  const Eigen::Vector3d camera = pose.position_map + pose.R_map_rig * camera_base_;
+  const Eigen::Vector3d camera = pose.position_map + pose.R_map_rig * camera_rig_;
   const std::size_t count = observations_.size();
   // Anywhere in its window ..
   double by_window = 0;

@@ -87,9 +87,10 @@ double stretchSigma(TrackViews views, const Eigen::Vector3d& camera_rig, const W
   const Eigen::Vector3d baseline = last.position_map + last.R_map_rig * camera_rig -
                                    first.position_map - first.R_map_rig * camera_rig;
   const double length_m = baseline.norm();
-  const Eigen::Vector3d along_base = last.R_map_rig.transpose() * baseline / length_m;
+  // The bias has base's axes, but between them and the rig's there is only the extrinsics' error.
+  const Eigen::Vector3d along_rig = last.R_map_rig.transpose() * baseline / length_m;
   constexpr int kBias = WindowState::kBias;
-  const double variance = along_base.dot(state.covariance().block<3, 3>(kBias, kBias) * along_base);
+  const double variance = along_rig.dot(state.covariance().block<3, 3>(kBias, kBias) * along_rig);
   const double time_s = static_cast<double>(last.stamp_ns - first.stamp_ns) * 1e-9;
   return std::sqrt(variance) * time_s / length_m;
 }

@@ -32,7 +32,7 @@ class TrackUpdate {
   explicit TrackUpdate(const MsckfConfig& config) : config_(config) {}
 
   /// The next frames are another camera's; tracks that were not used yet are still the old one's.
-  /// @param camera_rig  the old camera's position in base
+  /// @param camera_rig  the old camera's position in the rig
   void changeCamera(const Eigen::Vector3d& camera_rig);
   /// No track of another camera is left.
   void forgetEarlierCamera() { earlier_camera_.reset(); }

@@ -71,7 +71,7 @@ Eigen::Matrix3d commonTurn(const std::vector<BearingPair>& pairs, double corner_
   return R_then_now;
 }
 
-Eigen::Matrix<double, 3, 2> acrossOf(const Eigen::Vector3d& direction) {
+Eigen::Matrix<double, 3, 2> tangentsOf(const Eigen::Vector3d& direction) {
   Eigen::Matrix<double, 3, 2> across;
   across.col(0) = direction.unitOrthogonal();
   across.col(1) = direction.cross(across.col(0));
@@ -89,7 +89,7 @@ struct PlaneFit {
 PlaneFit planeFit(const std::vector<BearingPair>& pairs, const Motion& motion, const Prior& prior,
                   double scale_rad) {
   PlaneFit fit;
-  const Eigen::Matrix<double, 3, 2> across = acrossOf(motion.way_then);
+  const Eigen::Matrix<double, 3, 2> across = tangentsOf(motion.way_then);
   for (const BearingPair& pair : pairs) {
     const Eigen::Vector3d now = motion.R_then_now * pair.now;
     const Eigen::Vector3d normal = motion.way_then.cross(now);
@@ -123,7 +123,7 @@ PlaneFit refine(const std::vector<BearingPair>& pairs, double corner_sigma_rad, 
     A.diagonal() *= 1 + damping;
     const Vector5d step = -A.ldlt().solve(fit.g);
     Motion moved;
-    moved.way_then = (motion.way_then + acrossOf(motion.way_then) * step.tail<2>()).normalized();
+    moved.way_then = (motion.way_then + tangentsOf(motion.way_then) * step.tail<2>()).normalized();
     moved.R_then_now = rotationOf(step.head<3>()) * motion.R_then_now;
     const PlaneFit tried = planeFit(pairs, moved, prior, scale_rad);
     const bool is_better = tried.cost < fit.cost;

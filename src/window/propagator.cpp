@@ -6,6 +6,7 @@
 
 #include "ardrone_vslam/rotation.hpp"
 #include "linear/scalars.hpp"
+#include "window/odometry_noise.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -21,10 +22,6 @@ constexpr double kStartSigma_m = 0.001;  // where the first frame is, map begins
 // Above this speed an error along the way counts as one of scale, which one camera cannot see.
 constexpr double kSlowSpeed_m_s = 0.1;
 constexpr double kVelocitySpan_s = 2;
-
-Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
-  return Eigen::Matrix3d::Identity() - unit * unit.transpose();
-}
 
 // Of the corrected poses: the odometry's noise would make the velocity jitter, and the bias, which
 // counts as across the way or along it, would seem to be seen.
@@ -173,7 +170,8 @@ void Propagator::addPosition(const OdometryState& odometry, const Increment& inc
   position.noalias() += P.leftCols<kGlobals>() * F.transpose();
   position.middleRows<3>(to) = position.middleRows<3>(from) + F * position.topRows<kGlobals>();
   P.middleRows<3>(to) = position.transpose();
-  P.diagonal().segment<3>(to).array() += walkVariance_m2(odometry, increment);
+  P.diagonal().segment<3>(to).array() +=
+      walkVariance_m2(config_, odometry_, odometry, increment.displacement_m, odometry_way_m_);
 }
 
 void Propagator::addAttitude(const OdometryState& odometry, Clone& next, WindowState& state) const {
@@ -188,26 +186,6 @@ void Propagator::addAttitude(const OdometryState& odometry, Clone& next, WindowS
       attitude.middleRows<3>(kAttitude) + R_map_base * attitude.middleRows<3>(kExtrinsics);
   P.middleRows<3>(to + 3) = attitude.transpose();
   P.diagonal().segment<3>(to + 3).array() += squared(radians(config_.attitude_noise_deg));
-}
-
-double Propagator::walkVariance_m2(const OdometryState& odometry,
-                                   const Increment& increment) const {
-  const double dt_s = increment.duration_s;
-  const double displacement_m = increment.displacement_m;
-  const double configured_m2 = squared(config_.walk_m_per_sqrt_m) * displacement_m +
-                               squared(config_.walk_m_per_sqrt_s) * dt_s;
-  const std::optional<double> then = positionVariance_m2(odometry_);
-  const std::optional<double> now = positionVariance_m2(odometry);
-  if (!then || !now || !(*now > *then)) return configured_m2;
-  // Of what the odometry says of itself the slow velocity error and that of the scale, which grows
-  // with the square of the way, are states of their own here. Taken for white noise a second time,
-  // they would leave the camera hardly anything to go by.
-  const double by_bias_m2 =
-      2 * squared(config_.velocity_bias_m_s) * config_.velocity_bias_time_s * dt_s;
-  const double by_scale_m2 = squared(config_.scale_sigma) *
-                             (squared(odometry_way_m_ + displacement_m) - squared(odometry_way_m_));
-  const double rest_m2 = *now - *then - by_bias_m2 - by_scale_m2;
-  return std::max(rest_m2, std::min(configured_m2, *now - *then));
 }
 
 void Propagator::inflate(double factor, WindowState& state) {

@@ -51,8 +51,6 @@ class Propagator {
   void addAttitude(const OdometryState& odometry, Clone& next, WindowState& state) const;
   void propagateGlobals(const OdometryState& odometry, const Increment& increment,
                         WindowState& state) const;
-  /// Growth of the position's variance, per axis, by white noise of the odometry.
-  double walkVariance_m2(const OdometryState& odometry, const Increment& increment) const;
 
   OdometryNoiseConfig config_;
   OdometryState odometry_;  // of the newest frame

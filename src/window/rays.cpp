@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/scalars.hpp"
 #include "map/triangulation.hpp"
 
 namespace ardrone_vslam {
@@ -19,11 +20,6 @@ Eigen::Matrix<double, 2, 3> tangents(const Eigen::Vector3d& direction) {
   rows.row(0) = direction.cross(Eigen::Vector3d::Unit(least)).normalized().transpose();
   rows.row(1) = direction.cross(rows.row(0).transpose()).transpose();
   return rows;
-}
-
-/// What takes a vector's part across a unit vector.
-Eigen::Matrix3d acrossOf(const Eigen::Vector3d& unit) {
-  return Eigen::Matrix3d::Identity() - unit * unit.transpose();
 }
 
 /// Where a point lies beside a measured ray.

@@ -61,13 +61,13 @@ void ZeroMotionUpdate::dropReference(WindowState& state) const {
 void ZeroMotionUpdate::changeCamera(WindowState& state) {
   dropReference(state);
   reset();
-  odometry_displacement_.setZero();
 }
 
 void ZeroMotionUpdate::reset() {
   detector_ = ZeroMotionDetector();
   reference_id_ = 0;
   reference_is_keyframe_ = false;
+  odometry_displacement_.setZero();
 }
 
 }  // namespace ardrone_vslam

@@ -115,7 +115,7 @@ TEST_P(SlamProperty, EqualInputGivesEqualBytes) {
 
 TEST_P(SlamProperty, OutputIsFiniteAndTheCovariancePositiveDefinite) {
   for (const bool common_drift : {true, false}) {
-    SlamConfig with;
+    SlamConfig with = config();
     with.thesis_filter.common_drift = common_drift;
     const Recording recording = recordLaps(5);
     for (const FrameResult& r : test::run(recording.frames, recording.odometry, with).results) {

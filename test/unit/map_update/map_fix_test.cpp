@@ -31,10 +31,10 @@ WindowState curvedWindow() {
 /// Three landmarks of each anchor.
 std::vector<MapObservation> landmarksOf(const WindowState& state) {
   std::vector<MapObservation> landmarks;
-  const auto add = [&](std::size_t anchor, const Eigen::Vector3d& point_base) {
+  const auto add = [&](std::size_t anchor, const Eigen::Vector3d& point_rig) {
     MapObservation s;
     s.anchor = anchor;
-    s.point_map = state.frames().back().position_map + state.frames().back().R_map_rig * point_base;
+    s.point_map = state.frames().back().position_map + state.frames().back().R_map_rig * point_rig;
     s.covariance_m2 = Eigen::Vector3d(0.02, 0.001, 0.003).asDiagonal();
     landmarks.push_back(s);
   };
@@ -132,9 +132,9 @@ TEST(MapFix, DoesNotSeeTheScale) {
   const Clone agreed = moved(state.frames().back(), offset);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(state.covariance().rows());
   ObservationConsensus consensus = seen(state, agreed, none);
-  const Eigen::Vector3d at_base = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d at_rig = Eigen::Vector3d::Zero();
   const Information information =
-      fixBy(state, at_base, consensus, kAngleSigma_rad, kAllIndependent).information;
+      fixBy(state, at_rig, consensus, kAngleSigma_rad, kAllIndependent).information;
   Eigen::VectorXd dilation = Eigen::VectorXd::Zero(information.matrix.cols());
   dilation(0) = 1;
   dilation.segment<3>(1) = -state.frames().back().position_map;

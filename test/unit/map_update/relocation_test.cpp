@@ -49,7 +49,7 @@ class RelocationTest : public ::testing::Test {
   }
   /// A landmark that the true camera sees along a bearing.
   Eigen::Vector3d pointAlong(const Eigen::Vector3d& bearing_rig, double distance_m) const {
-    return truth_.position_map + truth_.R_map_rig * (camera_base_ + distance_m * bearing_rig);
+    return truth_.position_map + truth_.R_map_rig * (camera_rig_ + distance_m * bearing_rig);
   }
   void addRight() {
     const Eigen::Vector3d bearing = anyBearing();
@@ -61,10 +61,10 @@ class RelocationTest : public ::testing::Test {
     for (int i = 0; i < count; ++i) random_.chance(wrong_share) ? addWrong() : addRight();
   }
   std::optional<ObservationConsensus> find() const {
-    return relocate(predicted_, camera_base_, observations_, kAngle_rad, 0.01);
+    return relocate(predicted_, camera_rig_, observations_, kAngle_rad, 0.01);
   }
 
-  Eigen::Vector3d camera_base_{0.2, 0, -0.05};
+  Eigen::Vector3d camera_rig_{0.2, 0, -0.05};
   RandomSource random_{1};
   Clone truth_;
   Clone predicted_;

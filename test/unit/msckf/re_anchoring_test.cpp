@@ -51,7 +51,7 @@ TEST(ReAnchoring, LandmarksStayWhereTheirAnchorSawThem) {
   const Clone placed = state.frames()[1];
   moves.begin(placed);
   Landmark landmark = landmarkAt({4, 1, 2}, placed.id);
-  const Eigen::Vector3d seen_base =
+  const Eigen::Vector3d seen_rig =
       placed.R_map_rig.transpose() * (landmark.position_map - placed.position_map);
   correct(state, 0.02);
   const auto found = moves.take(state, kDistance_m, kTolerance_rad);
@@ -61,7 +61,7 @@ TEST(ReAnchoring, LandmarksStayWhereTheirAnchorSawThem) {
   const Clone& now = state.frames()[1];
   EXPECT_GT((now.position_map - placed.position_map).norm(), 0.01);
   const Eigen::Vector3d expected =
-      now.position_map + now.stretch / placed.stretch * (now.R_map_rig * seen_base);
+      now.position_map + now.stretch / placed.stretch * (now.R_map_rig * seen_rig);
   EXPECT_LT((landmark.position_map - expected).norm(), 1e-12);
   EXPECT_EQ(landmark.anchor_id, placed.id);
   EXPECT_TRUE(moves.take(state, kDistance_m, kTolerance_rad).empty()) << "each move once";

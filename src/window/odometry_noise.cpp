@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/odometry_noise.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "linear/scalars.hpp"
+
+namespace ardrone_vslam {
+
+double walkVariance_m2(const OdometryNoiseConfig& config, const OdometryState& from,
+                       const OdometryState& to, double displacement_m, double way_m) {
+  const double dt_s = std::max(static_cast<double>(to.stamp_ns - from.stamp_ns) * 1e-9, 0.0);
+  const double configured_m2 =
+      squared(config.walk_m_per_sqrt_m) * displacement_m + squared(config.walk_m_per_sqrt_s) * dt_s;
+  const std::optional<double> then = positionVariance_m2(from);
+  const std::optional<double> now = positionVariance_m2(to);
+  if (!then || !now || !(*now > *then)) return configured_m2;
+  // Of what the odometry says of itself the slow velocity error and that of the scale, which grows
+  // with the square of the way, are states of their own here. Taken for white noise a second time,
+  // they would leave the camera hardly anything to go by.
+  const double by_bias_m2 =
+      2 * squared(config.velocity_bias_m_s) * config.velocity_bias_time_s * dt_s;
+  const double by_scale_m2 =
+      squared(config.scale_sigma) * (squared(way_m + displacement_m) - squared(way_m));
+  const double rest_m2 = *now - *then - by_bias_m2 - by_scale_m2;
+  return std::max(rest_m2, std::min(configured_m2, *now - *then));
+}
+
+}  // namespace ardrone_vslam
