@@ -21,7 +21,7 @@ constexpr double kRate_hz = 15;
 
 struct Judged {
   int landmarks = 0;
-  int at_wrong_depth = 0;       ///< by more than 30 % from where the camera was
+  int at_wrong_depth = 0;       ///< by more than three of its deviations
   std::vector<double> jumps_m;  ///< of the position's error from image to image
 };
 
