@@ -27,8 +27,9 @@ def descriptors(tools):
     section.table(["thesis", "ms a frame", "us a feature"], [[name, digits(a), digits(1e3 * b)] for name, (a, b) in thesis.FRONT_ENDS.items()])
     section.table(["here", "features", "ms a frame", "us a feature"], [[one["name"], f"{one['features']:.0f}", digits(one["time_ms"]), digits(one["feature_time_us"])]
                                                                        for one in measured["front_ends"]])
+    # Measured: 0.40 to 0.81 on real and on rendered pictures, in quick and in whole runs.
     section.claim("corners that can be described, of the corners asked for (the least of the rows)",
-                  min(one["features"] for one in measured["descriptors"]) / measured["features"], 0.2, 1)
+                  min(one["features"] for one in measured["descriptors"]) / measured["features"], 0.33, 0.97)
     return section
 
 
@@ -63,11 +64,12 @@ def quality(tools):
                  "corners of one scale, as on the drone, where the sources' SURF had given it a scale. So it fails below half and above twice the size. When blurred, FAST's corners at "
                  "one scale fade before those of pyramids, and FREAK is a little behind BRISK. Turned pictures it matches as well as BRISK, and better when told the roll "
                  "(`use_attitude`).")
+    # Measured: 1.00 to 1.01, 0.61 to 0.70, 0.002 to 0.006.
     section.claim("matching score when turned by 30 degrees, over cv::BRISK's",
-                  _at(charts["rotation"], ours, 30, "matching_score") / _at(charts["rotation"], brisk, 30, "matching_score"), 0.8, 1.25)
+                  _at(charts["rotation"], ours, 30, "matching_score") / _at(charts["rotation"], brisk, 30, "matching_score"), 0.84, 1.2)
     section.claim("matching score at sigma 1 px, over cv::ORB's",
-                  _at(charts["blur"], ours, 1, "matching_score") / _at(charts["blur"], orb, 1, "matching_score"), 0.5, 0.9)
-    section.claim("matching score when scaled by 0.5", _at(charts["scale"], ours, 0.5, "matching_score"), 0, 0.05)
+                  _at(charts["blur"], ours, 1, "matching_score") / _at(charts["blur"], orb, 1, "matching_score"), 0.51, 0.84)
+    section.claim("matching score when scaled by 0.5", _at(charts["scale"], ours, 0.5, "matching_score"), 0, 0.007)
     return section, _passes(measured, plots)
 
 
@@ -84,9 +86,10 @@ def _passes(measured, plots):
     section.table(["motion: corners, correct matches of those with 16 passes", "4 passes", "8 passes"], rows)
     section.text(f"{measured['motion_frames']} rendered frames of 568x320 for each motion, one frame apart. As the thesis says, matches follow the corners; below the line "
                  "for few passes, as a corner must be found in both images. Only these numbers of passes were measured, so the printed kink at 8 can be neither seen nor denied.")
+    # Measured: 0.90 to 0.93, 0.47 to 0.48.
     section.claim("correct matches with 8 passes, over corners with 8 passes (the least of the motions)",
-                  min(share[8][1] / share[8][0] for share in shares.values()), 0.85, 1.05)
-    section.claim("correct matches with 4 passes (the least)", min(share[4][1] for share in shares.values()), 0.4, 0.6)
+                  min(share[8][1] / share[8][0] for share in shares.values()), 0.84, 1)
+    section.claim("correct matches with 4 passes (the least)", min(share[4][1] for share in shares.values()), 0.4, 0.57)
     return section
 
 
@@ -110,7 +113,8 @@ def matches(tools):
     section.text(f"{measured['what'][0].upper() + measured['what'][1:]}; {measured['features'][0]} corners each, at most {measured['limit_bits']} bits apart; a line goes from a "
                  "corner's place in the first picture to that in the second. The thesis shows one picture with \"a few clear mismatches\" and no number. Muja and Lowe's forest "
                  "alone takes the nearest descriptor whatever it is; ratio test and cross check remove most mismatches before geometry has to.")
-    section.claim("share of right matches, this package's", precision[1], 0.65, 1)
+    # Measured: 0.74 to 0.98, 1.07 to 1.46.
+    section.claim("share of right matches, this package's", precision[1], 0.7, 1)
     section.claim("the same over the forest's", precision[1] / precision[0], 1.05)
     plt.close("all")
     return section

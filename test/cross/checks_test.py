@@ -63,6 +63,9 @@ class Poses(unittest.TestCase):
         self.assertEqual(self.compare("1000 1.0000011 2 3 0 0 0 1 localised 10 20"), 1)
         self.assertEqual(self.compare("1000 1 2 3 1e-7 0 0 1 localised 10 20"), 1)  # 1.1e-5 degrees
         self.assertEqual(self.compare("1000 nan 2 3 0 0 0 1 localised 10 20"), 1)
+        self.assertEqual(self.compare("1000 1 2 3 0 0 0 1 tracking 10 20"), 1)  # another state, both corrected by the images
+        self.assertEqual(self.compare("1000 1 2 3 0 0 0 1 localised 11 20"), 1)  # another count of features
+        self.assertEqual(self.compare("1000 1 2 3 0 0 0 1 localised 10 21"), 1)  # of landmarks
         self.assertEqual(self.compare("1001 1 2 3 0 0 0 1 localised 10 20"), 1)
         self.assertEqual(self.compare("1000 1 2 3 0 0 0 1 building_map 10 20", state="building_map"), 1)  # the observer's
 

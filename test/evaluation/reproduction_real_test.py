@@ -5,7 +5,7 @@ import os
 import tempfile
 import unittest
 
-from reproduction_test import run_quick
+from reproduction_test import compare_numbers, run_quick, run_whole
 
 # Those whose numbers depend on the pictures.
 WITH_PICTURES = ("detectors", "repeatability", "sampling", "matches", "kitti", "thresholds")
@@ -17,6 +17,13 @@ class RealReproductionTest(unittest.TestCase):
             self.skipTest("ARDRONE_VSLAM_DATA is not set, so there are no real pictures")
         with tempfile.TemporaryDirectory() as out:
             self.assertIn("graf", run_quick(self, out, "--sections", *WITH_PICTURES))
+
+    def test_the_committed_numbers_are_those_of_the_code(self):
+        """Of the sections with pictures that take some seconds."""
+        if not os.environ.get("ARDRONE_VSLAM_DATA"):
+            self.skipTest("ARDRONE_VSLAM_DATA is not set, so there are no real pictures")
+        with tempfile.TemporaryDirectory() as out:
+            compare_numbers(self, run_whole(self, out, "--sections", "detectors", "repeatability", "matches"))
 
 
 if __name__ == "__main__":

@@ -47,13 +47,50 @@ class ClaimTest(unittest.TestCase):
                 self.assertIn("out of their bounds", page.read())
 
 
-def run_quick(test, out, *options, **environment):
+def committed_page():
+    with open(os.path.join(SOURCE, "docs", "reproduction.md"), encoding="utf-8") as page:
+        return page.read()
+
+
+def run_whole(test, out, *options, **environment):
     """@return the page"""
     done = subprocess.run([sys.executable, "-B", os.path.join(FOLDER, "reproduce.py"), "--programs", os.path.dirname(REPLAY), "--measurements", MEASUREMENTS,
-                           "--out", out, "--quick", *options], capture_output=True, text=True, check=False, env={**os.environ, **environment})
+                           "--out", out, *options], capture_output=True, text=True, check=False, env={**os.environ, **environment})
     test.assertEqual(done.returncode, 0, done.stdout + done.stderr)
     with open(os.path.join(out, "reproduction.md"), encoding="utf-8") as page:
         return page.read()
+
+
+def run_quick(test, out, *options, **environment):
+    return run_whole(test, out, "--quick", *options, **environment)
+
+
+def numbers(page):
+    """Those of the tables by section, table, row and column; without times and without what OpenCV of another version may find otherwise."""
+    found = {}
+    for section in re.split("^## ", page, flags=re.MULTILINE)[1:]:
+        title = section.split("\n", 1)[0]
+        for index, table in enumerate(re.findall(r"(?:^\|.*\n)+", section, re.MULTILINE)):
+            heads, _, *rows = ([cell.strip() for cell in line.strip().strip("|").split("|")] for line in table.splitlines())
+            # Of a column "here" the one before says what it is.
+            of = [heads[i - 1] if head == "here" and "thesis: " in heads[i - 1] else head for i, head in enumerate(heads)]
+            for row in rows:
+                for head, column, cell in zip(of, range(len(row)), row):
+                    values = re.findall(r"-?\d[\d.]*(?:e-?\d+)?", cell.replace(",", ""))
+                    if column > 0 and values and not re.search(r"\b(us|ms|ns)\b|cv::", head) and "cv::" not in row[0]:
+                        found[title, index, row[0], column] = [float(value) for value in values]
+    return found
+
+
+def compare_numbers(test, page):
+    """@param page  with some of the committed one's sections"""
+    here, committed = numbers(page), numbers(committed_page())
+    titles = {key[0] for key in here}
+    test.assertEqual(set(here), {key for key in committed if key[0] in titles}, "the committed page has other tables: run scripts/reproduce")
+    for key, values in here.items():
+        for value, other in zip(values, committed[key]):
+            # Measured: equal to the last digit; another compiler may add doubles in another order.
+            test.assertTrue(math.isclose(value, other, rel_tol=0.02, abs_tol=1e-6), f"{key}: {value}, on the committed page {other}: run scripts/reproduce")
 
 
 def skeleton(page):
@@ -72,12 +109,24 @@ class ReproductionTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as out:
             page = run_quick(self, out, ARDRONE_VSLAM_DATA="")
             self.assertIn("a rendered corridor", page)
-            with open(os.path.join(SOURCE, "docs", "reproduction.md"), encoding="utf-8") as committed:
-                self.assertEqual(skeleton(page), skeleton(committed.read()), "the committed page is not of this code: run scripts/reproduce")
+            self.assertEqual(skeleton(page), skeleton(committed_page()), "the committed page is not of this code: run scripts/reproduce")
             for line in page.splitlines():
                 if line.startswith("!["):
                     picture = os.path.join(out, line.split("](")[1].rstrip(")"))
                     self.assertGreater(os.path.getsize(picture), 1000, picture)
+
+    def test_the_committed_numbers_are_those_of_the_code(self):
+        """Of the sections that need no pictures. The whole page takes ten minutes."""
+        with tempfile.TemporaryDirectory() as out:
+            compare_numbers(self, run_whole(self, out, "--sections", "mean_deviation", "landmark_sigma"))
+
+    def test_another_number_is_found(self):
+        page = committed_page()
+        compare_numbers(self, page)
+        for good, bad in (("| 0.00977 | at most", "| 0.0100 | at most"), ("| 149 | 110 |", "| 149 | 106 |"), ("| 0.235 | 0.2 to", "| 0.235 | 0.1 to")):
+            with self.subTest(bad=bad):
+                self.assertIn(good, page)
+                self.assertRaises(AssertionError, compare_numbers, self, page.replace(good, bad))
 
     def test_wrong_usage_is_told(self):
         for options, message in ((["--kitti", "/nowhere"], "there is no folder image_0"), (["--sections", "none"], "invalid choice"),

@@ -49,6 +49,18 @@ PointWorld points(const World::Extent& extent, std::uint64_t seed) {
   return points;
 }
 
+/// What the front camera's lens shows of such features, looked up in the bag's calibration.
+void lookUp(const CameraModel& calibration, ImageFeatures& features) {
+  static const CameraModel lens(cameraNamed("front").intrinsics);
+  for (Eigen::Vector3f& ray_cam : features.bearing_cam) {
+    const auto pixel_px = lens.project(ray_cam.cast<double>());
+    const auto found_cam = pixel_px ? calibration.bearing(*pixel_px) : std::nullopt;
+    ASSERT_TRUE(found_cam);
+    ray_cam = found_cam->cast<float>();
+  }
+  features.focal_length_px = static_cast<float>(calibration.focalLength_px());
+}
+
 /// Images that the driver stamps as late as the faults have it, through the filter that
 /// config/ardrone.yaml sets up.
 RunResult fly(const WorldSequence& flown, const BagSequence& bag, const DriverFaults& faults,
@@ -59,6 +71,7 @@ RunResult fly(const WorldSequence& flown, const BagSequence& bag, const DriverFa
                  {"mapper/image_time_offset_s=" + std::to_string(is_late ? -kVideoDelay_s : 0)});
   PointWorld seen = points(flown.world().extent(), seed);
   DriverLink link(!is_late, seed);
+  const CameraModel calibration(bag.camera());
   const CameraChoice* camera = &cameraNamed("front");
   BackEnd back_end(config.mapper, camera->T_body_cam, bag.odometry(), bag.ranges());
   for (int i = 0; i < kDuration_s * kRate_hz; ++i) {
@@ -75,6 +88,7 @@ RunResult fly(const WorldSequence& flown, const BagSequence& bag, const DriverFa
     const std::int64_t stamp_ns = kDriverBagBegin_ns + std::llround(t_s * 1e9);
     frame.features =
         seen.look(flown.flight().pose(t_s) * camera->T_body_cam, stamp_ns + link.videoDelay_ns());
+    if (!is_bottom) lookUp(calibration, frame.features);
     back_end.process(frame);
   }
   return back_end.finish();
@@ -124,10 +138,12 @@ double errorWith_m(const DriverFaults& faults) {
 
 TEST(DriverFaultError, IsThatOfTheCleanFlight) {
   const double clean_m = errorWith_m({});
-  EXPECT_LT(clean_m, 0.15);  // measured: 0.11; the odometry's 0.5 to 2
+  EXPECT_LT(clean_m, 0.147);  // measured: 0.122, 0.04 to 0.16 in 20 seeds; the odometry's 0.5 to 2
   // unprefixed_frame changes no number.
-  for (const char* name : {"mirrored_yaw", "epoch_dt", "zero_covariance", "fused_altitude",
-                           "whole_metres", "bursts", "togglecam", "released", "all"}) {
+  for (const char* name :
+       {"mirrored_yaw", "epoch_dt", "zero_covariance", "fused_altitude", "whole_metres", "bursts",
+        "unscaled_camera_info", "togglecam", "released", "all"}) {
+    // What docs/ardrone_results.md asks. Measured: 0.90 to 1.16, the last with "all".
     EXPECT_LT(errorWith_m(driverFaultsNamed({name})), 1.25 * clean_m) << name;
   }
 }

@@ -73,13 +73,10 @@ TEST(SimulatedStreet, SaysWhatIsWrongWithAPath) {
   expectError([&] { readPath(folder.file("short.txt")); }, {"short.txt", "3 numbers", "12"});
 }
 
-/// The first frames of KITTI 00 with wheel odometry: a first pass.
+/// All of KITTI 00 with wheel odometry, streets driven again included. Two seeds take some 20 s.
 TEST(SimulatedStreet, MsckfOnKitti00IsBetterThanItsOdometryAndKnowsIt) {
   if (realData().empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
-  const Trajectory path = readPath(realData() + "/kitti_00_poses/poses.txt");
-  constexpr std::size_t kFrames = 300;
-  const Trajectory truth(
-      std::vector<StampedPose>(path.poses().begin(), path.poses().begin() + kFrames));
+  const Trajectory truth = readPath(realData() + "/kitti_00_poses/poses.txt");
   const PipelineConfig config = loadConfig(
       std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/kitti.yaml",
       {"mapper/estimator=msckf", "mapper/extrinsics_sigma_deg=0", "mapper/track_sigma_px=1.5",
@@ -87,7 +84,7 @@ TEST(SimulatedStreet, MsckfOnKitti00IsBetterThanItsOdometryAndKnowsIt) {
   const OdometryProfile wheel = loadOdometryProfile(
       "wheel", std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/odometry_profiles.yaml");
   std::vector<RunOdometry> odometries;
-  for (std::uint64_t seed = 1; seed <= 6; ++seed)
+  for (std::uint64_t seed = 1; seed <= 2; ++seed)
     odometries.push_back({wheel.name, seed, simulateOdometry(truth, wheel, seed)});
   BackEnds back_ends(2);
   for (const RunOdometry& odometry : odometries)
@@ -96,7 +93,7 @@ TEST(SimulatedStreet, MsckfOnKitti00IsBetterThanItsOdometryAndKnowsIt) {
   faults.pixel_noise_px = 0.8;
   faults.wrong_share = 0.03;
   PointWorld world(1, faults, streetCamera(), config.tracker.tracks);
-  addStreet(world, path, {}, 1);
+  addStreet(world, truth, {}, 1);
   TrackedFrame frame;
   for (const StampedPose& pose : truth.poses()) {
     frame.features = world.look(pose.T_map_base * forwardCamera(), pose.stamp_ns);
@@ -108,13 +105,12 @@ TEST(SimulatedStreet, MsckfOnKitti00IsBetterThanItsOdometryAndKnowsIt) {
     const auto summary = summaryOf(run, evaluate(run, truth), {});
     ratios.push_back(summary["ratio_scale_removed"]);
     nees_sum += summary["nees_mean"].get<double>();
-    EXPECT_LT(summary["ratio"], 1.05);
+    EXPECT_LT(summary["ratio"], 1);  // measured: 0.43 and 0.67; 0.79 in 6 seeds
   }
-  EXPECT_LT(quantile(ratios, 0.5), 0.6);  // measured: 0.32
-  EXPECT_LT(quantile(ratios, 1), 1.3);    // measured: 1.16
+  EXPECT_LT(quantile(ratios, 1), 0.57);  // measured: 0.17 and 0.37; 0.38 in 6 seeds
   const double nees_mean = nees_sum / static_cast<double>(odometries.size());
-  EXPECT_GT(nees_mean, 1);
-  EXPECT_LT(nees_mean, 6);  // 3 is honest; measured: 2.8
+  EXPECT_GT(nees_mean, 1.5);
+  EXPECT_LT(nees_mean, 3.4);  // 3 is honest; measured: 2.3
 }
 
 }  // namespace

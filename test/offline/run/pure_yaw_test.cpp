@@ -21,8 +21,8 @@ constexpr double kRate_hz = 15;
 
 struct Judged {
   int landmarks = 0;
-  int at_wrong_depth = 0;     ///< by more than 30 % from where the camera was
-  double largest_jump_m = 0;  ///< of the position's error from image to image
+  int at_wrong_depth = 0;       ///< by more than three of its deviations
+  std::vector<double> jumps_m;  ///< of the position's error from image to image
 };
 
 class TurningDrone {
@@ -51,7 +51,7 @@ class TurningDrone {
       const Eigen::Isometry3d T_map_base = slam.process(frames_[i], odometry).T_map_base;
       const Eigen::Isometry3d& truth = world_.truth().poses()[i].T_map_base;
       const Eigen::Vector3d now_m = T_map_base.translation() - truth.translation();
-      judged.largest_jump_m = std::max(judged.largest_jump_m, (now_m - error_m).norm());
+      judged.jumps_m.push_back((now_m - error_m).norm());
       error_m = now_m;
       for (const Landmark& landmark : slam.landmarks()) {
         if (!known.insert(landmark.id).second) continue;
@@ -59,6 +59,7 @@ class TurningDrone {
         if (depthError(landmark, T_map_base, truth, i) > 3) ++judged.at_wrong_depth;
       }
     }
+    std::sort(judged.jumps_m.rbegin(), judged.jumps_m.rend());
     return judged;
   }
 
@@ -100,11 +101,14 @@ TEST(PureYaw, NoLandmarkClaimsAWrongDepthAndNothingJumps) {
   for (const std::uint64_t seed : {1, 4, 5}) {
     const Judged judged = drone.fly("drone", seed);
     landmarks += judged.landmarks;
-    EXPECT_LE(judged.at_wrong_depth, judged.landmarks / 50) << "of " << judged.landmarks;
-    EXPECT_LT(judged.largest_jump_m, 0.25)
-        << seed;  // measured: 0.24, where the first tracks are used
+    // Measured: 2 of 1196 at worst, 0 of 1671 and of 1590.
+    EXPECT_LE(judged.at_wrong_depth, judged.landmarks / 300) << "of " << judged.landmarks;
+    // Where tracks first correct the odometry. Measured: 0.20, 0.15 and 0.23; 0.41 in 20 seeds.
+    EXPECT_LT(judged.jumps_m[0], 0.28) << seed;
+    // All but ten images. Measured: 0.02 to 0.04; 0.041 in 20 seeds.
+    EXPECT_LT(judged.jumps_m[10], 0.06) << seed;
   }
-  EXPECT_GT(landmarks, 1000) << "there is something to judge";
+  EXPECT_GT(landmarks, 3700) << "there is something to judge";  // measured: 4457
 }
 
 }  // namespace

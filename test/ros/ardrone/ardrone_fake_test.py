@@ -57,8 +57,7 @@ class ArdroneFake(unittest.TestCase):
         self.assertEqual(answered, images)
         self.assertGreater(len(images), 8 * FLIGHT_S)
 
-        self.assertLess(self.tf_error_m(buffer, poses.all()[-60:]), 0.5)
-
+        tf_m = self.tf_error_m(buffer, poses.all()[-60:])
         times_s, places = [], []
         for m in truth.all():
             times_s.append(m.header.stamp.to_sec())
@@ -76,8 +75,11 @@ class ArdroneFake(unittest.TestCase):
 
         fused_m = rmse(lambda c: c.fused_pose.pose)
         odometry_m = rmse(lambda c: c.observer_pose)
-        print("fused %.3f m, odometry %.3f m" % (fused_m, odometry_m))
+        print("fused %.3f m, odometry %.3f m, tf %.3f m" % (fused_m, odometry_m, tf_m))
+        # Measured in 8 flights of seeds 1 to 6: fused 0.08 to 0.13 m, odometry 0.22 to 0.52 m, tf 0.17 to 0.20 m.
+        self.assertLess(fused_m, 0.2)
         self.assertLess(fused_m, odometry_m)
+        self.assertLess(tf_m, 0.3)
         self.assertGreater(np.ptp(places[:, 0]), 3, "it did not fly")
         self.assertIsNotNone(path.wait(lambda m: len(m.poses) > 100))
 
