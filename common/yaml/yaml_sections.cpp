@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 namespace ardrone_vslam {
 namespace {
@@ -109,49 +110,74 @@ std::string readText(const std::string& path, std::string& text) {
 
 }  // namespace
 
+namespace {
+
+/// What the lines of a file make of it, one after the other.
+class SectionReader {
+ public:
+  /// A line of key and value, the whole of its list. @return what is wrong with it
+  std::string take(const Line& line) {
+    return line.indent == 0 ? takeOutermost(line) : takeOfSection(line);
+  }
+  YamlSections& sections() { return sections_; }
+
+ private:
+  std::string takeOutermost(const Line& line) {
+    section_.clear();
+    indent_ = 0;
+    open_key_ = line.value.empty() ? line.key : "";
+    const bool is_new = open_key_.empty()
+                            ? sections_[""].emplace(line.key, line.value).second
+                            : sections_.emplace(open_key_, YamlSections::mapped_type{}).second;
+    return is_new ? "" : "'" + line.key + "' is there twice";
+  }
+
+  std::string takeOfSection(const Line& line) {
+    if (!open_key_.empty() && indent_ == 0) {
+      section_ = open_key_;
+      indent_ = line.indent;
+    }
+    if (section_.empty() || line.indent != indent_)
+      return "'" + line.key + "' is indented as no key of a section is";
+    const bool is_new = sections_[section_].emplace(line.key, line.value).second;
+    return is_new ? "" : "'" + section_ + "/" + line.key + "' is there twice";
+  }
+
+  YamlSections sections_;
+  std::string section_;
+  std::string open_key_;    // a key without a value, which becomes a section by what follows
+  std::size_t indent_ = 0;  // of the section's keys; 0: its first has not come
+};
+
+/// A list may go on over lines. @return what is wrong with it
+std::string readList(Lines& lines, Line& line) {
+  if (line.value.empty() || line.value.front() != '[') return {};
+  std::string raw;
+  while (line.value.back() != ']' && lines.next(raw)) line.value += " " + trimmed(raw);
+  return line.value.back() == ']' ? "" : "the list of '" + line.key + "' has no ]";
+}
+
+}  // namespace
+
 YamlSections readYamlSections(const std::string& text, std::vector<std::string>& faults) {
-  YamlSections sections;
-  std::string section;
-  std::string open_key;    // a key without a value, which becomes a section by what follows
-  std::size_t indent = 0;  // of the section's keys; 0: its first has not come
+  SectionReader reader;
   Lines lines(text);
   std::string raw;
   while (lines.next(raw)) {
     if (trimmed(raw).empty() || raw == "---") continue;
     const int number = lines.number();
-    const auto fault = [&](const std::string& what) {
-      faults.push_back("line " + std::to_string(number) + ": " + what);
+    const auto note = [&](const std::string& fault) {
+      if (!fault.empty()) faults.push_back("line " + std::to_string(number) + ": " + fault);
     };
     Line line;
     if (!split(raw, line)) {
-      fault("'" + trimmed(raw) + "' is no 'key: value'");
+      note("'" + trimmed(raw) + "' is no 'key: value'");
       continue;
     }
-    const bool is_list = !line.value.empty() && line.value.front() == '[';
-    while (is_list && line.value.back() != ']' && lines.next(raw)) line.value += " " + trimmed(raw);
-    if (is_list && line.value.back() != ']') fault("the list of '" + line.key + "' has no ]");
-
-    if (line.indent == 0) {
-      section.clear();
-      indent = 0;
-      open_key = line.value.empty() ? line.key : "";
-      const bool is_new = open_key.empty()
-                              ? sections[""].emplace(line.key, line.value).second
-                              : sections.emplace(open_key, YamlSections::mapped_type{}).second;
-      if (!is_new) fault("'" + line.key + "' is there twice");
-      continue;
-    }
-    if (!open_key.empty() && indent == 0) {
-      section = open_key;
-      indent = line.indent;
-    }
-    if (section.empty() || line.indent != indent) {
-      fault("'" + line.key + "' is indented as no key of a section is");
-    } else if (!sections[section].emplace(line.key, line.value).second) {
-      fault("'" + section + "/" + line.key + "' is there twice");
-    }
+    note(readList(lines, line));
+    note(reader.take(line));
   }
-  return sections;
+  return std::move(reader.sections());
 }
 
 std::vector<std::string> listOf(const std::string& value) {
