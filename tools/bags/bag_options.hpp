@@ -7,7 +7,7 @@
 #include "bags/bag_sequence.hpp"
 #include "config_files/config_file.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library is called so
 class App;
 class Option;
 }  // namespace CLI

@@ -8,7 +8,7 @@
 #include "driver/driver_faults.hpp"
 #include "world/world_sequence.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library is called so
 class App;
 class Option;
 }  // namespace CLI

@@ -15,6 +15,7 @@ static bool operator==(const DescriptorMatch& a, const DescriptorMatch& b) {
   return std::tie(a.query, a.train, a.distance_bits, a.second_distance_bits) ==
          std::tie(b.query, b.train, b.distance_bits, b.second_distance_bits);
 }
+// NOLINTNEXTLINE(readability-identifier-naming): gtest calls it so
 static void PrintTo(const DescriptorMatch& m, std::ostream* stream) {
   *stream << m.query << "-" << m.train << " (" << m.distance_bits << ", " << m.second_distance_bits
           << ")";
