@@ -39,18 +39,20 @@ TEST_P(EachFlight, BeginsAtRestAndLevel) {
 }
 
 TEST_P(EachFlight, DerivativesAreThoseOfThePose) {
-  constexpr double h = 0.004;
+  constexpr double kStep_s = 0.004;
   const auto drone = flight();
   for (double t = 0.3; t < info().duration_s; t += 0.37) {
     const FlightState now = drone->state(t);
-    const Eigen::Isometry3d before = drone->pose(t - h), after = drone->pose(t + h);
+    const Eigen::Isometry3d before = drone->pose(t - kStep_s), after = drone->pose(t + kStep_s);
     EXPECT_TRUE(now.T_world_body.isApprox(drone->pose(t), 1e-12));
     EXPECT_LT(
-        ((after.translation() - before.translation()) / (2 * h) - now.velocity_world_m_s).norm(),
+        ((after.translation() - before.translation()) / (2 * kStep_s) - now.velocity_world_m_s)
+            .norm(),
         3e-4)
         << t;
     const Eigen::AngleAxisd turn(before.linear().transpose() * after.linear());
-    EXPECT_LT((turn.axis() * turn.angle() / (2 * h) - now.turn_rate_body_rad_s).norm(), 2e-3) << t;
+    EXPECT_LT((turn.axis() * turn.angle() / (2 * kStep_s) - now.turn_rate_body_rad_s).norm(), 2e-3)
+        << t;
   }
 }
 

@@ -53,18 +53,18 @@ struct Extremes {
 };
 
 Extremes fly(const Flight& flight, double seconds) {
-  constexpr double h = 0.01;
+  constexpr double kStep_s = 0.01;
   Extremes e;
   Eigen::Vector3d last_turn = Eigen::Vector3d::Zero();
-  for (double t = 0; t < seconds; t += h) {
-    const Eigen::Isometry3d a = flight.pose(t), b = flight.pose(t + h);
+  for (double t = 0; t < seconds; t += kStep_s) {
+    const Eigen::Isometry3d a = flight.pose(t), b = flight.pose(t + kStep_s);
     const Eigen::AngleAxisd turn(a.linear().transpose() * b.linear());
-    const Eigen::Vector3d rate = turn.axis() * turn.angle() / h;
+    const Eigen::Vector3d rate = turn.axis() * turn.angle() / kStep_s;
     const Eigen::Vector3d p = a.translation();
-    e.speed_m_s = std::max(e.speed_m_s, (b.translation() - p).norm() / h);
+    e.speed_m_s = std::max(e.speed_m_s, (b.translation() - p).norm() / kStep_s);
     e.turn_rate_rad_s = std::max(e.turn_rate_rad_s, rate.norm());
     e.turn_acceleration_rad_s2 =
-        std::max(e.turn_acceleration_rad_s2, (rate - last_turn).norm() / h);
+        std::max(e.turn_acceleration_rad_s2, (rate - last_turn).norm() / kStep_s);
     e.tilt_rad = std::max(e.tilt_rad, std::acos(std::min(1.0, a.linear()(2, 2))));
     e.least_wall_distance_m =
         std::min({e.least_wall_distance_m, kRoomLength_m / 2 - std::abs(p.x()),
@@ -91,13 +91,13 @@ TEST(Flight, IsSmoothAndStaysInTheRoom) {
 
 TEST(Flight, LeansAsItsAccelerationAsks) {
   const auto flight = makeFlight("laps", std::nullopt);
-  constexpr double h = 0.02, kDrag_per_s = 0.3;
+  constexpr double kStep_s = 0.02, kDrag_per_s = 0.3;
   for (double t = 0.5; t < 40; t += 0.7) {
-    const Eigen::Vector3d before = flight->pose(t - h).translation();
+    const Eigen::Vector3d before = flight->pose(t - kStep_s).translation();
     const Eigen::Vector3d now = flight->pose(t).translation();
-    const Eigen::Vector3d after = flight->pose(t + h).translation();
-    const Eigen::Vector3d thrust = (after - 2 * now + before) / (h * h) +
-                                   kDrag_per_s * (after - before) / (2 * h) +
+    const Eigen::Vector3d after = flight->pose(t + kStep_s).translation();
+    const Eigen::Vector3d thrust = (after - 2 * now + before) / (kStep_s * kStep_s) +
+                                   kDrag_per_s * (after - before) / (2 * kStep_s) +
                                    Eigen::Vector3d(0, 0, 9.81);
     EXPECT_LT(thrust.normalized().cross(flight->pose(t).linear().col(2)).norm(), 1e-3);
   }

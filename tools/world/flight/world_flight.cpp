@@ -43,10 +43,11 @@ Eigen::Matrix3d attitudeOf(const Eigen::Vector3d& thrust_world, double yaw_rad) 
 }
 
 Eigen::Isometry3d Flight::pose(double t_s) const {
-  constexpr double h = 0.01;  // s; the error of the acceleration is about 1e-5 m/s^2
-  const Eigen::Vector3d before = position(t_s - h), now = position(t_s), after = position(t_s + h);
-  const Eigen::Vector3d velocity = (after - before) / (2 * h);
-  const Eigen::Vector3d acceleration = (after - 2 * now + before) / (h * h);
+  constexpr double kStep_s = 0.01;  // the error of the acceleration is about 1e-5 m/s^2
+  const Eigen::Vector3d before = position(t_s - kStep_s), now = position(t_s),
+                        after = position(t_s + kStep_s);
+  const Eigen::Vector3d velocity = (after - before) / (2 * kStep_s);
+  const Eigen::Vector3d acceleration = (after - 2 * now + before) / (kStep_s * kStep_s);
   const Eigen::Vector3d thrust =
       acceleration + kDrag_per_s * velocity + kGravity_m_s2 * Eigen::Vector3d::UnitZ();
   Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
@@ -56,20 +57,20 @@ Eigen::Isometry3d Flight::pose(double t_s) const {
 }
 
 FlightState Flight::state(double t_s) const {
-  constexpr double h = 0.01;  // s
+  constexpr double kStep_s = 0.01;
   constexpr std::array<double, 3> kFirst = {3.0 / 4, -3.0 / 20, 1.0 / 60};
   constexpr std::array<double, 3> kSecond = {3.0 / 2, -3.0 / 20, 1.0 / 90};
   const Eigen::Vector3d now = position(t_s);
   FlightState state;
   state.T_world_body = pose(t_s);
   for (std::size_t i = 0; i < kFirst.size(); ++i) {
-    const double step_s = h * static_cast<double>(i + 1);
+    const double step_s = kStep_s * static_cast<double>(i + 1);
     const Eigen::Vector3d before = position(t_s - step_s), after = position(t_s + step_s);
-    state.velocity_world_m_s += kFirst[i] / h * (after - before);
-    state.acceleration_world_m_s2 += kSecond[i] / (h * h) * (after - 2 * now + before);
+    state.velocity_world_m_s += kFirst[i] / kStep_s * (after - before);
+    state.acceleration_world_m_s2 += kSecond[i] / (kStep_s * kStep_s) * (after - 2 * now + before);
     // In the body of now, so that opposite turns about it add up without a common rotation.
     const Eigen::Matrix3d& R_world_body = state.T_world_body.linear();
-    state.turn_rate_body_rad_s += kFirst[i] / h *
+    state.turn_rate_body_rad_s += kFirst[i] / kStep_s *
                                   (turnFrom(R_world_body, pose(t_s + step_s).linear()) -
                                    turnFrom(R_world_body, pose(t_s - step_s).linear()));
   }
