@@ -32,10 +32,11 @@ struct CarrySave {
 /// kWeight times the number of bits of each byte.
 template <int kWeight>
 __m256i countBytes(__m256i bits) {
-  constexpr char w = kWeight;
-  const __m256i table = _mm256_setr_epi8(
-      0, w, w, 2 * w, w, 2 * w, 2 * w, 3 * w, w, 2 * w, 2 * w, 3 * w, 2 * w, 3 * w, 3 * w, 4 * w, 0,
-      w, w, 2 * w, w, 2 * w, 2 * w, 3 * w, w, 2 * w, 2 * w, 3 * w, 2 * w, 3 * w, 3 * w, 4 * w);
+  constexpr char kW = kWeight;
+  const __m256i table =
+      _mm256_setr_epi8(0, kW, kW, 2 * kW, kW, 2 * kW, 2 * kW, 3 * kW, kW, 2 * kW, 2 * kW, 3 * kW,
+                       2 * kW, 3 * kW, 3 * kW, 4 * kW, 0, kW, kW, 2 * kW, kW, 2 * kW, 2 * kW,
+                       3 * kW, kW, 2 * kW, 2 * kW, 3 * kW, 2 * kW, 3 * kW, 3 * kW, 4 * kW);
   const __m256i low_nibbles = _mm256_set1_epi8(15);
   const __m256i low = _mm256_and_si256(bits, low_nibbles);
   const __m256i high = _mm256_and_si256(_mm256_srli_epi16(bits, 4), low_nibbles);
