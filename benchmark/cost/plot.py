@@ -49,7 +49,7 @@ def table(rows):
     lines = ["| features | landmarks in view | thesis: associate / localise / map [ms] | msckf | tracks used |",
              "|---|---|---|---|---|"]
     thesis = [row for row in rows if row["series"] == "thesis"]
-    constraint = [row for row in rows if row["series"] == "msckf"]
+    msckf = [row for row in rows if row["series"] == "msckf"]
     for a, b in zip(thesis, msckf):
         cells = [" / ".join(f"{row[f'{stage}_ms']:.2f}" for stage in STAGES) for row in (a, b)]
         lines.append(f"| {a['features']:.0f} | {a['in_view']:.0f}, {b['in_view']:.0f} | {cells[0]} | {cells[1]} | "
