@@ -2,13 +2,13 @@
 #pragma once
 
 #include "ardrone_vslam/features.hpp"
-#include "matching/hamming_words.hpp"
+#include "kernels/hamming/hamming_words.hpp"
 
 namespace ardrone_vslam {
 
 /// @return number of bits in which the two descriptors differ, 0..512.
 inline int hammingDistance(const Descriptor& a, const Descriptor& b) {
-  return detail::hammingDistance512(a.words.data(), b.words.data());
+  return kernels::hammingDistance512(a.words.data(), b.words.data());
 }
 
 }  // namespace ardrone_vslam

@@ -19,7 +19,7 @@ __m256i load(const void* p) {
   return _mm256_loadu_si256(static_cast<const __m256i*>(p));
 }
 
-/// Carry-save adder, bit by bit: a + b + c = sum + 2 carry (detail::addBits).
+/// Carry-save adder, bit by bit: a + b + c = sum + 2 carry (addBits of hamming_words.hpp).
 struct CarrySave {
   CarrySave(__m256i a, __m256i b, __m256i c) {
     const __m256i half = _mm256_xor_si256(a, b);
@@ -43,7 +43,7 @@ __m256i countBytes(__m256i bits) {
   return _mm256_add_epi8(_mm256_shuffle_epi8(table, low), _mm256_shuffle_epi8(table, high));
 }
 
-/// Distances of four descriptors, in 64-bit lanes. As detail::hammingDistance512: the adders leave
+/// Distances of four descriptors, in 64-bit lanes. As hammingDistance512: the adders leave
 /// four words to count instead of eight.
 __m256i fourDistances(const Query& query, const std::uint64_t* words) {
   const auto differing = [&query, words](int w) {

@@ -2,7 +2,7 @@
 #include "kernels/hamming/hamming_distances.hpp"
 #include "kernels/hamming/hamming_groups.hpp"
 #include "kernels/hamming/hamming_kernels.hpp"
-#include "matching/hamming_words.hpp"
+#include "kernels/hamming/hamming_words.hpp"
 
 namespace ardrone_vslam::kernels {
 namespace {
@@ -13,7 +13,7 @@ void groupDistances(const std::uint64_t* query, const std::uint64_t* group,
   for (int k = 0; k < kHammingGroup; ++k) {
     std::uint64_t words[kHammingWords];
     for (int w = 0; w < kHammingWords; ++w) words[w] = group[w * kHammingGroup + k];
-    distances_bits[k] = static_cast<std::uint16_t>(detail::hammingDistance512(query, words));
+    distances_bits[k] = static_cast<std::uint16_t>(hammingDistance512(query, words));
   }
 }
 
@@ -22,8 +22,7 @@ void groupDistances(const std::uint64_t* query, const std::uint64_t* group,
 void hammingDistancesScalar(const std::uint64_t* query, const std::uint64_t* train,
                             std::size_t count, std::uint16_t* distances_bits) {
   for (std::size_t k = 0; k < count; ++k) {
-    distances_bits[k] =
-        static_cast<std::uint16_t>(detail::hammingDistance512(query, train + 8 * k));
+    distances_bits[k] = static_cast<std::uint16_t>(hammingDistance512(query, train + 8 * k));
   }
 }
 

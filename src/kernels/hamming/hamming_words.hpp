@@ -4,7 +4,7 @@
 #include <cstdint>
 
 // The Hamming distance on raw words: nothing but <cstdint>, as the kernels need it.
-namespace ardrone_vslam::detail {
+namespace ardrone_vslam::kernels {
 
 /// Carry-save adder: the bits of sum + 2 carry count the set bits of a, b and c at each of 64
 /// places.
@@ -49,4 +49,4 @@ inline int hammingDistance512(const std::uint64_t* a, const std::uint64_t* b) {
   return static_cast<int>((half_words * 0x0001000100010001U) >> 48);
 }
 
-}  // namespace ardrone_vslam::detail
+}  // namespace ardrone_vslam::kernels
