@@ -9,8 +9,8 @@
 #include "matching/descriptor_matcher.hpp"
 #include "matching/frame_view.hpp"
 #include "matching/global_matcher.hpp"
+#include "matching/track_order.hpp"
 #include "matching/window_search.hpp"
-#include "window/track_order.hpp"
 
 namespace ardrone_vslam {
 

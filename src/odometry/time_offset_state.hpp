@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "ardrone_vslam/time_offset.hpp"
+#include "matching/track_order.hpp"
 #include "odometry/image_rotation.hpp"
-#include "window/track_order.hpp"
 
 namespace ardrone_vslam {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
+#include "matching/track_order.hpp"
 #include "window/clone.hpp"
-#include "window/track_order.hpp"
 #include "window/track_views.hpp"
 
 namespace ardrone_vslam {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "window/track_order.hpp"
+#include "matching/track_order.hpp"
 #include "zero_motion/stillness.hpp"
 
 namespace ardrone_vslam {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "ardrone_vslam/features.hpp"
-#include "window/track_order.hpp"
+#include "matching/track_order.hpp"
 #include "window/track_window.hpp"
 #include "window/window_state.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "window/track_order.hpp"
+#include "matching/track_order.hpp"
 
 #include <algorithm>
 
