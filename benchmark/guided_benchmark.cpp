@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "matching/association.hpp"
+#include "association/associator.hpp"
 #include "row.hpp"
 #include "rows.hpp"
 

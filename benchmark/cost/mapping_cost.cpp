@@ -10,9 +10,9 @@
 #include <iostream>
 
 #include "ardrone_vslam/landmark.hpp"
+#include "association/associator.hpp"
 #include "landmarks/simulated_street.hpp"
 #include "map/landmark_map.hpp"
-#include "matching/association.hpp"
 #include "program/tool_main.hpp"
 #include "run/offline_run.hpp"
 #include "sequences/sequence.hpp"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ardrone_vslam/slam_config.hpp"
+#include "map/association.hpp"
 #include "map/landmark_map.hpp"
-#include "matching/association.hpp"
 #include "matching/frame_view.hpp"
 
 namespace ardrone_vslam {

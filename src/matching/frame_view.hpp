@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "map/triangulation.hpp"
+#include "ardrone_vslam/landmark.hpp"
 
 namespace ardrone_vslam {
 

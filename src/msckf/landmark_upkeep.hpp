@@ -5,9 +5,9 @@
 
 #include "ardrone_vslam/landmark.hpp"
 #include "ardrone_vslam/msckf_config.hpp"
+#include "map/association.hpp"
 #include "map/landmark_map.hpp"
 #include "map_update/map_update.hpp"
-#include "matching/association.hpp"
 #include "matching/frame_view.hpp"
 #include "msckf/re_anchoring.hpp"
 #include "msckf/track_update.hpp"

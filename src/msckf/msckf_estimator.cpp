@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "association/associator.hpp"
 #include "msckf/landmark_upkeep.hpp"
 
 namespace ardrone_vslam {

@@ -9,9 +9,9 @@
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/frame_result.hpp"
 #include "ardrone_vslam/slam_config.hpp"
+#include "map/association.hpp"
 #include "map/landmark_locator.hpp"
 #include "map/landmark_map.hpp"
-#include "matching/association.hpp"
 #include "matching/frame_view.hpp"
 #include "odometry/odometry_step.hpp"
 

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "association/associator.hpp"
 #include "config/slam_config_faults.hpp"
 #include "map/landmark_map.hpp"
-#include "matching/association.hpp"
 #include "matching/frame_view.hpp"
 #include "odometry/odometry_step.hpp"
 #include "pipeline/estimator.hpp"

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "association/associator.hpp"
 #include "map/feature_map.hpp"
 #include "map/mapper.hpp"
 #include "pipeline/estimator.hpp"

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardrone_vslam/landmark.hpp"
 #include "ardrone_vslam/rotation.hpp"
 #include "linear/scalars.hpp"
-#include "map/triangulation.hpp"
 
 namespace ardrone_vslam {
 namespace {

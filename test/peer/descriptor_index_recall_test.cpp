@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 
+#include "association/associator.hpp"
 #include "corners/corner_detector.hpp"
 #include "freak/freak.hpp"
-#include "matching/association.hpp"
 #include "matching/descriptor_index.hpp"
 #include "matching/hamming.hpp"
 

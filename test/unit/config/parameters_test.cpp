@@ -9,7 +9,7 @@
 
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/tracker.hpp"
-#include "matching/association.hpp"
+#include "association/associator.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -4,31 +4,16 @@
 #include <vector>
 
 #include "ardrone_vslam/slam_config.hpp"
+#include "association/global_matcher.hpp"
+#include "map/association.hpp"
 #include "map/feature_map.hpp"
 #include "map/landmark_map.hpp"
 #include "matching/descriptor_matcher.hpp"
 #include "matching/frame_view.hpp"
-#include "matching/global_matcher.hpp"
 #include "matching/track_order.hpp"
 #include "matching/window_search.hpp"
 
 namespace ardrone_vslam {
-
-/// `target` is the index of a landmark or map feature, `feature` of the frame's feature.
-struct Association {
-  int target = 0;   ///< index into LandmarkMap::all() or FeatureMap::all()
-  int feature = 0;  ///< index into ImageFeatures
-};
-
-/// What one search found, before and after the removal of mismatches.
-struct AssociationResult {
-  std::vector<Association> matches;           ///< what is left after the removal of mismatches
-  MatchMethod method = MatchMethod::kGuided;  ///< how it was looked for
-  int in_view = 0;                            ///< targets that the prediction puts into the image
-  int candidates = 0;                         ///< descriptor or track matches
-  int mismatches = 0;                         ///< removed of them
-  std::vector<int> missed;  ///< targets in view without a match; none unless guided
-};
 
 /// A landmark's match is a mismatch when it is off the prediction by more than this.
 double mismatchThreshold_rad(const AssociationConfig& config, const FrameView& view,

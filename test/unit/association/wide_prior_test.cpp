@@ -2,7 +2,7 @@
 // How landmarks are looked for when the prediction is too uncertain to say where.
 #include <gtest/gtest.h>
 
-#include "matching/association.hpp"
+#include "association/associator.hpp"
 #include "support/view_builder.hpp"
 
 namespace ardrone_vslam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/global_matcher.hpp"
+#include "association/global_matcher.hpp"
 
 #include <algorithm>
 #include <cassert>

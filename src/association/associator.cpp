@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/association.hpp"
+#include "association/associator.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "map/triangulation.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/association.hpp"
+#include "association/associator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,9 +15,9 @@ using test::ViewBuilder;
 
 constexpr double kFocalLength_px = test::kPointFocalLength_px;
 
-class AssociationTest : public ::testing::Test {
+class AssociatorTest : public ::testing::Test {
  protected:
-  AssociationTest() {
+  AssociatorTest() {
     builder_.lookFrom({0, 0, 0});
     builder_.addFrame();
   }
@@ -59,7 +59,7 @@ class AssociationTest : public ::testing::Test {
   FeatureMap map_features_{FeatureMapConfig{}};
 };
 
-TEST_F(AssociationTest, FindsALandmarkByItsDescriptorWithinTheWindow) {
+TEST_F(AssociatorTest, FindsALandmarkByItsDescriptorWithinTheWindow) {
   const Descriptor a = builder_.randomDescriptor();
   config_.search_radius_px = 30;
   config_.landmark_threshold_px = 100;
@@ -79,7 +79,7 @@ TEST_F(AssociationTest, FindsALandmarkByItsDescriptorWithinTheWindow) {
   EXPECT_EQ(far.missed, std::vector<int>{target});
 }
 
-TEST_F(AssociationTest, RemovesLandmarkMatchesOffThePrediction) {
+TEST_F(AssociatorTest, RemovesLandmarkMatchesOffThePrediction) {
   config_.landmark_threshold_px = 8;
   for (const double off_px : {7.9, 8.1}) {
     landmarks_ = LandmarkMap({});
@@ -95,7 +95,7 @@ TEST_F(AssociationTest, RemovesLandmarkMatchesOffThePrediction) {
   }
 }
 
-TEST_F(AssociationTest, ThresholdAndWindowGrowWithTheDeviationOfThePose) {
+TEST_F(AssociatorTest, ThresholdAndWindowGrowWithTheDeviationOfThePose) {
   config_.landmark_threshold_px = 8;
   config_.search_radius_px = 10;
   config_.threshold_sigmas = 3;
@@ -120,7 +120,7 @@ TEST_F(AssociationTest, ThresholdAndWindowGrowWithTheDeviationOfThePose) {
   EXPECT_EQ(matches(8.2, false, 0), 0U) << "fixed thresholds";
 }
 
-TEST_F(AssociationTest, TracksComeFirstAndNeedNoDescriptor) {
+TEST_F(AssociatorTest, TracksComeFirstAndNeedNoDescriptor) {
   const Descriptor a = builder_.randomDescriptor();
   addLandmark(5, 42, a);
   builder_.addPixel(0, 0, 7, a);  // looks the same, but is another track
@@ -130,7 +130,7 @@ TEST_F(AssociationTest, TracksComeFirstAndNeedNoDescriptor) {
   EXPECT_EQ(result.matches[0].feature, followed);
 }
 
-TEST_F(AssociationTest, ATrackThatLeftItsLandmarkIsAMismatchAndTheDescriptorDecides) {
+TEST_F(AssociatorTest, ATrackThatLeftItsLandmarkIsAMismatchAndTheDescriptorDecides) {
   const Descriptor a = builder_.randomDescriptor();
   const int target = addLandmark(5, 42, a);
   builder_.addPixel(100, 0, 42, builder_.randomDescriptor());
@@ -143,7 +143,7 @@ TEST_F(AssociationTest, ATrackThatLeftItsLandmarkIsAMismatchAndTheDescriptorDeci
   EXPECT_EQ(result.mismatches, 1);
 }
 
-TEST_F(AssociationTest, EachFeatureAndEachLandmarkOnce) {
+TEST_F(AssociatorTest, EachFeatureAndEachLandmarkOnce) {
   const Descriptor a = builder_.randomDescriptor();
   for (const bool cross_check : {true, false}) {
     config_.matcher.cross_check = cross_check;
@@ -164,7 +164,7 @@ TEST_F(AssociationTest, EachFeatureAndEachLandmarkOnce) {
   }
 }
 
-TEST_F(AssociationTest, CrossCheckAsksTheFeatureToo) {
+TEST_F(AssociatorTest, CrossCheckAsksTheFeatureToo) {
   const Descriptor a = builder_.randomDescriptor();
   config_.matcher.ratio = 1;
   addLandmark(5, 0, builder_.flipped(a, 30));  // likes the feature, which likes the other one more
@@ -179,7 +179,7 @@ TEST_F(AssociationTest, CrossCheckAsksTheFeatureToo) {
   EXPECT_EQ(winner(false), 0) << "first come, first served";
 }
 
-TEST_F(AssociationTest, LandmarksBehindOutsideOrSeenFromElsewhereAreNotInView) {
+TEST_F(AssociatorTest, LandmarksBehindOutsideOrSeenFromElsewhereAreNotInView) {
   const Descriptor a = builder_.randomDescriptor();
   config_.max_view_angle_deg = 60;
   addLandmark(-5, 0, a);
@@ -194,7 +194,7 @@ TEST_F(AssociationTest, LandmarksBehindOutsideOrSeenFromElsewhereAreNotInView) {
   EXPECT_EQ(matchLandmarks().in_view, 1);
 }
 
-TEST_F(AssociationTest, LandmarksSeenFromMuchNearerOrFurtherAreNotInView) {
+TEST_F(AssociatorTest, LandmarksSeenFromMuchNearerOrFurtherAreNotInView) {
   config_.max_distance_ratio = 4;
   addLandmark(5, 0, builder_.randomDescriptor());
   const auto inView = [this](double seen_distance_m) {
@@ -208,7 +208,7 @@ TEST_F(AssociationTest, LandmarksSeenFromMuchNearerOrFurtherAreNotInView) {
   EXPECT_EQ(inView(0), 1) << "not known";
 }
 
-TEST_F(AssociationTest, MapFeaturesByTrackWithinTheEpipolarPlane) {
+TEST_F(AssociatorTest, MapFeaturesByTrackWithinTheEpipolarPlane) {
   config_.epipolar_threshold_px = 2;
   storeRay({0, 0.5, 0}, {5, 0, 0}, 3);  // camera came from the left: epipolar lines are rows
   const auto judged = [&](double right_px, double down_px) {
@@ -223,7 +223,7 @@ TEST_F(AssociationTest, MapFeaturesByTrackWithinTheEpipolarPlane) {
   EXPECT_EQ(judged(60, 0).mismatches, 1) << "the rays diverge";
 }
 
-TEST_F(AssociationTest, MapFeaturesWhoseLinesMeetBehindTheFirstCameraAreMismatches) {
+TEST_F(AssociatorTest, MapFeaturesWhoseLinesMeetBehindTheFirstCameraAreMismatches) {
   // Moving backward along x past a point that was seen to the left.
   config_.epipolar_threshold_px = 2;
   storeRay({1, 0, 0}, {1.2, 1, 0}, 3);
@@ -234,7 +234,7 @@ TEST_F(AssociationTest, MapFeaturesWhoseLinesMeetBehindTheFirstCameraAreMismatch
   EXPECT_EQ(result.mismatches, 1);
 }
 
-TEST_F(AssociationTest, EpipolarTestAllowsForAnUncertainBaseline) {
+TEST_F(AssociatorTest, EpipolarTestAllowsForAnUncertainBaseline) {
   config_.epipolar_threshold_px = 2;
   config_.threshold_sigmas = 3;
   storeRay({0, 0.02, 0}, {1, 0, 0}, 3);
@@ -248,12 +248,12 @@ TEST_F(AssociationTest, EpipolarTestAllowsForAnUncertainBaseline) {
   EXPECT_EQ(mismatches(0.02), 0) << "the baseline may as well point down";
 }
 
-TEST_F(AssociationTest, MapFeaturesWithoutABaselineAreKept) {
+TEST_F(AssociatorTest, MapFeaturesWithoutABaselineAreKept) {
   storeRay({0, 0, 0}, {5, 0, 0}, 3);
   builder_.addPixel(20, 20, 3);
   EXPECT_EQ(matchMapFeatures().matches.size(), 1U);
 }
-TEST_F(AssociationTest, EndedTracksAreFoundByDescriptor) {
+TEST_F(AssociatorTest, EndedTracksAreFoundByDescriptor) {
   const Descriptor a = builder_.randomDescriptor();
   storeRay({0, 0.5, 0}, {100, 0, 0}, 3, a);
   const int taken = builder_.addPixel(1, 0, 8, a);
@@ -266,7 +266,7 @@ TEST_F(AssociationTest, EndedTracksAreFoundByDescriptor) {
   EXPECT_EQ(result.matches[0].feature, feature) << "features of landmarks are not offered";
 }
 
-TEST_F(AssociationTest, EntriesOfLivingTracksAreNotSearchedByDescriptor) {
+TEST_F(AssociatorTest, EntriesOfLivingTracksAreNotSearchedByDescriptor) {
   const Descriptor a = builder_.randomDescriptor();
   storeRay({0, 0.5, 0}, {100, 0, 0}, 3, a);
   builder_.addPixel(0, 100, 3, builder_.randomDescriptor());  // off the plane
@@ -276,7 +276,7 @@ TEST_F(AssociationTest, EntriesOfLivingTracksAreNotSearchedByDescriptor) {
   EXPECT_EQ(result.mismatches, 1);
 }
 
-TEST_F(AssociationTest, PlanarModeTestsTheOrderOfTheBearings) {
+TEST_F(AssociatorTest, PlanarModeTestsTheOrderOfTheBearings) {
   storeRay({0, 0.5, 0}, {5, 0, 0}, 3);
   const auto judged = [&](double right_px, double down_px) {
     builder_.lookFrom({0, 0, 0}, true);
@@ -288,7 +288,7 @@ TEST_F(AssociationTest, PlanarModeTestsTheOrderOfTheBearings) {
   EXPECT_EQ(judged(65, 0).mismatches, 1) << "diverging";
 }
 
-TEST_F(AssociationTest, PlanarModeSearchesLandmarksAtTheirHeight) {
+TEST_F(AssociatorTest, PlanarModeSearchesLandmarksAtTheirHeight) {
   const Descriptor a = builder_.randomDescriptor();
   config_.search_radius_px = 10;
   addLandmark(5, 0, a);
@@ -301,7 +301,7 @@ TEST_F(AssociationTest, PlanarModeSearchesLandmarksAtTheirHeight) {
   EXPECT_EQ(matchLandmarks().candidates, 0);
 }
 
-TEST_F(AssociationTest, EmptyFramesAndMapsMatchNothing) {
+TEST_F(AssociatorTest, EmptyFramesAndMapsMatchNothing) {
   EXPECT_TRUE(matchLandmarks().matches.empty());
   EXPECT_TRUE(matchMapFeatures().matches.empty());
   addLandmark(5, 1, {});
