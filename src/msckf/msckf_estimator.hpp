@@ -3,10 +3,10 @@
 
 #include <vector>
 
+#include "estimator/estimator.hpp"
 #include "map/mapper.hpp"
 #include "map_update/time_since_fix.hpp"
 #include "msckf/msckf.hpp"
-#include "pipeline/estimator.hpp"
 
 namespace ardrone_vslam {
 

@@ -12,7 +12,7 @@
 #include "map/landmark_map.hpp"
 #include "matching/frame_view.hpp"
 #include "odometry/odometry_step.hpp"
-#include "pipeline/estimator.hpp"
+#include "pipeline/make_estimator.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "association/associator.hpp"
+#include "estimator/estimator.hpp"
 #include "map/feature_map.hpp"
 #include "map/mapper.hpp"
-#include "pipeline/estimator.hpp"
 #include "thesis/thesis_filter.hpp"
 
 namespace ardrone_vslam {

@@ -35,6 +35,16 @@ def with_other_half(path):
     return [str(other.relative_to(ROOT)) for other in found]
 
 
+def rooms_used_by_rooms():
+    """{room of src/: the other rooms whose headers it includes}."""
+    used = {room.name: set() for room in (ROOT / "src").iterdir() if room.is_dir()}
+    for room, others in used.items():
+        for path in (ROOT / "src" / room).rglob("*.?pp"):
+            others.update(re.findall(r'^#include "(\w+)/', path.read_text(encoding="utf-8"), re.MULTILINE))
+        others &= used.keys() - {room}
+    return used
+
+
 def lines_of(path):
     return len(path.read_text(encoding="utf-8").splitlines())
 
@@ -106,6 +116,13 @@ class RoomsTest(unittest.TestCase):
     def test_every_room_of_the_core_is_named_and_none_that_is_not_there(self):
         named = set(re.findall(r"`src/(\w+)`", (ROOT / "docs/rooms.md").read_text(encoding="utf-8")))
         self.assertEqual(named, {path.name for path in (ROOT / "src").iterdir() if path.is_dir()})
+
+    def test_rooms_of_the_core_do_not_include_each_other_in_a_circle(self):
+        used = rooms_used_by_rooms()
+        self.assertGreater(sum(map(len, used.values())), 20)
+        while lowest := {room for room in used if not used[room]}:
+            used = {room: others - lowest for room, others in used.items() if room not in lowest}
+        self.assertEqual(used, {}, "each of these uses another one of them")
 
 
 class DataPathTest(unittest.TestCase):

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/frame_result.hpp"
-#include "ardrone_vslam/slam_config.hpp"
 #include "map/association.hpp"
 #include "map/landmark_locator.hpp"
 #include "map/landmark_map.hpp"
@@ -85,9 +83,5 @@ class Estimator {
 
 /// Moves the view's rays to a camera's position, with its uncertainty; their directions stay.
 void moveTo(CameraPose camera, FrameView& view);
-
-/// The one that the configuration names.
-std::unique_ptr<Estimator> makeEstimator(const SlamConfig& config,
-                                         const Eigen::Isometry3d& T_base_cam);
 
 }  // namespace ardrone_vslam

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/estimator.hpp"
-
-#include <utility>
+#include "pipeline/make_estimator.hpp"
 
 #include "msckf/msckf_estimator.hpp"
 #include "thesis/thesis_estimator.hpp"
@@ -25,12 +23,6 @@ class OdometryEstimator final : public ThesisEstimator {
 };
 
 }  // namespace
-
-void moveTo(CameraPose camera, FrameView& view) {
-  view.setOrigin(camera.T_map_cam.translation());
-  view.setPositionVariance(camera.position_variance_m2, camera.common_drift);
-  view.setDrifts(std::move(camera.drifts));
-}
 
 std::unique_ptr<Estimator> makeEstimator(const SlamConfig& config,
                                          const Eigen::Isometry3d& T_base_cam) {
