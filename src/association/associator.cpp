@@ -187,24 +187,34 @@ void Associator::matchMapFeatures(const FrameView& view, const FeatureMap& map,
   result = {};
   begin(view, map.size());
   std::copy(taken.begin(), taken.end(), feature_taken_.begin());
-  const auto decide = [&](int target, int feature) {
-    ++result.candidates;
-    feature_taken_[static_cast<std::size_t>(feature)] = true;
-    const MapFeature& first = map.all()[static_cast<std::size_t>(target)];
-    if (isEpipolarMismatch(view, first, feature)) {
-      ++result.mismatches;
-      return;
-    }
-    result.matches.push_back({target, feature});
-  };
-
   for (std::size_t f = 0; f < view.size(); ++f) {
     if (feature_taken_[f]) continue;
     const int target = map.indexOfTrack(view.features().track_id[f]);
-    if (target != kNobody) decide(target, static_cast<int>(f));
+    if (target != kNobody) decideMapFeature(view, map, {target, static_cast<int>(f)}, result);
   }
-  // Entries whose track has ended are looked for by descriptor. A near point moves away from where
-  // rotation alone puts it, hence the window.
+  searchMapFeatures(view, map, result);
+  for (const int target : targets_in_view_) {
+    const int feature = bestFeature(target);
+    if (feature != kNobody) decideMapFeature(view, map, {target, feature}, result);
+  }
+}
+
+void Associator::decideMapFeature(const FrameView& view, const FeatureMap& map,
+                                  const Association& candidate, AssociationResult& result) {
+  ++result.candidates;
+  feature_taken_[static_cast<std::size_t>(candidate.feature)] = true;
+  const MapFeature& first = map.all()[static_cast<std::size_t>(candidate.target)];
+  if (isEpipolarMismatch(view, first, candidate.feature)) {
+    ++result.mismatches;
+  } else {
+    result.matches.push_back(candidate);
+  }
+}
+
+/// Entries whose track has ended are looked for by descriptor. A near point moves away from where
+/// rotation alone puts it, hence the window.
+void Associator::searchMapFeatures(const FrameView& view, const FeatureMap& map,
+                                   AssociationResult& result) {
   windows_.build(view.idealPixels(), view.features().descriptor, feature_taken_);
   const auto radius_px = static_cast<float>(config_.search_radius_px);
   for (std::size_t i = 0; i < map.size(); ++i) {
@@ -216,10 +226,6 @@ void Associator::matchMapFeatures(const FrameView& view, const FeatureMap& map,
     targets_in_view_.push_back(static_cast<int>(i));
     best_of_target_[i] =
         windows_.search(entry.descriptor, centre_px, radius_px, static_cast<int>(i));
-  }
-  for (const int target : targets_in_view_) {
-    const int feature = bestFeature(target);
-    if (feature != kNobody) decide(target, feature);
   }
 }
 

@@ -53,6 +53,9 @@ class Associator {
                      AssociationResult& result);
   bool decideLandmark(const FrameView& view, const LandmarkMap& map, const Association& candidate,
                       AssociationResult& result);
+  void decideMapFeature(const FrameView& view, const FeatureMap& map, const Association& candidate,
+                        AssociationResult& result);
+  void searchMapFeatures(const FrameView& view, const FeatureMap& map, AssociationResult& result);
   bool isLandmarkMismatch(const FrameView& view, const Landmark& landmark, int feature) const;
   bool isEpipolarMismatch(const FrameView& view, const MapFeature& first, int feature) const;
 
