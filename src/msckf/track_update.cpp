@@ -80,6 +80,16 @@ bool hasKnownBaseline(TrackViews views, const WindowState& state) {
   return across_m2 < squared(kBaselineUncertainty) * length_m2;
 }
 
+/// The point of a track whose views tell the depth and more.
+std::optional<TrackPoint> pointOf(TrackViews views, const Eigen::Vector3d& camera_rig,
+                                  double angle_sigma_rad, const WindowState& state) {
+  if (static_cast<int>(views.size()) < kFewestViews || !hasKnownBaseline(views, state))
+    return std::nullopt;
+  auto point = triangulateTrack(state.frames(), camera_rig, views, angle_sigma_rad);
+  if (point && point->parallax_rad < kParallaxSigmas * angle_sigma_rad) point.reset();
+  return point;
+}
+
 /// UsedTrack::stretch_sigma.
 double stretchSigma(TrackViews views, const Eigen::Vector3d& camera_rig, const WindowState& state) {
   const Clone& first = state.frames()[views.front().frame];
@@ -139,11 +149,8 @@ std::vector<TrackUpdate::Candidate> TrackUpdate::gate(const std::vector<Finished
   const double sigma_a = camera.angle_sigma_rad;
   std::vector<Candidate> candidates;
   for (const FinishedTrack& track : finished) {
-    if (static_cast<int>(track.views.size()) < kFewestViews ||
-        !hasKnownBaseline(track.views, state))
-      continue;
-    const auto point = triangulateTrack(state.frames(), camera_rig, track.views, sigma_a);
-    if (!point || point->parallax_rad < kParallaxSigmas * sigma_a) continue;
+    const auto point = pointOf(track.views, camera_rig, sigma_a, state);
+    if (!point) continue;
     auto residual = residualOf(state, camera_rig, track.views, *point, sigma_a);
     if (!residual) continue;
     ++candidates_;
