@@ -63,6 +63,20 @@ FrameSource::Read FrameStream::readOne() {
   const int first = input_.next();
   if (first < 0 && input_.error() != 0) return cutOff();
   if (first < 0) return input_.isStopped() ? Read::kNone : Read::kEnd;
+  if (const Read answer = readFormat(first); answer != Read::kFrame) return answer;
+  stamp_ns_ = 0;
+  Header header{};
+  for (std::int64_t* number : {&header.width, &header.height, &header.largest}) {
+    if (!readNumber(*number))
+      return input_.isStopped() ? Read::kNone : lost("an image's header is damaged or cut off");
+  }
+  const std::string fault = faultOf(header);
+  if (!fault.empty()) return lost(fault);
+  const std::size_t bytes = pixels_.size() / 2 * static_cast<std::size_t>(bytesPerPixel(format_));
+  return input_.read(pixels_.data(), bytes) == bytes ? Read::kFrame : cutOff();
+}
+
+FrameSource::Read FrameStream::readFormat(int first) {
   std::array<std::uint8_t, 4> magic{static_cast<std::uint8_t>(first)};
   const std::size_t letters = first == 'U' ? 4 : 2;
   if (input_.read(&magic[1], letters - 1) != letters - 1) return cutOff();
@@ -70,23 +84,19 @@ FrameSource::Read FrameStream::readOne() {
   if (!is_uyvy && (magic[0] != 'P' || magic[1] != '5' || letters == 4))
     return lost("what comes is neither a binary PGM (P5) nor UYVY (docs/onboard.md)");
   format_ = is_uyvy ? PixelFormat::kUyvy : PixelFormat::kGrey;
+  return Read::kFrame;
+}
 
-  stamp_ns_ = 0;
-  std::array<std::int64_t, 3> numbers{};  // width, height, largest value
-  for (std::int64_t& number : numbers) {
-    if (!readNumber(number))
-      return input_.isStopped() ? Read::kNone : lost("an image's header is damaged or cut off");
-  }
-  if (stamp_ns_ <= 0) return lost("an image without its stamp: write '# stamp_ns N' below its P5");
-  if (stamp_ns_ > kLatestStamp_ns) return lost("an image's stamp is no time: it is in nanoseconds");
-  if (numbers[0] != size_.sourceWidth_px() || numbers[1] != size_.sourceHeight_px() ||
-      numbers[2] != 255)
-    return lost("an image of " + sizeText(numbers[0], numbers[1]) + ", largest value " +
-                std::to_string(numbers[2]) + ", but by the calibration" +
-                (size_.halve ? ", doubled as `halve` says," : "") + " it must be " +
-                sizeText(size_.sourceWidth_px(), size_.sourceHeight_px()) + ", 255");
-  const std::size_t bytes = pixels_.size() / 2 * static_cast<std::size_t>(bytesPerPixel(format_));
-  return input_.read(pixels_.data(), bytes) == bytes ? Read::kFrame : cutOff();
+std::string FrameStream::faultOf(const Header& header) const {
+  if (stamp_ns_ <= 0) return "an image without its stamp: write '# stamp_ns N' below its P5";
+  if (stamp_ns_ > kLatestStamp_ns) return "an image's stamp is no time: it is in nanoseconds";
+  const int width_px = size_.sourceWidth_px();
+  const int height_px = size_.sourceHeight_px();
+  if (header.width == width_px && header.height == height_px && header.largest == 255) return "";
+  return "an image of " + sizeText(header.width, header.height) + ", largest value " +
+         std::to_string(header.largest) + ", but by the calibration" +
+         (size_.halve ? ", doubled as `halve` says," : "") + " it must be " +
+         sizeText(width_px, height_px) + ", 255";
 }
 
 /// A number of the header, the one space behind it included; comments before it, of which that with
@@ -94,16 +104,7 @@ FrameSource::Read FrameStream::readOne() {
 bool FrameStream::readNumber(std::int64_t& value) {
   int c = input_.next();
   while (isSpace(c) || c == '#') {
-    if (c == '#') {
-      std::array<char, 64> comment{};
-      std::size_t length = 0;
-      while ((c = input_.next()) >= 0 && c != '\n') {
-        if (length + 1 < comment.size()) comment[length++] = static_cast<char>(c);
-      }
-      const std::size_t name = std::strlen(kStampComment);
-      if (std::strncmp(comment.data(), kStampComment, name) == 0)
-        stamp_ns_ = std::strtoll(comment.data() + name, nullptr, 10);
-    }
+    if (c == '#') readComment();
     c = input_.next();
   }
   if (c < '0' || c > '9') return false;
@@ -112,6 +113,17 @@ bool FrameStream::readNumber(std::int64_t& value) {
     value = 10 * value + (c - '0');
   }
   return isSpace(c);
+}
+
+void FrameStream::readComment() {
+  std::array<char, 64> comment{};
+  std::size_t length = 0;
+  for (int c = input_.next(); c >= 0 && c != '\n'; c = input_.next()) {
+    if (length + 1 < comment.size()) comment[length++] = static_cast<char>(c);
+  }
+  const std::size_t name = std::strlen(kStampComment);
+  if (std::strncmp(comment.data(), kStampComment, name) == 0)
+    stamp_ns_ = std::strtoll(comment.data() + name, nullptr, 10);
 }
 
 }  // namespace ardrone_vslam

@@ -25,8 +25,15 @@ class FrameStream : public FrameSource {
   Read read(Frame& frame) override;
 
  private:
+  struct Header {
+    std::int64_t width, height, largest;  // value of a pixel
+  };
+
   Read readOne();
+  Read readFormat(int first);
+  std::string faultOf(const Header& header) const;
   bool readNumber(std::int64_t& value);
+  void readComment();
   Read cutOff();
 
   InputBuffer input_;

@@ -7,19 +7,20 @@
 
 namespace ardrone_vslam {
 
+int InputBuffer::wait() {
+  std::array<pollfd, 2> entries{{{file_.get(), POLLIN, 0}, {stop_fd_, POLLIN, 0}}};
+  const int ready = ::poll(entries.data(), entries.size(), waiting_ ? kWaiting_ms : -1);
+  if (ready < 0) return ready;
+  if (ready == 0) waiting_();
+  is_stopped_ = entries[1].revents != 0;
+  return !is_stopped_ && entries[0].revents != 0 ? 1 : 0;
+}
+
 std::size_t InputBuffer::fill(std::uint8_t* to, std::size_t count) {
   while (!is_stopped_) {
-    std::array<pollfd, 2> entries{{{file_.get(), POLLIN, 0}, {stop_fd_, POLLIN, 0}}};
-    const int ready = ::poll(entries.data(), entries.size(), waiting_ ? kWaiting_ms : -1);
-    if (ready < 0 && errno != EINTR) {
-      error_ = errno;
-      return 0;
-    }
-    if (ready == 0) waiting_();
-    if (ready <= 0) continue;
-    is_stopped_ = entries[1].revents != 0;
-    if (is_stopped_ || entries[0].revents == 0) continue;
-    const ssize_t got = ::read(file_.get(), to, count);
+    const int ready = wait();
+    if (ready == 0) continue;
+    const ssize_t got = ready > 0 ? ::read(file_.get(), to, count) : -1;
     if (got >= 0) return static_cast<std::size_t>(got);
     if (errno != EINTR && errno != EAGAIN) {
       error_ = errno;

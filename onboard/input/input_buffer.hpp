@@ -37,6 +37,8 @@ class InputBuffer {
   bool isBuffered() const { return begin_ < end_; }
 
  private:
+  /// @return 1: the file can be read; 0: not now; -1: see errno
+  int wait();
   std::size_t fill(std::uint8_t* to, std::size_t count);
 
   FileDescriptor file_;

@@ -12,7 +12,6 @@
 #include <stdexcept>
 
 #include "input/grey_conversion.hpp"
-#include "input/v4l2_buffer.hpp"
 #include "protocol/clocks.hpp"
 
 namespace ardrone_vslam {
@@ -129,34 +128,38 @@ void V4l2Camera::mapBuffers() {
 
 FrameSource::Read V4l2Camera::read(Frame& frame) {
   V4l2Buffer newest{};
-  bool has_one = false;
+  if (const Read answer = dequeue(newest); answer != Read::kFrame) return answer;
   while (true) {
-    V4l2Buffer buffer = mappedBuffer();
-    if (calls_.control(device_.get(), kDequeueBuffer, &buffer) < 0) {
-      if (errno == EAGAIN) break;
-      if (errno == EIO && ++errors_ < kMostErrors)
-        continue;  // an image was lost, the stream goes on
-      return lost(path_ + ": the camera is gone (" + std::strerror(errno) + ")");
-    }
-    errors_ = 0;
-    if (buffer.index >= mapped_) return lost(path_ + ": the driver gives a buffer that is none");
-    if (has_one) {
-      ++dropped_;
-      if (calls_.control(device_.get(), kQueueBuffer, &newest) < 0)
-        return lost(path_ + ": the camera is gone (" + std::strerror(errno) + ")");
-    }
-    newest = buffer;
-    has_one = true;
+    V4l2Buffer newer{};
+    const Read more = dequeue(newer);
+    if (more == Read::kNone) break;
+    if (more != Read::kFrame) return more;
+    ++dropped_;
+    if (calls_.control(device_.get(), kQueueBuffer, &newest) < 0) return gone();
+    newest = newer;
   }
-  if (!has_one) return Read::kNone;
   toGrey(PixelFormat::kUyvy, static_cast<const std::uint8_t*>(mappings_[newest.index].memory),
          row_bytes_, size_.sourceWidth_px(), size_.sourceHeight_px(), size_.halve, grey_.data());
   frame.image = {grey_.data(), size_.width_px, size_.height_px, size_.width_px};
   frame.stamp_ns = stampOf(std::int64_t{newest.timestamp.seconds} * 1'000'000'000 +
                            std::int64_t{newest.timestamp.microseconds} * 1000);
-  if (calls_.control(device_.get(), kQueueBuffer, &newest) < 0)
-    return lost(path_ + ": the camera is gone (" + std::strerror(errno) + ")");
+  return calls_.control(device_.get(), kQueueBuffer, &newest) < 0 ? gone() : Read::kFrame;
+}
+
+FrameSource::Read V4l2Camera::dequeue(V4l2Buffer& buffer) {
+  buffer = mappedBuffer();
+  while (calls_.control(device_.get(), kDequeueBuffer, &buffer) < 0) {
+    if (errno == EAGAIN) return Read::kNone;
+    if (errno != EIO || ++errors_ >= kMostErrors) return gone();
+    buffer = mappedBuffer();  // an image was lost, the stream goes on
+  }
+  errors_ = 0;
+  if (buffer.index >= mapped_) return lost(path_ + ": the driver gives a buffer that is none");
   return Read::kFrame;
+}
+
+FrameSource::Read V4l2Camera::gone() {
+  return lost(path_ + ": the camera is gone (" + std::strerror(errno) + ")");
 }
 
 /// Old drivers stamp by the time of day, newer ones by the monotonic clock, some not at all.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "input/frame_source.hpp"
+#include "input/v4l2_buffer.hpp"
 #include "protocol/file_descriptor.hpp"
 
 namespace ardrone_vslam {
@@ -43,6 +44,8 @@ class V4l2Camera : public FrameSource {
   void control(unsigned long request, void* argument, const char* what);
   void setFormat();
   void mapBuffers();
+  Read dequeue(V4l2Buffer& buffer);
+  Read gone();
   std::int64_t stampOf(std::int64_t driver_ns) const;
 
   static constexpr std::size_t kBuffers = 4;
