@@ -39,30 +39,35 @@ class OdometryAdapter {
  private:
   void count(OdometryFault fault) { ++faults_[static_cast<std::size_t>(fault)]; }
   void beginAnew();
+  OdometryBuffer::Push addToBurst(const OdometryState& message);
   OdometryBuffer::Push absorb(const OdometryState& message);
   OdometryBuffer::Push adapt(const OdometryState& message, std::vector<OdometryState>& ready);
   bool follows(const OdometryState& message);
   Eigen::Vector3d wayByTwist_m(const OdometryState& message) const;
   void watchTwist(const OdometryState& message, const Eigen::Vector3d& raw_way_m);
-  double heightByTwist_m(const OdometryState& message, double climb_m) const;
+  double heightByTwist_m(const OdometryState& state, double climb_m) const;
+  void moveByTwist(const Eigen::Vector3d& way_m, OdometryState& state);
+
+  /// What became of the time before a message.
+  struct Gap {
+    double duration_s = 0;
+    Eigen::Vector3d speeds_m_s = Eigen::Vector3d::Zero();  // sum of the mean speeds in it
+    int speed_count = 1;
+  };
 
   OdometryAdapterConfig config_;
   OdometryFaultCounts faults_{};
   WholeMetresWatch whole_metres_;
   HeightJumpDetector height_jumps_;  // odometry_mode twist with the pose's height
 
-  bool is_bursting_ = false;  // a burst has been seen since the stamps began
-  std::vector<OdometryState> held_;
+  // Messages of one stamp, of which there may be more; there from the first burst on.
+  std::optional<std::vector<OdometryState>> held_;
   std::int64_t newest_ns_ = 0;              // of the messages; 0: none
   std::optional<OdometryState> last_;       // message that was used, its stamp spread
   std::optional<OdometryState> candidate_;  // message that jumped, until one agrees with it
   Eigen::Vector3d position_odom_m_ = Eigen::Vector3d::Zero();  // last answer
   Eigen::Vector3d offset_odom_m_ = Eigen::Vector3d::Zero();    // of the answers from the messages
-  // Of last_, should it be the first of a burst: the gap before it, sum and number of the mean
-  // speeds in it.
-  double gap_s_ = 0;
-  Eigen::Vector3d speeds_m_s_ = Eigen::Vector3d::Zero();
-  int absorbed_ = 1;
+  Gap gap_;                     // before last_, should it be the first of a burst
   double without_twist_m_ = 0;  // way of the poses while the twist is zero
 };
 

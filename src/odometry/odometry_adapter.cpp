@@ -77,8 +77,7 @@ bool OdometryAdapter::isBeyondAllJumps(const OdometryState& message) {
 void OdometryAdapter::beginAnew() {
   whole_metres_ = {};
   height_jumps_ = {};
-  is_bursting_ = false;
-  held_.clear();
+  held_.reset();
   newest_ns_ = 0;
   last_.reset();
   candidate_.reset();
@@ -101,21 +100,26 @@ Push OdometryAdapter::push(const OdometryState& message, std::vector<OdometrySta
   } else if (!is_first && message.stamp_ns < newest_ns_) {
     return Push::kBackwardStamp;
   } else if (!is_first && message.stamp_ns == newest_ns_) {
-    const OdometryState* before = !held_.empty() ? &held_.back() : last_ ? &*last_ : nullptr;
-    if (before && isRepeated(*before, message)) return Push::kDuplicateStamp;
-    if (!is_bursting_ || held_.size() == 1) count(OdometryFault::kBurst);
-    if (held_.empty()) {
-      is_bursting_ = true;  // the next one is held
-      return absorb(message);
-    }
-    held_.push_back(message);
-    return Push::kAccepted;
+    return addToBurst(message);
   }
   const Push answer = flush(ready);
   newest_ns_ = message.stamp_ns;
-  if (!is_bursting_) return adapt(message, ready);
-  held_.push_back(message);
+  if (!held_) return adapt(message, ready);
+  held_->push_back(message);
   return answer;
+}
+
+Push OdometryAdapter::addToBurst(const OdometryState& message) {
+  const bool is_held = held_ && !held_->empty();  // its first message
+  const OdometryState* before = is_held ? &held_->back() : last_ ? &*last_ : nullptr;
+  if (before && isRepeated(*before, message)) return Push::kDuplicateStamp;
+  if (!held_ || held_->size() == 1) count(OdometryFault::kBurst);
+  if (!is_held) {
+    if (!held_) held_.emplace();  // the next one is held
+    return absorb(message);
+  }
+  held_->push_back(message);
+  return Push::kAccepted;
 }
 
 /// Of a burst whose first message has been given out already: no state of its own. The first one
@@ -124,11 +128,12 @@ Push OdometryAdapter::absorb(const OdometryState& message) {
   if (!last_ || last_->stamp_ns != message.stamp_ns || isJump(*last_, message)) {
     return Push::kDuplicateStamp;
   }
-  const Eigen::Vector3d before_m_s = speeds_m_s_ / absorbed_;
-  speeds_m_s_ += 0.5 * (velocity_odom_m_s(*last_) + velocity_odom_m_s(message));
-  ++absorbed_;
-  const Eigen::Vector3d missing_m = gap_s_ * (speeds_m_s_ / absorbed_ - before_m_s);
-  if (gap_s_ == 0) {  // the very first burst
+  const Eigen::Vector3d before_m_s = gap_.speeds_m_s / gap_.speed_count;
+  gap_.speeds_m_s += 0.5 * (velocity_odom_m_s(*last_) + velocity_odom_m_s(message));
+  ++gap_.speed_count;
+  const Eigen::Vector3d missing_m =
+      gap_.duration_s * (gap_.speeds_m_s / gap_.speed_count - before_m_s);
+  if (gap_.duration_s == 0) {  // the very first burst
     position_odom_m_ = message.T_odom_base.translation() + offset_odom_m_;
   } else if (config_.mode == OdometryMode::kTwist) {
     position_odom_m_.head<2>() += missing_m.head<2>();
@@ -140,9 +145,10 @@ Push OdometryAdapter::absorb(const OdometryState& message) {
 
 Push OdometryAdapter::flush(std::vector<OdometryState>& ready) {
   Push answer = Push::kAccepted;
-  const auto messages = static_cast<std::int64_t>(held_.size());
+  if (!held_) return answer;
+  const auto messages = static_cast<std::int64_t>(held_->size());
   for (std::int64_t i = 0; i < messages; ++i) {
-    OdometryState& message = held_[static_cast<std::size_t>(i)];
+    OdometryState& message = (*held_)[static_cast<std::size_t>(i)];
     if (last_) {
       const std::int64_t gap_ns = std::min(newest_ns_ - last_->stamp_ns, kLongestGap_ns);
       message.stamp_ns = newest_ns_ - gap_ns * (messages - 1 - i) / (messages - i);
@@ -150,7 +156,7 @@ Push OdometryAdapter::flush(std::vector<OdometryState>& ready) {
     const Push one = adapt(message, ready);
     if (one != Push::kAccepted) answer = one;
   }
-  held_.clear();
+  held_->clear();
   return answer;
 }
 
@@ -199,13 +205,28 @@ void OdometryAdapter::watchTwist(const OdometryState& message, const Eigen::Vect
   without_twist_m_ = 0;
 }
 
-/// By the twist, but within the metre that was cut off.
-double OdometryAdapter::heightByTwist_m(const OdometryState& message, double climb_m) const {
+/// By the twist, but within the metre that was cut off from the state's height.
+double OdometryAdapter::heightByTwist_m(const OdometryState& state, double climb_m) const {
   const double foreseen_m = position_odom_m_.z() + climb_m;
-  const double lowest_m = message.T_odom_base.translation().z() + offset_odom_m_.z();
+  const double lowest_m = state.T_odom_base.translation().z();
   const double missing_m = std::clamp(foreseen_m, lowest_m, lowest_m + 1) - foreseen_m;
-  const double most_m = kHeightRate_m_s * std::min(secondsBetween(*last_, message), kLongestWay_s);
+  const double most_m = kHeightRate_m_s * std::min(secondsBetween(*last_, state), kLongestWay_s);
   return foreseen_m + std::clamp(missing_m, -most_m, most_m);
+}
+
+/// The state goes on from the last answer, but for a height that is measured.
+void OdometryAdapter::moveByTwist(const Eigen::Vector3d& way_m, OdometryState& state) {
+  auto position_m = state.T_odom_base.translation();
+  position_m.head<2>() = position_odom_m_.head<2>() + way_m.head<2>();
+  if (config_.height == OdometryHeight::kTwist) {
+    position_m.z() = position_odom_m_.z() + way_m.z();
+  } else if (whole_metres_.isWhole()) {
+    position_m.z() = heightByTwist_m(state, way_m.z());
+  } else {
+    if (height_jumps_.see(state.stamp_ns, position_m.z(), way_m.z()))
+      count(OdometryFault::kTableStep);
+    position_m.z() += height_jumps_.offset_m();
+  }
 }
 
 Push OdometryAdapter::adapt(const OdometryState& message, std::vector<OdometryState>& ready) {
@@ -213,36 +234,24 @@ Push OdometryAdapter::adapt(const OdometryState& message, std::vector<OdometrySt
   if (!follows(message)) return Push::kOutOfRange;
   const bool is_repaired = before != faults_;
   if (message.covariance.diagonal().head<3>().isZero(0)) count(OdometryFault::kNoCovariance);
-  const Eigen::Vector3d displacement_m = wayByTwist_m(message);
-  if (whole_metres_.see(message.T_odom_base.translation().z(), displacement_m.z()))
+  const Eigen::Vector3d way_m = wayByTwist_m(message);
+  if (whole_metres_.see(message.T_odom_base.translation().z(), way_m.z()))
     count(OdometryFault::kWholeMetres);
 
   OdometryState state = message;
-  Eigen::Vector3d position_m = message.T_odom_base.translation();
-  if (!offset_odom_m_.isZero(0)) position_m += offset_odom_m_;
+  if (!offset_odom_m_.isZero(0)) state.T_odom_base.translation() += offset_odom_m_;
   if (config_.mode == OdometryMode::kTwist && last_) {
     if (secondsBetween(*last_, message) > kLongestWay_s) count(OdometryFault::kHole);
     if (!is_repaired) watchTwist(message, wayBetween_m(*last_, message));
-    position_m.head<2>() = position_odom_m_.head<2>() + displacement_m.head<2>();
-    if (config_.height == OdometryHeight::kTwist) {
-      position_m.z() = position_odom_m_.z() + displacement_m.z();
-    } else if (whole_metres_.isWhole()) {
-      position_m.z() = heightByTwist_m(message, displacement_m.z());
-    } else {
-      if (height_jumps_.see(message.stamp_ns, position_m.z(), displacement_m.z()))
-        count(OdometryFault::kTableStep);
-      position_m.z() += height_jumps_.offset_m();
-    }
+    moveByTwist(way_m, state);
   }
   if (whole_metres_.isWhole() && positionVariance_m2(state)) {
     state.covariance(2, 2) += kWholeMetreVariance_m2;
   }
-  state.T_odom_base.translation() = position_m;
-  gap_s_ = last_ ? std::min(secondsBetween(*last_, message), kLongestWay_s) : 0;
-  speeds_m_s_ = 0.5 * (velocity_odom_m_s(last_ ? *last_ : message) + velocity_odom_m_s(message));
-  absorbed_ = 1;
+  gap_ = {last_ ? std::min(secondsBetween(*last_, message), kLongestWay_s) : 0,
+          0.5 * (velocity_odom_m_s(last_ ? *last_ : message) + velocity_odom_m_s(message)), 1};
   last_ = message;
-  position_odom_m_ = position_m;
+  position_odom_m_ = state.T_odom_base.translation();
   ready.push_back(std::move(state));
   return Push::kAccepted;
 }
