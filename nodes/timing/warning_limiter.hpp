@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
+#include <functional>
 #include <string>
+#include <utility>
 
 namespace ardrone_vslam {
 
@@ -24,6 +27,30 @@ class WarningLimiter {
  private:
   std::string last_;
   double at_s_ = 0;
+};
+
+/// What a node and its parts warn of, through one limiter.
+class Warnings {
+ public:
+  /// @param say  writes a sentence to the node's log
+  explicit Warnings(std::function<void(const std::string&)> say) : say_(std::move(say)) {}
+
+  /// Without limit: for what is said once.
+  void say(const std::string& sentence) const { say_(sentence); }
+  void limited(const std::string& sentence) { limited(sentence, sentence); }
+  /// @param kind  by which it is limited, where the sentence has a number that changes
+  void limited(const std::string& kind, const std::string& sentence) {
+    const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
+    if (limiter_.allows(kind, now.count())) say_(sentence);
+  }
+  /// Of a message that is not used.
+  void refuse(const std::string& topic, const std::string& fault) {
+    limited(topic + ": message not used: " + fault);
+  }
+
+ private:
+  std::function<void(const std::string&)> say_;
+  WarningLimiter limiter_;
 };
 
 /// Whether to say again what one waits for: after 3 s (drivers need their time to start), then

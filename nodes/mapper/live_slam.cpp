@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapper/live_slam.hpp"
+
+#include <utility>
+
+namespace ardrone_vslam {
+
+void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam) {
+  if (slam_) {
+    slam_->changeCamera(T_base_cam);
+  } else {
+    slam_ = std::make_unique<Slam>(config_, T_base_cam);
+  }
+  time_offset_.useCamera(T_base_cam);
+  camera_ = camera;
+  T_base_cam_ = T_base_cam;
+}
+
+void LiveSlam::endMap() {
+  ++counts_.restarts;
+  slam_.reset();
+  answered_ns_ = 0;
+}
+
+const FrameResult& LiveSlam::process(const Features& message, OdometryState odometry,
+                                     const OdometryBuffer& odometries) {
+  toFeatures(message, features_);
+  time_offset_.see(features_, odometries);
+  odometry.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
+  const FrameResult& result = slam_->process(features_, odometry, stage_clock_.hook());
+  has_answered_ = true;
+  if (result.height == HeightOutcome::kRejected) ++counts_.heights_rejected;
+  if (result.state == SlamState::kNotFinite) {
+    ++counts_.results_not_finite;
+  } else {
+    ++counts_.images;
+    answered_ns_ = result.stamp_ns;
+  }
+  return result;
+}
+
+bool LiveSlam::endSecond() {
+  return std::exchange(has_answered_, false);
+}
+
+void LiveSlam::fill(Status& status) const {
+  status.images = counts_.images;
+  status.heights_rejected = counts_.heights_rejected;
+  status.results_not_finite = counts_.results_not_finite;
+  status.restarts = counts_.restarts;
+  status.camera_changes = counts_.camera_changes;
+  time_offset_.fill(status);
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+
+#include <memory>
+
+#include "ardrone_vslam/slam.hpp"
+#include "conversions/conversions.hpp"
+#include "inputs/camera_identity.hpp"
+#include "mapper/time_offset_watch.hpp"
+#include "timing/stage_clock.hpp"
+
+namespace ardrone_vslam {
+
+/// The Slam of the camera that the features come from, and what is counted of it. There is none
+/// before the first camera, and none from the end of a map to the next image.
+class LiveSlam {
+ public:
+  LiveSlam(const SlamConfig& config, Warnings& warnings)
+      : config_(config), time_offset_(config.image_time_offset_s, warnings) {}
+
+  bool hasMap() const { return slam_ != nullptr; }
+  /// As useCamera() was told last.
+  const CameraIdentity& camera() const { return camera_; }
+  const Eigen::Isometry3d& T_base_cam() const { return T_base_cam_; }
+  /// Makes the Slam, or has it change the camera. @pre without a map, or Slam::canChangeCamera()
+  void useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam);
+  void countCameraChange() { ++counts_.camera_changes; }
+  void endMap();
+
+  /// One image of the camera in use.
+  /// @param odometry  at its exposure; `odometries` reach to there
+  /// @return valid until the next call, or endMap()
+  const FrameResult& process(const Features& message, OdometryState odometry,
+                             const OdometryBuffer& odometries);
+  /// Of the image processed last.
+  const ImageFeatures& features() const { return features_; }
+  double milliseconds(Stage stage) const { return stage_clock_.milliseconds(stage); }
+  /// @pre hasMap()
+  const Slam& slam() const { return *slam_; }
+  /// Stamp of the newest image in the map; 0: none.
+  std::int64_t answered_ns() const { return answered_ns_; }
+  /// To be called once a second. @return whether an image was answered within it
+  bool endSecond();
+
+  struct Counts {
+    std::uint64_t images = 0;  ///< answered with a pose
+    std::uint64_t heights_rejected = 0;
+    std::uint64_t results_not_finite = 0;
+    std::uint64_t restarts = 0;  ///< of the map
+    std::uint64_t camera_changes = 0;
+  };
+  const Counts& counts() const { return counts_; }
+  const TimeOffsetWatch& timeOffset() const { return time_offset_; }
+  void fill(Status& status) const;
+
+ private:
+  SlamConfig config_;
+  std::unique_ptr<Slam> slam_;
+  TimeOffsetWatch time_offset_;
+  CameraIdentity camera_;
+  Eigen::Isometry3d T_base_cam_ = Eigen::Isometry3d::Identity();
+  ImageFeatures features_;  // kept for its memory
+  StageClock stage_clock_;
+  std::int64_t answered_ns_ = 0;
+  bool has_answered_ = false;  // within this second
+  Counts counts_;
+};
+
+}  // namespace ardrone_vslam

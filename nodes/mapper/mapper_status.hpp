@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <string>
+
+#include "inputs/height_topic.hpp"
+#include "inputs/mounting.hpp"
+#include "mapper/features_topic.hpp"
+#include "mapper/live_slam.hpp"
+#include "mapper/odometry_topic.hpp"
+
+namespace ardrone_vslam {
+
+/// What the mapper says of itself: status, diagnostics, and reminders of what it waits for. It
+/// looks at the mapper's parts and changes none.
+class MapperStatus {
+ public:
+  struct Parts {
+    const FeaturesTopic& features;
+    const OdometryTopic& odometry;
+    const HeightTopic& heights;
+    const Mounting& mounting;
+    const FrameMatcher& matcher;
+    const LiveSlam& slam;
+    const std::string& extrinsics_fault;  ///< what tf says while the mounting is unknown
+  };
+
+  MapperStatus(ros::NodeHandle nh, const ros::NodeHandle& private_nh, const std::string& name,
+               const Parts& parts, Warnings& warnings);
+
+  void publishAnswer(const FrameResult& result, const Features& features);
+  /// To be called once a second; says what the mapper waits for.
+  void endSecond(bool has_features, bool has_answer);
+
+ private:
+  void publishWaiting(bool has_features);
+  std::string whyNoOdometry() const;
+  void publish(Status& status);
+  void fillStages(const Features& features, Status& status) const;
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper);
+  unsigned char level() const;
+  void diagnoseHeights(diagnostic_updater::DiagnosticStatusWrapper& wrapper) const;
+
+  Parts parts_;
+  Warnings& warnings_;
+  ros::Publisher publisher_;
+  diagnostic_updater::Updater diagnostics_;
+  Status latest_;  // as published last
+  int seconds_waiting_ = 0;
+};
+
+}  // namespace ardrone_vslam
