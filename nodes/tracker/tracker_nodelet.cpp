@@ -3,7 +3,6 @@
 
 #include <ardrone_vslam/Features.h>
 #include <cv_bridge/cv_bridge.h>
-#include <image_transport/camera_common.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include <boost/make_shared.hpp>
@@ -13,43 +12,28 @@
 #include "conversions/conversions.hpp"
 #include "from_ros/params.hpp"
 #include "outputs/debug_image.hpp"
-#include "tracker/track_ids.hpp"
 
 namespace ardrone_vslam {
 
-class TrackerNodelet::Work : public ros::CallbackInterface {
- public:
-  explicit Work(TrackerNodelet& nodelet) : nodelet_(nodelet) {}
-  CallResult call() override {
-    nodelet_.processNext();
-    return Success;
-  }
-
- private:
-  TrackerNodelet& nodelet_;
-};
-
-TrackerNodelet::~TrackerNodelet() {
-  receiver_.reset();  // no wake() after this
-  if (own_queue_ != nullptr) own_queue_->removeByID(reinterpret_cast<std::uint64_t>(this));
-}
-
 void TrackerNodelet::onInit() {
   readParameters();
-  next_track_id_ = firstTrackId(ros::WallTime::now().toNSec());
-  features_pub_ = getNodeHandle().advertise<Features>(
-      "features", static_cast<std::uint32_t>(node_config_.queue_size));
-  transport_ = std::make_unique<image_transport::ImageTransport>(getNodeHandle());
-  debug_pub_ = transport_->advertise("debug_image", 1);
-  diagnostics_ = std::make_unique<diagnostic_updater::Updater>(getNodeHandle(),
-                                                               getPrivateNodeHandle(), getName());
-  diagnostics_->setHardwareID("none");
-  diagnostics_->add("tracker", this, &TrackerNodelet::diagnose);
-  timer_ = getNodeHandle().createWallTimer(ros::WallDuration(1.0),
-                                           [this](const ros::WallTimerEvent&) { onSecond(); });
+  ros::NodeHandle& nh = getNodeHandle();
+  features_pub_ =
+      nh.advertise<Features>("features", static_cast<std::uint32_t>(node_config_.queue_size));
+  debug_pub_ = image_transport::ImageTransport(nh).advertise("debug_image", 1);
   if (config_.use_attitude)
-    attitude_ = std::make_unique<AttitudeInput>(getNodeHandle(), node_config_.image_time_offset_s);
-  subscribe();
+    attitude_ = std::make_unique<AttitudeInput>(nh, node_config_.image_time_offset_s);
+  images_ = std::make_unique<ImageReceiver>(
+      nh, getSTCallbackQueue(), node_config_,
+      [this](const AnyImage& image, const sensor_msgs::CameraInfo& info) { onImage(image, info); });
+  NODELET_INFO_STREAM("images from " << images_->imageTopic() << ", calibration from "
+                                     << images_->infoTopic());
+  tracker_ = std::make_unique<LiveTracker>(node_config_, config_, *images_, warnings_);
+  status_ = std::make_unique<TrackerStatus>(
+      nh, getPrivateNodeHandle(), getName(),
+      TrackerStatus::Parts{*images_, *tracker_, attitude_.get()}, warnings_);
+  timers_.every(nh, 1.0, [this] { status_->endSecond(); });
+  images_->start();  // last: callbacks run at once, in another thread
 }
 
 void TrackerNodelet::readParameters() {
@@ -76,152 +60,62 @@ void TrackerNodelet::readParameters() {
   if (!instructionSetInUse().fault.empty()) NODELET_WARN_STREAM(instructionSetInUse().fault);
 }
 
-void TrackerNodelet::subscribe() {
-  queue_ = std::make_unique<ImageQueue>(static_cast<std::size_t>(node_config_.queue_size));
-  own_queue_ = &getSTCallbackQueue();
-  ros::NodeHandle nh(getNodeHandle());
-  nh.setCallbackQueue(&receive_queue_);
-  const bool is_compressed = node_config_.image_transport == ImageTransport::kCompressed;
-  const std::string base_topic = nh.resolveName("image");
-  image_topic_ = is_compressed ? base_topic + "/compressed" : base_topic;
-  // ROS's convention: beside the image, unless camera_info is remapped.
-  info_topic_ = nh.resolveName("camera_info");
-  if (info_topic_ == nh.resolveName("camera_info", false)) {
-    info_topic_ = image_transport::getCameraInfoTopic(base_topic);
-  }
-  // Without limit: the thread that receives does hardly more than count, so nothing piles up here.
-  constexpr std::uint32_t kUnlimited = 0;
-  // Else small messages like camera_info may be held back by 40 ms, and images wait for them.
-  const auto hints = ros::TransportHints().tcpNoDelay();
-  const auto on_info = [this](const sensor_msgs::CameraInfoConstPtr& info) {
-    if (queue_->addInfo(info)) wake();
-  };
-  const auto on_raw = [this](const sensor_msgs::ImageConstPtr& image) {
-    if (queue_->addImage({image, nullptr})) wake();
-  };
-  const auto on_compressed = [this](const sensor_msgs::CompressedImageConstPtr& image) {
-    if (queue_->addImage({nullptr, image})) wake();
-  };
-  info_sub_ = nh.subscribe<sensor_msgs::CameraInfo>(info_topic_, kUnlimited, on_info, {}, hints);
-  if (is_compressed) {
-    image_sub_ = nh.subscribe<sensor_msgs::CompressedImage>(image_topic_, kUnlimited, on_compressed,
-                                                            {}, hints);
-  } else {
-    image_sub_ = nh.subscribe<sensor_msgs::Image>(image_topic_, kUnlimited, on_raw, {}, hints);
-  }
-  receiver_ = std::make_unique<ros::AsyncSpinner>(1, &receive_queue_);
-  receiver_->start();
-  NODELET_INFO_STREAM("images from " << image_topic_ << ", calibration from " << info_topic_);
-}
-
-void TrackerNodelet::wake() {
-  own_queue_->addCallback(boost::make_shared<Work>(*this), reinterpret_cast<std::uint64_t>(this));
-}
-
-void TrackerNodelet::processNext() {
-  bool has_more = false;
-  const auto next = queue_->take(has_more);
-  if (has_more) wake();  // one at a time, so that the timers have their turn in between
-  if (next) onImage(next->image, *next->info);
-}
-
 void TrackerNodelet::onImage(const AnyImage& message, const sensor_msgs::CameraInfo& info) {
   const std_msgs::Header& header = message.header();
-  if (!acceptStamp(header)) return;
+  std::string fault = stampFault(header);
+  if (!fault.empty()) return status_->drop(images_->imageTopic() + ": " + fault);
   const GreyImage image = toGrey(message);
-  if (!image.fault.empty()) return drop(image_topic_, image.fault);
-  if (!prepareTracker(info, header.frame_id, image)) return;
-  std::optional<float> rotation_rad;
-  if (attitude_)
-    rotation_rad = attitude_->imageRoll_rad(toNanoseconds(header.stamp), camera_frame_);
-  if (attitude_ && !rotation_rad && limiter_.allows("attitude", ros::SteadyTime::now().toSec()))
-    NODELET_WARN_STREAM(attitude_->fault() << "; until then each corner's own orientation");
-  tracker_->process(image.view(), toNanoseconds(header.stamp), features_, stage_clock_.hook(),
-                    rotation_rad);
-  next_track_id_ = tracker_->nextTrackId();
+  if (!image.fault.empty()) return status_->drop(images_->imageTopic() + ": " + image.fault);
+  fault = tracker_->prepare(info, header.frame_id, image);
+  if (!fault.empty()) return status_->drop(fault);
+  tracker_->process(image, toNanoseconds(header.stamp), rotation_rad(header));
   publish(image, header);
 }
 
-bool TrackerNodelet::acceptStamp(const std_msgs::Header& header) {
-  if (header.stamp.isZero()) {
-    drop(image_topic_, "its stamp is zero; the driver must set header.stamp");
-    return false;
-  }
+std::string TrackerNodelet::stampFault(const std_msgs::Header& header) {
+  if (header.stamp.isZero()) return "its stamp is zero; the driver must set header.stamp";
   switch (stamps_.check(toNanoseconds(header.stamp))) {
     case StampGuard::Answer::kNotAfter:
-      drop(image_topic_, "its stamp is not after the one before; stamps must ascend");
-      return false;
+      return "its stamp is not after the one before; stamps must ascend";
     case StampGuard::Answer::kRestart:
-      NODELET_WARN_STREAM("stamps on " << image_topic_ << " jumped back to " << header.stamp
+      NODELET_WARN_STREAM("stamps on " << images_->imageTopic() << " jumped back to "
+                                       << header.stamp
                                        << " (a bag plays again?): tracks begin anew");
-      tracker_.reset();
-      return true;
+      tracker_->reset();
+      break;
     case StampGuard::Answer::kAscending:
-      return true;
+      break;
   }
-  return true;
+  return {};
 }
 
-bool TrackerNodelet::prepareTracker(const sensor_msgs::CameraInfo& info, const std::string& frame,
-                                    const GreyImage& image) {
-  const auto checked =
-      toIntrinsics(info, {node_config_.rectified, node_config_.rescale_calibration});
-  if (!checked.value) {
-    drop(info_topic_, "camera " + frame + ": " + checked.fault);
-    return false;
-  }
-  const CameraIntrinsics& camera = *checked.value;
-  if (camera.width_px != image.pixels.cols || camera.height_px != image.pixels.rows) {
-    drop(image_topic_, "camera " + frame + ": its image is " + std::to_string(image.pixels.cols) +
-                           "x" + std::to_string(image.pixels.rows) + " but " + info_topic_ +
-                           " is for " + std::to_string(camera.width_px) + "x" +
-                           std::to_string(camera.height_px) +
-                           "; calibrate the camera at the size it streams");
-    return false;
-  }
-  if (frame.empty()) {
-    drop(image_topic_, "it names no frame_id; give the camera's optical frame");
-    return false;
-  }
-  if (tracker_ && camera == camera_ && frame == camera_frame_) return true;
-  if (tracker_) {
-    NODELET_WARN_STREAM("the camera changed from " << camera_frame_ << " to " << frame
-                                                   << ": tracks begin anew");
-  }
-  try {
-    tracker_ = std::make_unique<Tracker>(config_, camera, next_track_id_);
-  } catch (const std::invalid_argument& e) {
-    tracker_.reset();
-    drop(info_topic_, e.what());
-    return false;
-  }
-  const double scale = camera.fx_px / (node_config_.rectified ? info.P[0] : info.K[0]);
-  if (scale != 1)
-    NODELET_WARN_STREAM(info_topic_ << ": camera " << frame << ": the calibration is of images "
-                                    << 1 / scale << " times as wide: taken for them "
-                                    << "(rescale_calibration)");
-  camera_ = camera;
-  camera_frame_ = frame;
-  return true;
+std::optional<float> TrackerNodelet::rotation_rad(const std_msgs::Header& header) {
+  if (!attitude_) return std::nullopt;
+  const auto rotation_rad =
+      attitude_->imageRoll_rad(toNanoseconds(header.stamp), tracker_->cameraFrame());
+  if (!rotation_rad)
+    warnings_.limited("attitude",
+                      attitude_->fault() + "; until then each corner's own orientation");
+  return rotation_rad;
 }
 
 void TrackerNodelet::publish(const GreyImage& image, const std_msgs::Header& header) {
   const auto message = boost::make_shared<Features>();
-  toMessage(features_, camera_frame_, *message);
+  toMessage(tracker_->features(), tracker_->cameraFrame(), *message);
   message->header.stamp = header.stamp;
   for (std::size_t i = 0; i < message->stage_time.size(); ++i) {
-    message->stage_time[i] = static_cast<float>(stage_clock_.milliseconds(static_cast<Stage>(i)));
+    message->stage_time[i] = static_cast<float>(tracker_->milliseconds(static_cast<Stage>(i)));
   }
-  message->images_dropped = dropped_;
-  const ImageQueue::Counts counts = queue_->counts();
+  message->images_dropped = status_->dropped();
+  const ImageQueue::Counts counts = images_->counts();
   message->images_dropped_queue = counts.overflowed;
   message->images_without_camera_info = counts.without_info;
-  message->header.seq = static_cast<std::uint32_t>(++processed_);  // a gap tells of a lost message
+  // A gap tells of a lost message.
+  message->header.seq = static_cast<std::uint32_t>(status_->countProcessed());
   features_pub_.publish(FeaturesConstPtr(message));  // to const: no copy within the manager
-  fault_.clear();
   if (debug_pub_.getNumSubscribers() == 0) return;
   const cv_bridge::CvImage drawn(header, sensor_msgs::image_encodings::BGR8,
-                                 drawFeatures(image.pixels, features_));
+                                 drawFeatures(image.pixels, tracker_->features()));
   debug_pub_.publish(drawn.toImageMsg());
 }
 

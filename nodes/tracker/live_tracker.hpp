@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/CameraInfo.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "ardrone_vslam/tracker.hpp"
+#include "configs/node_config.hpp"
+#include "from_ros/camera_info_conversion.hpp"
+#include "inputs/image_input.hpp"
+#include "timing/stage_clock.hpp"
+#include "timing/warning_limiter.hpp"
+#include "tracker/image_receiver.hpp"
+
+namespace ardrone_vslam {
+
+/// The Tracker that fits the camera of the images that come.
+class LiveTracker {
+ public:
+  /// @param images  whose topics are named when something is wrong
+  LiveTracker(const TrackerNodeConfig& node_config, const TrackerConfig& config,
+              const ImageReceiver& images, Warnings& warnings);
+
+  /// Makes the tracker that fits camera and image.
+  /// @return why there is none, and what helps: the image must be dropped
+  std::string prepare(const sensor_msgs::CameraInfo& info, const std::string& frame,
+                      const GreyImage& image);
+  /// The tracks end: time began again.
+  void reset() { tracker_.reset(); }
+  /// @pre prepare() has found no fault
+  void process(const GreyImage& image, std::int64_t stamp_ns, std::optional<float> rotation_rad);
+
+  /// Of the image processed last.
+  const ImageFeatures& features() const { return features_; }
+  double milliseconds(Stage stage) const { return stage_clock_.milliseconds(stage); }
+  const std::string& cameraFrame() const { return camera_frame_; }
+
+ private:
+  /// Of an image that the calibration is not for; else empty.
+  std::string imageFault(const CameraIntrinsics& camera, const std::string& frame,
+                         const GreyImage& image) const;
+
+  TrackerNodeConfig node_config_;
+  TrackerConfig config_;
+  const ImageReceiver& images_;
+  Warnings& warnings_;
+  std::unique_ptr<Tracker> tracker_;
+  std::uint32_t next_track_id_;  // goes on when a new tracker is made
+  CameraIntrinsics camera_;
+  std::string camera_frame_;
+  ImageFeatures features_;
+  StageClock stage_clock_;
+};
+
+}  // namespace ardrone_vslam
