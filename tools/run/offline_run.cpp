@@ -116,47 +116,9 @@ BackEnd::BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
       T_base_cam_(T_base_cam),
       image_time_offset_ns_(std::llround(config.image_time_offset_s * 1e9)),
       time_offset_(T_base_cam, config.image_time_offset_s),
-      adapter_(config.odometry_adapter),
-      buffer_(config.odometry),
-      odometry_(odometry),
-      heights_(config.height_input, config.odometry.buffer_s),
-      ranges_(std::move(ranges)) {
+      odometry_(config, odometry),
+      heights_(config, std::move(ranges)) {
   run_.image_time_offset_s = config.image_time_offset_s;
-}
-
-bool BackEnd::odometryAt(std::int64_t stamp_ns, OdometryState& state) {
-  auto lookup = buffer_.at(stamp_ns, state);
-  while ((lookup == OdometryBuffer::Lookup::kEmpty || lookup == OdometryBuffer::Lookup::kNotYet) &&
-         next_ < odometry_.size()) {
-    takeNextObserver();
-    lookup = buffer_.at(stamp_ns, state);
-  }
-  return lookup == OdometryBuffer::Lookup::kFound;
-}
-
-void BackEnd::takeNextObserver() {
-  using Push = OdometryBuffer::Push;
-  ready_.clear();
-  if (adapter_.push(odometry_[next_++], ready_) != Push::kAccepted) ++run_.odometry_states_refused;
-  const bool is_last = next_ == odometry_.size();
-  if (is_last && adapter_.flush(ready_) != Push::kAccepted) ++run_.odometry_states_refused;
-  for (const OdometryState& state : ready_) {
-    if (buffer_.push(state) == Push::kAccepted) {
-      speed_.see(state);
-    } else {
-      ++run_.odometry_states_refused;
-    }
-  }
-}
-
-std::optional<double> BackEnd::heightAt(const OdometryState& state) {
-  const auto isWanted = [&](const RangeReading& next) {  // all of a burst
-    const std::int64_t newest_ns = heights_.newestStamp_ns();
-    return newest_ns < state.stamp_ns || next.stamp_ns == newest_ns;
-  };
-  while (next_range_ < ranges_.size() && isWanted(ranges_[next_range_]))
-    heights_.push(ranges_[next_range_++]);
-  return heights_.at(state);
 }
 
 void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
@@ -174,16 +136,16 @@ void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 double BackEnd::process(const TrackedFrame& frame) {
   if (frame.other_camera) changeCamera(*frame.other_camera);
   OdometryState state;
-  if (!odometryAt(frame.features.stamp_ns + image_time_offset_ns_, state)) {
+  if (!odometry_.at(frame.features.stamp_ns + image_time_offset_ns_, state)) {
     ++run_.frames_without_odometry;
     return total_ms(frame.times_ms);
   }
   watch_.see(frame.features, Eigen::Isometry3d((state.T_odom_base * T_base_cam_).linear()));
   standstill_.see(frame.features, state.T_odom_base * T_base_cam_);
   run_.odometry_froze = run_.odometry_froze || standstill_.isStuck();
-  state.height_m = heightAt(state);
+  state.height_m = heights_.at(state);
   state.stamp_ns = frame.features.stamp_ns;  // the pose keeps the image's stamp
-  time_offset_.see(frame.features, buffer_);
+  time_offset_.see(frame.features, odometry_.buffer());
   RunFrame run_frame;
   run_frame.times_ms = frame.times_ms;
   StageTimer timer(run_frame.times_ms);
@@ -195,11 +157,12 @@ double BackEnd::process(const TrackedFrame& frame) {
 RunResult BackEnd::finish() {
   run_.time_offset = time_offset_.estimate();
   run_.images_travel = watch_.isStuck();
-  run_.absurd_speed_m_s = speed_.absurd_m_s();
-  run_.odometry_faults = adapter_.faults();
-  run_.ranges_refused = heights_.refused();
-  run_.heights_missing = heights_.missing();
-  run_.heights_tilted = heights_.tilted();
+  run_.absurd_speed_m_s = odometry_.absurdSpeed_m_s();
+  run_.odometry_states_refused = odometry_.refused();
+  run_.odometry_faults = odometry_.faults();
+  run_.ranges_refused = heights_.input().refused();
+  run_.heights_missing = heights_.input().missing();
+  run_.heights_tilted = heights_.input().tilted();
   run_.landmarks = slam_.landmarks();
   return std::move(run_);
 }

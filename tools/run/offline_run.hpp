@@ -9,14 +9,12 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "ardrone_vslam/height_input.hpp"
-#include "ardrone_vslam/odometry_adapter.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/stages.hpp"
 #include "ardrone_vslam/time_offset.hpp"
 #include "config_files/config_file.hpp"
-#include "input_checks/speed_watch.hpp"
 #include "input_checks/standstill_watch.hpp"
+#include "run/recorded_inputs.hpp"
 #include "sequences/sequence.hpp"
 #include "simulation/odometry_model.hpp"
 
@@ -100,9 +98,6 @@ class BackEnd {
 
  private:
   void changeCamera(const Eigen::Isometry3d& T_base_cam);
-  bool odometryAt(std::int64_t stamp_ns, OdometryState& state);
-  void takeNextObserver();
-  std::optional<double> heightAt(const OdometryState& state);
 
   Slam slam_;
   Eigen::Isometry3d T_base_cam_;
@@ -110,15 +105,8 @@ class BackEnd {
   TimeOffsetEstimator time_offset_;
   StandstillWatch watch_;       ///< sees odometry that only turns: what moves then is the images
   StandstillWatch standstill_;  ///< the same with its positions
-  SpeedWatch speed_;
-  OdometryAdapter adapter_;
-  OdometryBuffer buffer_;
-  std::vector<OdometryState> ready_;  ///< kept for its memory
-  const std::vector<OdometryState>& odometry_;
-  std::size_t next_ = 0;
-  HeightInput heights_;
-  std::vector<RangeReading> ranges_;
-  std::size_t next_range_ = 0;
+  RecordedOdometry odometry_;
+  RecordedHeights heights_;
   RunResult run_;
 };
 
