@@ -27,6 +27,17 @@ struct alignas(64) Descriptor {
 };
 static_assert(sizeof(Descriptor) == 64, "a descriptor is exactly 512 bits");
 
+/// What is known of a feature's position beside its track's first corner: the inverse of the
+/// variance along columns and rows. All 0: not aligned, the position is a corner's whole pixel.
+struct PixelInformation {
+  float xx_per_px2 = 0;
+  float xy_per_px2 = 0;
+  float yy_per_px2 = 0;
+
+  /// Whether it tells nothing.
+  bool empty() const { return xx_per_px2 == 0 && yy_per_px2 == 0; }
+};
+
 constexpr std::uint32_t kNoTrack = 0;  ///< a track id that no feature of a tracker has
 
 /// All features of one image: arrays of equal length, entry i of each belongs to feature i.
@@ -37,14 +48,18 @@ struct ImageFeatures {
   float focal_length_px =
       0.F;  ///< geometric mean of fx and fy; one pixel is 1 / focal_length_px rad
 
-  std::vector<Eigen::Vector2f> pixel_px;  ///< as detected (distorted), column and row
+  std::vector<Eigen::Vector2f>
+      pixel_px;  ///< as seen (distorted), column and row: between pixels where it is aligned
   std::vector<Eigen::Vector3f>
       bearing_cam;  ///< unit vectors in the optical frame (x right, y down, z forward)
   std::vector<std::uint8_t> score;  ///< corner score, Corner::score
   std::vector<std::uint32_t>
       track_id;  ///< stable from frame to frame; never 0, never used again in one run
   std::vector<std::uint16_t> age_frames;  ///< frames since the track began, 0 for a new one
-  std::vector<Descriptor> descriptor;     ///< FREAK of the patch around the pixel
+  std::vector<Descriptor> descriptor;     ///< FREAK of the patch around the corner
+  // Of a tracker that aligns; else both are empty.
+  std::vector<PixelInformation> information_px2;  ///< of the position
+  std::vector<float> residual;  ///< root mean square that alignment left [grey levels]
 
   /// Number of features.
   std::size_t size() const { return pixel_px.size(); }

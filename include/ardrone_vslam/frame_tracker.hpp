@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/tracker_config.hpp"
@@ -23,7 +24,9 @@ class FrameTracker {
   /// Fills `track_id` and `age_frames`; pixels and descriptors must be there. Mutual best matches
   /// within the search radius carry on their track, all others begin a new one. Keeps a copy for
   /// the next frame.
-  void assign(ImageFeatures& features);
+  /// @return for each feature the place, in the frame before, of the one whose track it carries on;
+  ///   -1: it begins one. Valid until the next call
+  const std::vector<int>& assign(ImageFeatures& features);
 
   /// The id that the next new track gets: given to no track yet (until 2^32 of them have been).
   std::uint32_t nextTrackId() const;

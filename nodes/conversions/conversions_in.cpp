@@ -18,13 +18,24 @@ std::string sizeFault(const char* name, std::size_t size, std::size_t expected) 
               "; fill all arrays alike");
 }
 
+/// A position is known along every direction, or not at all.
+bool isInformation(const float* xx_xy_yy) {
+  const double xx = xx_xy_yy[0];
+  const double xy = xx_xy_yy[1];
+  const double yy = xx_xy_yy[2];
+  const bool is_none = xx == 0 && xy == 0 && yy == 0;
+  return is_none || (xx > 0 && yy > 0 && xx * yy > xy * xy && std::isfinite(xx * yy));
+}
+
 std::string sizesFault(const Features& m) {
   const std::size_t n = m.x.size();
   for (const auto& fault :
        {sizeFault("y", m.y.size(), n), sizeFault("score", m.score.size(), n),
         sizeFault("track_id", m.track_id.size(), n), sizeFault("age", m.age.size(), n),
         sizeFault("bearing", m.bearing.size(), 3 * n),
-        sizeFault("descriptor", m.descriptor.size(), kDescriptorBytes * n)}) {
+        sizeFault("descriptor", m.descriptor.size(), kDescriptorBytes * n),
+        sizeFault("information", m.information.size(), m.information.empty() ? 0 : 3 * n),
+        sizeFault("residual", m.residual.size(), m.information.empty() ? 0 : n)}) {
     if (!fault.empty()) return fault;
   }
   return {};
@@ -146,6 +157,9 @@ std::string faultOf(const Features& m) {
     if (!(std::abs(bearing.norm() - 1) < kBearingTolerance)) {
       return text("bearing ", i, " has length ", bearing.norm(), "; unit vectors are asked for");
     }
+    if (!m.information.empty() && !isInformation(&m.information[3 * i])) {
+      return text("information ", i, " is neither positive definite nor all 0");
+    }
     if (m.track_id[i] == 0) return text("track_id ", i, " is 0, which is not a track");
   }
   return {};
@@ -166,6 +180,10 @@ void toFeatures(const Features& message, ImageFeatures& features) {
   features.score = message.score;
   features.track_id = message.track_id;
   features.age_frames = message.age;
+  for (std::size_t i = 0; i + 2 < message.information.size(); i += 3)
+    features.information_px2.push_back(
+        {message.information[i], message.information[i + 1], message.information[i + 2]});
+  features.residual = message.residual;
   features.descriptor.resize(count);
   if (count > 0) {
     std::memcpy(features.descriptor.data(), message.descriptor.data(), count * kDescriptorBytes);

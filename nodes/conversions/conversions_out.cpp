@@ -106,6 +106,11 @@ void toMessage(const ImageFeatures& features, const std::string& camera_frame, F
   message.score = features.score;
   message.track_id = features.track_id;
   message.age = features.age_frames;
+  message.information.clear();
+  for (const PixelInformation& known : features.information_px2)
+    message.information.insert(message.information.end(),
+                               {known.xx_per_px2, known.xy_per_px2, known.yy_per_px2});
+  message.residual = features.residual;
   message.descriptor.resize(sizeof(Descriptor) * features.descriptor.size());
   if (!message.descriptor.empty()) {
     std::memcpy(message.descriptor.data(), features.descriptor.data(), message.descriptor.size());

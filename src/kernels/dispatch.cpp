@@ -23,6 +23,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_window = hammingWindowAvx2;
     kernels.project = projectAvx2;
     kernels.product_tile = productTileAvx2;
+    kernels.align = alignAvx2;
   }
   if (set == InstructionSet::kAvx512) {
     kernels.freak_bits = freakBitsAvx512;
@@ -49,6 +50,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_distances = hammingDistancesNeon;
     kernels.hamming_window = hammingWindowNeon;
     kernels.project = projectNeon;
+    kernels.align = alignNeon;
   }
 #endif
   return kernels;

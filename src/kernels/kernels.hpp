@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ardrone_vslam/instruction_set.hpp"
+#include "kernels/align/align_kernels.hpp"
 #include "kernels/fast/fast_kernels.hpp"
 #include "kernels/freak/freak_kernels.hpp"
 #include "kernels/hamming/hamming_distances.hpp"
@@ -30,6 +31,7 @@ struct Kernels {
   decltype(&hammingMutualScalar) hamming_mutual = hammingMutualScalar;
   decltype(&hammingWindowScalar) hamming_window = hammingWindowScalar;
   decltype(&projectScalar) project = projectScalar;
+  decltype(&alignScalar) align = alignScalar;
   decltype(&productTileScalar) product_tile = productTileScalar;
 };
 

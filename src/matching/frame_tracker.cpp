@@ -16,6 +16,7 @@ struct FrameTracker::State {
   ImageFeatures previous;
   WindowSearch windows;             // among the previous features
   std::vector<BestTwo> of_present;  // best previous feature of each present one
+  std::vector<int> carried_on;      // previous feature of each present one
   std::uint32_t next_id = 1;
 
   std::uint32_t takeId();
@@ -37,6 +38,7 @@ FrameTracker::~FrameTracker() = default;
 void FrameTracker::reserve(std::size_t features, int width_px, int height_px) {
   state_->previous.reserve(features);
   state_->of_present.reserve(features);
+  state_->carried_on.reserve(features);
   state_->windows.reserve(features, width_px, height_px);
 }
 
@@ -60,16 +62,18 @@ void FrameTracker::State::search(const ImageFeatures& features) {
   }
 }
 
-void FrameTracker::assign(ImageFeatures& features) {
+const std::vector<int>& FrameTracker::assign(ImageFeatures& features) {
   State& s = *state_;
   s.search(features);
   features.track_id.resize(features.size());
   features.age_frames.resize(features.size());
+  s.carried_on.assign(features.size(), -1);
   for (std::size_t i = 0; i < features.size(); ++i) {
     const BestTwo& best = s.of_present[i];
     const bool tracked =
         accept(best, s.matcher) && s.windows.nearestQuery(best.index) == static_cast<int>(i);
     if (tracked) {
+      s.carried_on[i] = best.index;
       const auto j = static_cast<std::size_t>(best.index);
       constexpr auto kOldest = std::numeric_limits<std::uint16_t>::max();
       features.track_id[i] = s.previous.track_id[j];
@@ -82,6 +86,7 @@ void FrameTracker::assign(ImageFeatures& features) {
     }
   }
   s.previous = features;
+  return s.carried_on;
 }
 
 }  // namespace ardrone_vslam

@@ -10,6 +10,8 @@ void ImageFeatures::clear() {
   track_id.clear();
   age_frames.clear();
   descriptor.clear();
+  information_px2.clear();
+  residual.clear();
 }
 
 void ImageFeatures::reserve(std::size_t count) {
@@ -19,6 +21,8 @@ void ImageFeatures::reserve(std::size_t count) {
   track_id.reserve(count);
   age_frames.reserve(count);
   descriptor.reserve(count);
+  information_px2.reserve(count);
+  residual.reserve(count);
 }
 
 }  // namespace ardrone_vslam

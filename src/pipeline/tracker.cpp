@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "alignment/patch_aligner.hpp"
 #include "ardrone_vslam/frame_tracker.hpp"
 #include "corners/corner_detector.hpp"
 #include "freak/freak.hpp"
@@ -35,12 +36,16 @@ struct Tracker::State {
         detector(config.corners),
         describer(config.freak),
         frame_tracker(config.tracks, first_track_id),
+        aligner(camera),
+        align_tracks(config.align_tracks),
         use_attitude(config.use_attitude) {}
 
   CameraModel camera;
   CornerDetector detector;
   FreakDescriber describer;
   FrameTracker frame_tracker;
+  PatchAligner aligner;
+  bool align_tracks;
   bool use_attitude;
 
   std::vector<Corner> corners;            // in the describable part of the image
@@ -68,6 +73,7 @@ void Tracker::State::reserve(std::size_t budget) {
   bearings.reserve(budget);
   scores.reserve(budget);
   frame_tracker.reserve(budget, width_px, height_px);
+  aligner.reserve(budget);
   // The describer's own buffers grow with what it is given: as much as it will ever be.
   const std::vector<std::uint8_t> black(static_cast<std::size_t>(width_px) *
                                         static_cast<std::size_t>(height_px));
@@ -110,7 +116,8 @@ void Tracker::process(const ImageView& image, std::int64_t stamp_ns, ImageFeatur
   s.collect(image, stamp_ns, features);
 
   enter(Stage::kTrack);
-  s.frame_tracker.assign(features);
+  const std::vector<int>& previous_of = s.frame_tracker.assign(features);
+  if (s.align_tracks) s.aligner.align(image, previous_of, features);
   enter(Stage::kIdle);
 }
 

@@ -30,6 +30,10 @@ ImageFeatures randomFeatures(std::size_t count, std::uint64_t seed) {
     Descriptor descriptor;
     for (auto& word : descriptor.words) word = random();
     features.descriptor.push_back(descriptor);
+    const float xy = number(random);
+    features.information_px2.push_back({2, xy, 3});
+    if (i % 3 == 0) features.information_px2.back() = {};
+    features.residual.push_back(2 + number(random));
   }
   return features;
 }
@@ -45,6 +49,13 @@ void expectEqual(const ImageFeatures& a, const ImageFeatures& b) {
   EXPECT_EQ(a.track_id, b.track_id);
   EXPECT_EQ(a.age_frames, b.age_frames);
   EXPECT_EQ(a.descriptor, b.descriptor);
+  EXPECT_EQ(a.residual, b.residual);
+  ASSERT_EQ(a.information_px2.size(), b.information_px2.size());
+  for (std::size_t i = 0; i < a.information_px2.size(); ++i) {
+    EXPECT_EQ(a.information_px2[i].xx_per_px2, b.information_px2[i].xx_per_px2);
+    EXPECT_EQ(a.information_px2[i].xy_per_px2, b.information_px2[i].xy_per_px2);
+    EXPECT_EQ(a.information_px2[i].yy_per_px2, b.information_px2[i].yy_per_px2);
+  }
 }
 
 TEST(FeaturesConversion, RoundTripIsExact) {
@@ -103,6 +114,11 @@ INSTANTIATE_TEST_SUITE_P(
         Spoiled{"'age' has 9", [](Features& m) { m.age.pop_back(); }},
         Spoiled{"'bearing' has 29", [](Features& m) { m.bearing.pop_back(); }},
         Spoiled{"'descriptor' has 639", [](Features& m) { m.descriptor.pop_back(); }},
+        Spoiled{"'information' has 29", [](Features& m) { m.information.pop_back(); }},
+        Spoiled{"'residual' has 9", [](Features& m) { m.residual.pop_back(); }},
+        Spoiled{"'residual' has 10 entries", [](Features& m) { m.information.clear(); }},
+        Spoiled{"information 1", [](Features& m) { m.information[4] = kNaN; }},
+        Spoiled{"information 2", [](Features& m) { m.information[7] = -3; }},
         Spoiled{"'y' has 10 entries where 'x' asks for 0", [](Features& m) { m.x.clear(); }},
         Spoiled{"not finite", [](Features& m) { m.x[4] = kInf; }},
         Spoiled{"bearing 2", [](Features& m) { m.bearing[7] = kNaN; }},

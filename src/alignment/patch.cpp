@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "alignment/patch.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+namespace ardrone_vslam {
+namespace {
+
+using kernels::AlignPatch;
+using kernels::kPatchBorder;
+using kernels::kPatchSide;
+
+constexpr float kPixels = kPatchSide * kPatchSide;
+
+/// Of the compared pixels: gradients along x and y, levels.
+Eigen::Matrix<float, kPatchSide * kPatchSide, 3> columnsOf(const AlignPatch& patch) {
+  Eigen::Matrix<float, kPatchSide * kPatchSide, 3> columns;
+  for (int i = 0; i < kPatchSide * kPatchSide; ++i) {
+    const int y = i / kPatchSide + kPatchBorder;
+    const int x = i % kPatchSide + kPatchBorder;
+    columns(i, 0) = static_cast<float>(patch.rows[y][x + 1] - patch.rows[y][x - 1]);
+    columns(i, 1) = static_cast<float>(patch.rows[y + 1][x] - patch.rows[y - 1][x]);
+    columns(i, 2) = static_cast<float>(patch.rows[y][x]);
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::optional<AlignPatch> patchOf(const ImageView& image, int x_px, int y_px) {
+  assert(x_px >= kernels::kPatchStride && x_px < image.width_px - kernels::kPatchStride &&
+         y_px >= kernels::kPatchStride && y_px < image.height_px - kernels::kPatchStride &&
+         "the patch is too near to the image's border");
+  AlignPatch patch;
+  for (int row = 0; row < kernels::kPatchRows; ++row) {
+    std::memcpy(patch.rows[row],
+                image.row(y_px + row - kernels::kPatchCentre) + x_px - kernels::kPatchCentre,
+                kernels::kPatchStride);
+  }
+  auto columns = columnsOf(patch);
+  const Eigen::RowVector3f mean = columns.colwise().mean();
+  columns.rowwise() -= mean;
+  const Eigen::Matrix3d products = (columns.transpose() * columns).cast<double>();
+  // Gradients as weak as the steps of grey levels tell no place.
+  constexpr double kLeastGradient2 = kPixels;
+  const double least = products(0, 0) + products(1, 1) -
+                       Eigen::Vector2d(products(0, 0) - products(1, 1), 2 * products(0, 1)).norm();
+  if (!(least > kLeastGradient2)) return std::nullopt;
+  const Eigen::Matrix3f inverse = products.inverse().cast<float>();
+  if (!inverse.allFinite() || !(inverse.diagonal().minCoeff() > 0)) return std::nullopt;
+  Eigen::Map<Eigen::RowVector3f>(patch.mean) = mean;
+  int place = 0;
+  for (int row = 0; row < 3; ++row)
+    for (int column = row; column < 3; ++column) patch.inverse[place++] = inverse(row, column);
+  return patch;
+}
+
+Eigen::Matrix2f positionVariance_px2(const AlignPatch& patch, const kernels::AlignResult& found) {
+  constexpr float kFreedom = kPixels - 4;  // shift, gain and offset are taken out
+  const float level2 = std::max(found.rest, 0.F) / kFreedom;
+  Eigen::Matrix2f variance;
+  variance << patch.inverse[0], patch.inverse[1], patch.inverse[1], patch.inverse[3];
+  return variance * (4 * level2 / (found.gain * found.gain));
+}
+
+float explainedShare(const kernels::AlignResult& found) {
+  return 1 - std::max(found.rest, 0.F) / found.contrast;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "ardrone_vslam/camera_model.hpp"
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/image_view.hpp"
+#include "kernels/kernels.hpp"
+
+namespace ardrone_vslam {
+
+/// Gives tracks positions between pixels: what the image showed around a track's first corner is
+/// looked for, by its grey levels, around the corner that goes on with the track. Where it is not
+/// found the corner stays. Keeps 224 bytes of each track.
+class PatchAligner {
+ public:
+  /// @param camera  must outlive this
+  explicit PatchAligner(const CameraModel& camera)
+      : camera_(camera), align_(kernels::kernelsInUse().align) {}
+
+  /// Makes room for so many features, so that align() does not allocate.
+  void reserve(std::size_t features);
+
+  /// Moves the features of tracks that go on: pixel, bearing, information and residual.
+  /// @param previous_of  for each feature the place, in the image before, of the one it goes on
+  ///   from; -1: it begins a track
+  /// @pre the features lie as far inside the image as FREAK needs it
+  void align(const ImageView& image, const std::vector<int>& previous_of, ImageFeatures& features);
+
+ private:
+  /// What a track keeps of the image that it is compared with.
+  struct Reference {
+    std::optional<kernels::AlignPatch> patch;
+    Eigen::Vector2f offset_px = Eigen::Vector2f::Zero();  // of the track's point from the patch's
+    float variance_px2 = 0;  // of that point beside the track's first corner
+    int failures = 0;        // in a row
+  };
+
+  void begin(const ImageView& image, const Eigen::Vector2f& corner_px, Reference& reference) const;
+  void goOn(const ImageView& image, std::size_t feature, Reference& reference,
+            ImageFeatures& features) const;
+
+  const CameraModel& camera_;
+  decltype(kernels::Kernels::align) align_;
+  std::vector<Reference> references_;  // of the features of the image before
+  std::vector<Reference> next_;
+};
+
+}  // namespace ardrone_vslam

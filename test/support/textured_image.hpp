@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "support/grey_images.hpp"
+
+namespace ardrone_vslam::test {
+
+/// A smooth random texture that can be rendered at any place between pixels: waves of 7 to 30 px.
+class Texture {
+ public:
+  explicit Texture(unsigned seed) {
+    std::mt19937 random(seed);
+    for (Wave& wave : waves_) {
+      const double length_px = uniformInt(random, 70, 300) / 10.0;
+      const double direction = uniformInt(random, 0, 6283) / 1000.0;
+      wave = {2 * M_PI / length_px * std::cos(direction),
+              2 * M_PI / length_px * std::sin(direction), uniformInt(random, 0, 6283) / 1000.0};
+    }
+  }
+
+  /// About -60 .. 60.
+  double at(double x_px, double y_px) const {
+    double sum = 0;
+    for (const Wave& wave : waves_) sum += std::sin(wave.x * x_px + wave.y * y_px + wave.phase);
+    return sum * 60 / std::sqrt(2.0 * kWaves);
+  }
+
+  /// An image that shows, at its pixel (x, y), the texture's place (x - dx, y - dy).
+  GreyImage image(int width_px, int height_px, double dx_px, double dy_px, double gain = 1,
+                  double middle = 128, int noise = 0, unsigned seed = 1) const {
+    GreyImage image(width_px, height_px, 5);
+    std::mt19937 random(seed);
+    for (int y = 0; y < height_px; ++y) {
+      for (int x = 0; x < width_px; ++x) {
+        const double level = middle + gain * at(x - dx_px, y - dy_px) +
+                             (noise > 0 ? uniformInt(random, -noise, noise) : 0);
+        image.at(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
+      }
+    }
+    return image;
+  }
+
+ private:
+  static constexpr int kWaves = 12;
+  struct Wave {
+    double x, y, phase;
+  };
+  Wave waves_[kWaves];
+};
+
+}  // namespace ardrone_vslam::test
