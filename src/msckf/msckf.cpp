@@ -19,7 +19,7 @@ Msckf::Msckf(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam)
     : config_(config),
       T_rig_cam_(T_base_cam),
       propagator_(config.odometry),
-      tracks_(T_base_cam.linear()),
+      tracks_(T_base_cam.linear(), config.track_sigma_px, config.track_scene_px),
       track_update_(config),
       map_update_(config),
       height_(config.height),
@@ -57,7 +57,7 @@ void Msckf::watchForContradiction() {
   if (watchdog_.see(newest().stamp_ns, contradiction)) {
     // Nothing that the camera said counts any more. Landmarks keep their anchors: they may be
     // right, and show it later.
-    tracks_ = TrackWindow(T_rig_cam_.linear());
+    tracks_ = TrackWindow(T_rig_cam_.linear(), config_.track_sigma_px, config_.track_scene_px);
     track_update_.forgetEarlierCamera();
     map_update_.reset();
     zero_motion_.reset();

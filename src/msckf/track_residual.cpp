@@ -95,19 +95,17 @@ void TrackResidual::addTo(Information& information, double weight) const {
 
 std::optional<TrackResidual> residualOf(const WindowState& state, const Eigen::Vector3d& camera_rig,
                                         TrackViews views, const TrackPoint& point,
-                                        double angle_sigma_rad,
                                         const std::optional<FloorHeight>& floor) {
   TrackResidual track;
   track.views.reserve(views.size() + 1);
   for (const TrackView& view : views) {
-    const auto ray =
-        rayResidual(state.frames()[view.frame], camera_rig, view.bearing_rig, point.position_map);
+    const auto ray = rayResidual(state.frames()[view.frame], camera_rig, view, point.position_map);
     if (!ray) return std::nullopt;
     ViewRows& rows = track.views.emplace_back();
     rows.coordinate = state.frameCoordinate(view.frame);
-    rows.pose = ray->pose / angle_sigma_rad;
-    rows.point = ray->point;  // of unit noise but for the factor that all rows share
-    rows.residual = ray->residual / angle_sigma_rad;
+    rows.pose = ray->pose;
+    rows.point = ray->point;
+    rows.residual = ray->residual;
   }
   if (floor) {
     const Clone& frame = state.frames()[views.back().frame];
@@ -116,7 +114,7 @@ std::optional<TrackResidual> residualOf(const WindowState& state, const Eigen::V
     rows.pose.setZero();
     rows.point.setZero();
     rows.pose(0, 2) = 1 / floor->sigma_m;
-    rows.point(0, 2) = -angle_sigma_rad / floor->sigma_m;
+    rows.point(0, 2) = -1 / floor->sigma_m;
     const double height_m = frame.position_map.z() - point.position_map.z();
     rows.residual << (floor->height_m - height_m) / floor->sigma_m, 0;
     track.has_height = true;
@@ -144,8 +142,7 @@ Eigen::Matrix3d covarianceByFrames(const WindowState& state, const Eigen::Vector
   parts.reserve(views.size() + 2);
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   for (const TrackView& view : views) {
-    const auto ray =
-        rayResidual(state.frames()[view.frame], camera_rig, view.bearing_rig, point_map);
+    const auto ray = rayResidual(state.frames()[view.frame], camera_rig, view, point_map);
     if (!ray) continue;
     A += ray->point.transpose() * ray->point;
     parts.push_back({state.frameCoordinate(view.frame), ray->point.transpose() * ray->pose});

@@ -50,7 +50,6 @@ struct TrackResidual {
 /// @return nothing when a ray is too far off its prediction
 std::optional<TrackResidual> residualOf(const WindowState& state, const Eigen::Vector3d& camera_rig,
                                         TrackViews views, const TrackPoint& point,
-                                        double angle_sigma_rad,
                                         const std::optional<FloorHeight>& floor = std::nullopt);
 
 /// What the frames' errors do to a triangulated point beside what it shares with its anchor, and so

@@ -14,6 +14,7 @@ struct TrackUpdate::Candidate {
   const FinishedTrack* track;
   TrackResidual residual;
   double weight;
+  double ray_information_rad2;  // of one of its rays
 };
 
 namespace {
@@ -36,10 +37,10 @@ void sum(const std::vector<Candidate>& candidates, Information& information) {
 }
 
 /// What calibration, rolling shutter and the scene do to the tracks of a keyframe they do to all
-/// alike, so that it does not average out: n of them have the variance 1 / n + common.
-/// @param common  variance of the error they share, over that of a ray
-void limitByCommonError(double n, double common, Information& information) {
-  const double share = 1 / (1 + n * common);
+/// alike, so that it does not average out: together they have the variance of their rays' mean, and
+/// that of the error they share.
+void limitByCommonError(double ray_information_rad2, double common_rad2, Information& information) {
+  const double share = 1 / (1 + ray_information_rad2 * common_rad2);
   information.matrix *= share;
   information.vector *= share;
 }
@@ -82,11 +83,11 @@ bool hasKnownBaseline(TrackViews views, const WindowState& state) {
 
 /// The point of a track whose views tell the depth and more.
 std::optional<TrackPoint> pointOf(TrackViews views, const Eigen::Vector3d& camera_rig,
-                                  double angle_sigma_rad, const WindowState& state) {
+                                  const WindowState& state) {
   if (static_cast<int>(views.size()) < kFewestViews || !hasKnownBaseline(views, state))
     return std::nullopt;
-  auto point = triangulateTrack(state.frames(), camera_rig, views, angle_sigma_rad);
-  if (point && point->parallax_rad < kParallaxSigmas * angle_sigma_rad) point.reset();
+  auto point = triangulateTrack(state.frames(), camera_rig, views);
+  if (point && point->parallax_rad < kParallaxSigmas * point->ray_sigma_rad) point.reset();
   return point;
 }
 
@@ -120,7 +121,7 @@ std::optional<FloorHeight> floorOf(TrackViews views, const HeightConfig& config,
 
 void TrackUpdate::changeCamera(const Eigen::Vector3d& camera_rig) {
   // With no keyframe since the last change the tracks are still those of the camera before.
-  if (!earlier_camera_) earlier_camera_ = RayCamera{camera_rig, angle_sigma_rad_};
+  if (!earlier_camera_rig_) earlier_camera_rig_ = camera_rig;
 }
 
 void TrackUpdate::skip() {
@@ -132,33 +133,31 @@ void TrackUpdate::apply(const std::vector<FinishedTrack>& finished,
                         const Eigen::Vector3d& camera_rig, double focal_length_px,
                         std::uint32_t anchor_id, TrackWindow& tracks, WindowState& state) {
   skip();
-  angle_sigma_rad_ = config_.track_sigma_px / focal_length_px;
-  const RayCamera camera = earlier_camera_.value_or(RayCamera{camera_rig, angle_sigma_rad_});
-  std::vector<Candidate> candidates = gate(finished, camera, state);
-  if (correct(candidates, state)) collectUsed(candidates, camera, anchor_id, tracks, state);
-  if (earlier_camera_) {  // all its tracks have ended, and this one sees something else
-    earlier_camera_.reset();
+  const Eigen::Vector3d seen_from_rig = earlier_camera_rig_.value_or(camera_rig);
+  std::vector<Candidate> candidates = gate(finished, seen_from_rig, state);
+  if (correct(candidates, focal_length_px, state))
+    collectUsed(candidates, seen_from_rig, anchor_id, tracks, state);
+  if (earlier_camera_rig_) {  // all its tracks have ended, and this one sees something else
+    earlier_camera_rig_.reset();
     point_distance_m_ = 0;
   }
 }
 
 std::vector<TrackUpdate::Candidate> TrackUpdate::gate(const std::vector<FinishedTrack>& finished,
-                                                      const RayCamera& camera,
+                                                      const Eigen::Vector3d& camera_rig,
                                                       const WindowState& state) {
-  const Eigen::Vector3d& camera_rig = camera.position_rig;
-  const double sigma_a = camera.angle_sigma_rad;
   std::vector<Candidate> candidates;
   for (const FinishedTrack& track : finished) {
-    const auto point = pointOf(track.views, camera_rig, sigma_a, state);
+    const auto point = pointOf(track.views, camera_rig, state);
     if (!point) continue;
-    auto residual = residualOf(state, camera_rig, track.views, *point, sigma_a);
+    auto residual = residualOf(state, camera_rig, track.views, *point);
     if (!residual) continue;
     ++candidates_;
     double distance = residual->distance(state);
     int dof = residual->degreesOfFreedom();
     if (!(distance < 2 * chiSquare95(dof))) continue;
     if (const auto floor = floorOf(track.views, config_.height, state)) {
-      auto on_floor = residualOf(state, camera_rig, track.views, *point, sigma_a, floor);
+      auto on_floor = residualOf(state, camera_rig, track.views, *point, floor);
       const double with_floor = on_floor->distance(state);
       // Else it is on a table, or the height is that of one.
       if (with_floor - distance < chiSquare95(1)) {
@@ -167,12 +166,14 @@ std::vector<TrackUpdate::Candidate> TrackUpdate::gate(const std::vector<Finished
         dof = residual->degreesOfFreedom();
       }
     }
-    candidates.push_back({&track, std::move(*residual), 1 / squared(1 + distance / dof)});
+    candidates.push_back({&track, std::move(*residual), 1 / squared(1 + distance / dof),
+                          1 / squared(point->ray_sigma_rad)});
   }
   return candidates;
 }
 
-bool TrackUpdate::correct(std::vector<Candidate>& candidates, WindowState& state) const {
+bool TrackUpdate::correct(std::vector<Candidate>& candidates, double focal_length_px,
+                          WindowState& state) const {
   if (candidates.empty()) return false;
   const int first = state.frameCoordinate(0);
   std::vector<int> coordinates(
@@ -180,24 +181,23 @@ bool TrackUpdate::correct(std::vector<Candidate>& candidates, WindowState& state
   std::iota(coordinates.begin(), coordinates.end(), first);
   Information information(std::move(coordinates));
   if (!agree(state, candidates, information)) return false;
-  const auto n = std::count_if(candidates.begin(), candidates.end(),
-                               [](const Candidate& c) { return c.weight > 0; });
-  limitByCommonError(static_cast<double>(n),
-                     squared(config_.track_common_px / config_.track_sigma_px), information);
+  double ray_information_rad2 = 0;
+  for (const Candidate& c : candidates)
+    if (c.weight > 0) ray_information_rad2 += c.ray_information_rad2;
+  limitByCommonError(ray_information_rad2, squared(config_.track_common_px / focal_length_px),
+                     information);
   return state.update(information);
 }
 
-void TrackUpdate::collectUsed(const std::vector<Candidate>& candidates, const RayCamera& camera,
-                              std::uint32_t anchor_id, TrackWindow& tracks,
-                              const WindowState& state) {
-  const Eigen::Vector3d& camera_rig = camera.position_rig;
+void TrackUpdate::collectUsed(const std::vector<Candidate>& candidates,
+                              const Eigen::Vector3d& camera_rig, std::uint32_t anchor_id,
+                              TrackWindow& tracks, const WindowState& state) {
   const std::size_t anchor = *indexOf(state.frames(), anchor_id);
   std::vector<double> distances_m;
   for (const Candidate& c : candidates) {
     if (c.weight == 0) continue;
     tracks.keepNewestView(c.track->track_id);
-    const auto point =
-        triangulateTrack(state.frames(), camera_rig, c.track->views, camera.angle_sigma_rad);
+    const auto point = triangulateTrack(state.frames(), camera_rig, c.track->views);
     if (!point) continue;
     const Eigen::Matrix3d by_frames =
         covarianceByFrames(state, camera_rig, c.track->views, point->position_map, anchor);

@@ -35,7 +35,7 @@ class TrackUpdate {
   /// @param camera_rig  the old camera's position in the rig
   void changeCamera(const Eigen::Vector3d& camera_rig);
   /// No track of another camera is left.
-  void forgetEarlierCamera() { earlier_camera_.reset(); }
+  void forgetEarlierCamera() { earlier_camera_rig_.reset(); }
   /// A frame without an update.
   void skip();
 
@@ -57,22 +57,17 @@ class TrackUpdate {
   double pointDistance_m() const { return point_distance_m_; }
 
  private:
-  /// What the rays of tracks need of the camera that saw them.
-  struct RayCamera {
-    Eigen::Vector3d position_rig;
-    double angle_sigma_rad;  // of a ray
-  };
   struct Candidate;
 
-  std::vector<Candidate> gate(const std::vector<FinishedTrack>& finished, const RayCamera& camera,
-                              const WindowState& state);
-  bool correct(std::vector<Candidate>& candidates, WindowState& state) const;
-  void collectUsed(const std::vector<Candidate>& candidates, const RayCamera& camera,
+  std::vector<Candidate> gate(const std::vector<FinishedTrack>& finished,
+                              const Eigen::Vector3d& camera_rig, const WindowState& state);
+  bool correct(std::vector<Candidate>& candidates, double focal_length_px,
+               WindowState& state) const;
+  void collectUsed(const std::vector<Candidate>& candidates, const Eigen::Vector3d& camera_rig,
                    std::uint32_t anchor_id, TrackWindow& tracks, const WindowState& state);
 
   MsckfConfig config_;
-  std::optional<RayCamera> earlier_camera_;  // whose tracks are left in the window
-  double angle_sigma_rad_ = 0;               // of the tracks seen last
+  std::optional<Eigen::Vector3d> earlier_camera_rig_;  // whose tracks are left in the window
   std::vector<UsedTrack> used_;
   int candidates_ = 0;
   double point_distance_m_ = 0;

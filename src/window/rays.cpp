@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "window/rays.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -41,20 +42,42 @@ std::optional<Prediction> predict(const Ray& measured, const Eigen::Vector3d& po
   return Prediction{direction, distance_m, along};
 }
 
+/// A ray of a track, and how well it is known.
+struct KnownRay {
+  Ray ray;
+  RayRoot root_map;
+};
+
 /// The point nearest to all rays, a start for the iteration on angles.
-Eigen::Vector3d nearestPoint(const std::vector<Ray>& rays) {
+Eigen::Vector3d nearestPoint(const std::vector<KnownRay>& rays) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
-  for (const Ray& ray : rays) {
-    const Eigen::Matrix3d across = acrossOf(ray.direction_map);
-    A += across;
-    b += across * ray.origin_map;
+  for (const auto& [ray, root_map] : rays) {
+    const Eigen::Matrix3d plane = acrossOf(ray.direction_map);
+    A += plane;
+    b += plane * ray.origin_map;
   }
   return A.inverse() * b;
 }
 
+/// Rows of unit noise in the tangent plane of a direction.
+RayRoot across(const RayRoot& root_map, const Eigen::Vector3d& direction_map) {
+  return root_map - root_map * direction_map * direction_map.transpose();
+}
+
 double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// @param B  rows across the predicted direction
+RayResidual residualAcross(const Eigen::Matrix<double, 2, 3>& B, const Ray& measured,
+                           const Prediction& predicted, const Eigen::Vector3d& lever) {
+  RayResidual ray;
+  ray.residual = B * measured.direction_map / predicted.along;
+  ray.point = B / predicted.distance_m;
+  ray.pose.leftCols<3>() = -ray.point;
+  ray.pose.rightCols<3>() = B * skew(predicted.direction) + ray.point * skew(lever);
+  return ray;
 }
 
 }  // namespace
@@ -66,49 +89,66 @@ std::optional<RayResidual> rayResidual(const Clone& pose, const Eigen::Vector3d&
   const Ray measured{pose.position_map + lever, pose.R_map_rig * bearing_rig};
   const auto predicted = predict(measured, point_map);
   if (!predicted) return std::nullopt;
-  const Eigen::Matrix<double, 2, 3> B = tangents(predicted->direction);
-  RayResidual ray;
-  ray.residual = B * measured.direction_map / predicted->along;
-  ray.point = B / predicted->distance_m;
-  ray.pose.leftCols<3>() = -ray.point;
-  ray.pose.rightCols<3>() = B * skew(predicted->direction) + ray.point * skew(lever);
-  return ray;
+  return residualAcross(tangents(predicted->direction), measured, *predicted, lever);
+}
+
+std::optional<RayResidual> rayResidual(const Clone& pose, const Eigen::Vector3d& camera_rig,
+                                       const TrackView& view, const Eigen::Vector3d& point_map) {
+  const Eigen::Vector3d lever = pose.R_map_rig * camera_rig;
+  const Ray measured{pose.position_map + lever, pose.R_map_rig * view.bearing_rig};
+  const auto predicted = predict(measured, point_map);
+  if (!predicted) return std::nullopt;
+  const RayRoot root_map = view.root_rig * pose.R_map_rig.transpose();
+  return residualAcross(across(root_map, predicted->direction), measured, *predicted, lever);
+}
+
+RayRoot rayRoot(const Eigen::Vector3d& bearing, double sigma_rad) {
+  return tangents(bearing) / sigma_rad;
+}
+
+RayRoot rayRoot(const Eigen::Vector3d& bearing_cam, const Eigen::Matrix2d& information_rad2) {
+  RayRoot axes;
+  axes.row(0) = acrossOf(bearing_cam).col(0).normalized().transpose();
+  axes.row(1) = bearing_cam.cross(axes.row(0).transpose()).transpose();
+  return information_rad2.llt().matrixU() * axes;
 }
 
 std::optional<TrackPoint> triangulateTrack(const std::vector<Clone>& frames,
-                                           const Eigen::Vector3d& camera_rig, TrackViews views,
-                                           double angle_sigma_rad) {
+                                           const Eigen::Vector3d& camera_rig, TrackViews views) {
   if (views.size() < 2) return std::nullopt;
-  std::vector<Ray> rays;
+  std::vector<KnownRay> rays;
   rays.reserve(views.size());
+  TrackPoint point;
   for (const TrackView& view : views) {
     const Clone& frame = frames[view.frame];
     rays.push_back(
-        {frame.position_map + frame.R_map_rig * camera_rig, frame.R_map_rig * view.bearing_rig});
+        {{frame.position_map + frame.R_map_rig * camera_rig, frame.R_map_rig * view.bearing_rig},
+         view.root_rig * frame.R_map_rig.transpose()});
+    point.ray_sigma_rad += std::sqrt(2 / view.root_rig.squaredNorm());
   }
-  TrackPoint point;
+  point.ray_sigma_rad /= static_cast<double>(views.size());
   point.position_map = nearestPoint(rays);
   Eigen::Matrix3d inverse;
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
-    // Of the residuals of rayResidual(), whose tangents are not needed here.
+    // Of the residuals of rayResidual().
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
-    for (const Ray& ray : rays) {
+    for (const auto& [ray, root_map] : rays) {
       const auto predicted = predict(ray, point.position_map);
       if (!predicted) return std::nullopt;
-      const double per_m = 1 / predicted->distance_m;
-      A += per_m * per_m * acrossOf(predicted->direction);
-      b += per_m * (ray.direction_map / predicted->along - predicted->direction);
+      const RayRoot R = across(root_map, predicted->direction) / predicted->distance_m;
+      A += R.transpose() * R;
+      b += R.transpose() * (R * ray.direction_map) * (predicted->distance_m / predicted->along);
     }
     inverse = A.inverse();
     point.position_map += inverse * b;
     if (!point.position_map.allFinite()) return std::nullopt;
   }
-  point.covariance_m2 = angle_sigma_rad * angle_sigma_rad * inverse;
+  point.covariance_m2 = inverse;
   if (!point.covariance_m2.allFinite()) return std::nullopt;
-  const Eigen::Vector3d first = point.position_map - rays.front().origin_map;
-  for (const Ray& ray : rays) {
+  const Eigen::Vector3d first = point.position_map - rays.front().ray.origin_map;
+  for (const auto& [ray, root_map] : rays) {
     const Eigen::Vector3d offset = point.position_map - ray.origin_map;
     if (!(offset.dot(ray.direction_map) > 0)) return std::nullopt;
     point.parallax_rad = std::max(point.parallax_rad, angleBetween(first, offset));

@@ -16,6 +16,7 @@ struct TrackPoint {
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();   ///< of the point
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< by the noise of the rays alone
   double parallax_rad = 0;                                  ///< largest angle to the first ray
+  double ray_sigma_rad = 0;                                 ///< of a ray, in the mean
 };
 
 /// Where a measured ray lies beside the predicted one, and how that changes with the errors of pose
@@ -33,11 +34,19 @@ struct RayResidual {
 std::optional<RayResidual> rayResidual(const Clone& pose, const Eigen::Vector3d& camera_rig,
                                        const Eigen::Vector3d& bearing_rig,
                                        const Eigen::Vector3d& point_map);
+/// The same of a track's view, both rows of unit noise [1], [1/m].
+std::optional<RayResidual> rayResidual(const Clone& pose, const Eigen::Vector3d& camera_rig,
+                                       const TrackView& view, const Eigen::Vector3d& point_map);
+
+/// The root for a ray known alike all around, and for one whose information is given along the
+/// image's columns and rows.
+/// @param sigma_rad  deviation of the ray's angle
+RayRoot rayRoot(const Eigen::Vector3d& bearing, double sigma_rad);
+RayRoot rayRoot(const Eigen::Vector3d& bearing_cam, const Eigen::Matrix2d& information_rad2);
 
 /// Least-squares point of rays from given poses.
 /// @return nothing for fewer than two views, parallel rays, or a point behind a camera
 std::optional<TrackPoint> triangulateTrack(const std::vector<Clone>& frames,
-                                           const Eigen::Vector3d& camera_rig, TrackViews views,
-                                           double angle_sigma_rad);
+                                           const Eigen::Vector3d& camera_rig, TrackViews views);
 
 }  // namespace ardrone_vslam

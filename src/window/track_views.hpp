@@ -6,10 +6,15 @@
 
 namespace ardrone_vslam {
 
+/// Root of what is known of a measured ray's direction [1/rad], axes of the rig: of unit noise is
+/// root * (true - measured). Its rows lie across the ray.
+using RayRoot = Eigen::Matrix<double, 2, 3>;
+
 /// One view of a point by a frame of the window.
 struct TrackView {
   std::size_t frame = 0;                                   ///< index into WindowState::frames()
   Eigen::Vector3d bearing_rig = Eigen::Vector3d::UnitX();  ///< measured unit ray, axes of the rig
+  RayRoot root_rig = RayRoot::Zero();
 };
 
 /// The views of one track, ascending in the frame, that somebody else holds.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "window/track_window.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+
+#include "window/rays.hpp"
 
 namespace ardrone_vslam {
 
@@ -52,6 +55,20 @@ TrackWindow::Motion TrackWindow::motionSince(const Clone& frame, const Clone& pr
   return motion;
 }
 
+/// In the camera's axes.
+RayRoot TrackWindow::rootOf(const ImageFeatures& features, std::size_t feature) const {
+  const Eigen::Vector3d bearing_cam = features.bearing_cam[feature].cast<double>();
+  const double focal_px = features.focal_length_px;
+  if (features.information_px2.empty() || features.information_px2[feature].empty())
+    return rayRoot(bearing_cam, corner_sigma_px_ / focal_px);
+  const PixelInformation& known = features.information_px2[feature];
+  Eigen::Matrix2d information;
+  information << known.xx_per_px2, known.xy_per_px2, known.xy_per_px2, known.yy_per_px2;
+  const Eigen::Matrix2d scene_px2 = scene_sigma_px_ * scene_sigma_px_ * Eigen::Matrix2d::Identity();
+  information = (information.inverse() + scene_px2).inverse().eval();
+  return rayRoot(bearing_cam, information * (focal_px * focal_px));
+}
+
 void TrackWindow::add(std::uint32_t frame_id, const ImageFeatures& features,
                       const TrackOrder& order) {
   keyframe_id_ = frame_id;
@@ -66,8 +83,9 @@ void TrackWindow::add(std::uint32_t frame_id, const ImageFeatures& features,
     const bool goes_on = known != now_.tracks.end() && known->id == seen.track_id;
     next_.take(goes_on ? *known++ : begun, now_);
     Track& track = next_.tracks.back();
-    next_.observations.push_back(
-        {frame_id, R_rig_cam_ * features.bearing_cam[seen.feature].cast<double>()});
+    next_.observations.push_back({frame_id,
+                                  R_rig_cam_ * features.bearing_cam[seen.feature].cast<double>(),
+                                  rootOf(features, seen.feature) * R_rig_cam_.transpose()});
     ++track.count;
     track.descriptor = features.descriptor[seen.feature];
   }
@@ -94,7 +112,8 @@ const std::vector<FinishedTrack>& TrackWindow::takeFinished(const std::vector<Cl
     std::size_t frame = 0;
     for (std::uint32_t i = track.first; i < track.first + track.count; ++i) {
       while (frames[frame].id != now_.observations[i].frame_id) ++frame;
-      finished_views_.push_back({frame, now_.observations[i].bearing_rig});
+      finished_views_.push_back(
+          {frame, now_.observations[i].bearing_rig, now_.observations[i].root_rig});
     }
     finished_.push_back({track.id,
                          {finished_views_.data() + first_view, track.count},

@@ -26,7 +26,10 @@ struct FinishedTrack {
 class TrackWindow {
  public:
   /// @param R_rig_cam  the camera's mounting
-  explicit TrackWindow(const Eigen::Matrix3d& R_rig_cam) : R_rig_cam_(R_rig_cam) {}
+  /// @param corner_sigma_px  deviation of features that are not aligned
+  /// @param scene_sigma_px  of the others, beside what their information tells
+  TrackWindow(const Eigen::Matrix3d& R_rig_cam, double corner_sigma_px, double scene_sigma_px)
+      : R_rig_cam_(R_rig_cam), corner_sigma_px_(corner_sigma_px), scene_sigma_px_(scene_sigma_px) {}
   /// Of the features from now on. None of them may have the track of an earlier one.
   void changeCamera(const Eigen::Matrix3d& R_rig_cam) { R_rig_cam_ = R_rig_cam; }
 
@@ -60,6 +63,7 @@ class TrackWindow {
   struct Observation {
     std::uint32_t frame_id;
     Eigen::Vector3d bearing_rig;
+    RayRoot root_rig;
   };
   struct Track {
     std::uint32_t id = 0;
@@ -84,7 +88,11 @@ class TrackWindow {
     void take(const Track& track, const Tracks& from);
   };
 
+  RayRoot rootOf(const ImageFeatures& features, std::size_t feature) const;
+
   Eigen::Matrix3d R_rig_cam_;
+  double corner_sigma_px_;
+  double scene_sigma_px_;
   std::uint32_t keyframe_id_ = 0;
   Tracks now_;
   Tracks next_;  // add() builds it and changes it for the other

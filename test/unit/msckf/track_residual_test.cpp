@@ -41,12 +41,19 @@ WindowState sidewaysWindow(int frames) {
   return state;
 }
 
+constexpr double kSigma_rad = 0.002;
+
+TrackView viewOf(std::size_t frame, const Eigen::Vector3d& ray, double sigma_rad = kSigma_rad) {
+  return {frame, ray.normalized(), rayRoot(ray.normalized(), sigma_rad)};
+}
+
 std::vector<TrackView> viewsOf(const Eigen::Vector3d& point_map, const WindowState& state,
-                               double noise_rad, RandomSource& random) {
+                               double noise_rad, RandomSource& random,
+                               double sigma_rad = kSigma_rad) {
   std::vector<TrackView> views;
   for (std::size_t i = 0; i < state.frames().size(); ++i) {
     const Eigen::Vector3d exact = bearingTo(point_map, state.frames()[i]);
-    views.push_back({i, (exact + noise_rad * random.normal3()).normalized()});
+    views.push_back(viewOf(i, exact + noise_rad * random.normal3(), sigma_rad));
   }
   return views;
 }
@@ -95,7 +102,7 @@ TEST(TriangulateTrack, FindsThePointAndItsDeviation) {
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
     const auto found = triangulateTrack(state.frames(), kCamera_rig,
-                                        viewsOf(point, state, kNoise_rad, random), kNoise_rad);
+                                        viewsOf(point, state, kNoise_rad, random, kNoise_rad));
     ASSERT_TRUE(found);
     const Eigen::Vector3d error = found->position_map - point;
     squared += error.dot(found->covariance_m2.inverse() * error);
@@ -104,25 +111,81 @@ TEST(TriangulateTrack, FindsThePointAndItsDeviation) {
   EXPECT_NEAR(squared / kRuns, 3, 0.6);
 }
 
+TEST(RayRoot, IsOfTheInformationAlongColumnsAndRows) {
+  Eigen::Matrix2d information;
+  information << 9, 2, 2, 4;
+  const RayRoot root = rayRoot(Eigen::Vector3d::UnitZ(), information);
+  const Eigen::Matrix3d on_ray = root.transpose() * root;
+  EXPECT_LT((on_ray.topLeftCorner<2, 2>() - information).norm(), 1e-12);
+  EXPECT_LT(on_ray.col(2).norm(), 1e-12);
+  const Eigen::Vector3d oblique = Eigen::Vector3d(0.5, -0.3, 1).normalized();
+  const RayRoot same = rayRoot(oblique, Eigen::Matrix2d::Identity() / (0.01 * 0.01));
+  const RayRoot alike = rayRoot(oblique, 0.01);
+  EXPECT_LT((same.transpose() * same - alike.transpose() * alike).norm(), 1e-8);
+}
+
+TEST(RayResidual, OfAViewIsOfUnitNoise) {
+  const Clone pose = poseAt({1, 2, 3}, {0.1, 0.2, 0.3});
+  const Eigen::Vector3d point(6, 3, 2.5);
+  const Eigen::Vector3d exact = bearingTo(point, pose);
+  Eigen::Matrix2d information;  // ten times better along one axis
+  information << 1e6, 0, 0, 1e4;
+  const RayRoot root = rayRoot(exact, information);
+  const Eigen::Matrix<double, 3, 2> from_unit =
+      root.transpose() * (root * root.transpose()).inverse();
+  RandomSource random(3);
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  constexpr int kRuns = 4000;
+  for (int i = 0; i < kRuns; ++i) {
+    const Eigen::Vector2d unit(random.normal(), random.normal());
+    const TrackView view{0, (exact + from_unit * unit).normalized(), root};
+    const auto ray = rayResidual(pose, kCamera_rig, view, point);
+    ASSERT_TRUE(ray);
+    scatter += ray->residual * ray->residual.transpose() / kRuns;
+  }
+  EXPECT_LT((scatter - Eigen::Matrix2d::Identity()).norm(), 0.1) << scatter;
+}
+
+TEST(TriangulateTrack, WeighsRaysByWhatIsKnownOfThem) {
+  const WindowState state = sidewaysWindow(8);
+  const Eigen::Vector3d point(4, 0.5, 0.3);
+  RandomSource random(7);
+  double squared = 0;
+  constexpr int kRuns = 300;
+  for (int run = 0; run < kRuns; ++run) {
+    std::vector<TrackView> views;
+    for (std::size_t i = 0; i < state.frames().size(); ++i) {
+      const double sigma_rad = i % 2 == 0 ? 0.0003 : 0.003;
+      const Eigen::Vector3d exact = bearingTo(point, state.frames()[i]);
+      views.push_back(viewOf(i, exact + sigma_rad * random.normal3(), sigma_rad));
+    }
+    const auto found = triangulateTrack(state.frames(), kCamera_rig, views);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->ray_sigma_rad, 0.00165, 1e-9);
+    const Eigen::Vector3d error = found->position_map - point;
+    squared += error.dot(found->covariance_m2.inverse() * error);
+  }
+  EXPECT_NEAR(squared / kRuns, 3, 0.6);
+}
+
 TEST(TriangulateTrack, HasNoPointForParallelOrSpreadingRays) {
   const WindowState state = sidewaysWindow(3);
-  const std::vector<TrackView> parallel{{0, {1, 0, 0}}, {2, {1, 0, 0}}};
-  const auto far = triangulateTrack(state.frames(), kCamera_rig, parallel, 0.001);
+  const std::vector<TrackView> parallel{viewOf(0, {1, 0, 0}), viewOf(2, {1, 0, 0})};
+  const auto far = triangulateTrack(state.frames(), kCamera_rig, parallel);
   EXPECT_TRUE(!far || far->parallax_rad < 1e-3);
-  const std::vector<TrackView> spreading{{0, Eigen::Vector3d(1, -0.1, 0).normalized()},
-                                         {2, Eigen::Vector3d(1, 0.1, 0).normalized()}};
-  EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_rig, spreading, 0.001));
-  const std::vector<TrackView> alone{{0, {1, 0, 0}}};
-  EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_rig, alone, 0.001));
+  const std::vector<TrackView> spreading{viewOf(0, {1, -0.1, 0}), viewOf(2, {1, 0.1, 0})};
+  EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_rig, spreading));
+  const std::vector<TrackView> alone{viewOf(0, {1, 0, 0})};
+  EXPECT_FALSE(triangulateTrack(state.frames(), kCamera_rig, alone));
 }
 
 TEST(TrackResidual, DoesNotSeeTheScaleNorWhereTheMapIs) {
   const WindowState state = sidewaysWindow(6);
   RandomSource random(2);
-  const auto views = viewsOf({3, 0.2, -0.4}, state, 0.002, random);
-  const auto point = triangulateTrack(state.frames(), Eigen::Vector3d::Zero(), views, 0.002);
+  const auto views = viewsOf({3, 0.2, -0.4}, state, kSigma_rad, random);
+  const auto point = triangulateTrack(state.frames(), Eigen::Vector3d::Zero(), views);
   ASSERT_TRUE(point);
-  auto track = residualOf(state, Eigen::Vector3d::Zero(), views, *point, 0.002);
+  auto track = residualOf(state, Eigen::Vector3d::Zero(), views, *point);
   ASSERT_TRUE(track);
   for (ViewRows& rows : track->views) rows.residual.setZero();
   EXPECT_EQ(track->degreesOfFreedom(), 2 * 6 - 3);
@@ -148,11 +211,11 @@ TEST(TrackResidual, DoesNotSeeTheScaleNorWhereTheMapIs) {
 TEST(TrackResidual, DistanceAndInformationAreThoseOfTheProjectedRows) {
   const WindowState state = sidewaysWindow(7);
   RandomSource random(4);
-  auto views = viewsOf({3, 0.2, -0.4}, state, 0.002, random);
+  auto views = viewsOf({3, 0.2, -0.4}, state, kSigma_rad, random);
   views.erase(views.begin() + 3);
-  const auto point = triangulateTrack(state.frames(), kCamera_rig, views, 0.002);
+  const auto point = triangulateTrack(state.frames(), kCamera_rig, views);
   ASSERT_TRUE(point);
-  const auto track = residualOf(state, kCamera_rig, views, *point, 0.002);
+  const auto track = residualOf(state, kCamera_rig, views, *point);
   ASSERT_TRUE(track);
   const int first = state.frameCoordinate(0);
   const int size = state.frameCoordinate(7) - first;
@@ -161,12 +224,12 @@ TEST(TrackResidual, DistanceAndInformationAreThoseOfTheProjectedRows) {
   Eigen::VectorXd r(rows);
   Eigen::MatrixXd on_point(rows, 3);
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const auto ray = rayResidual(state.frames()[views[i].frame], kCamera_rig, views[i].bearing_rig,
-                                 point->position_map);
+    const auto ray =
+        rayResidual(state.frames()[views[i].frame], kCamera_rig, views[i], point->position_map);
     ASSERT_TRUE(ray);
     const auto row = 2 * static_cast<Eigen::Index>(i);
-    H.block<2, 6>(row, state.frameCoordinate(views[i].frame) - first) = ray->pose / 0.002;
-    r.segment<2>(row) = ray->residual / 0.002;
+    H.block<2, 6>(row, state.frameCoordinate(views[i].frame) - first) = ray->pose;
+    r.segment<2>(row) = ray->residual;
     on_point.middleRows<2>(row) = ray->point;
   }
   const Eigen::MatrixXd Q = on_point.householderQr().householderQ();
@@ -205,10 +268,10 @@ TEST(TrackResidual, ItsDistanceIsAChiSquareForHonestRays) {
   constexpr int kRuns = 200;
   int dof = 0;
   for (int run = 0; run < kRuns; ++run) {
-    const auto views = viewsOf({3, 0.2, -0.4}, state, kNoise_rad, random);
-    const auto point = triangulateTrack(state.frames(), kCamera_rig, views, kNoise_rad);
+    const auto views = viewsOf({3, 0.2, -0.4}, state, kNoise_rad, random, kNoise_rad);
+    const auto point = triangulateTrack(state.frames(), kCamera_rig, views);
     ASSERT_TRUE(point);
-    const auto track = residualOf(state, kCamera_rig, views, *point, kNoise_rad);
+    const auto track = residualOf(state, kCamera_rig, views, *point);
     ASSERT_TRUE(track);
     dof = track->degreesOfFreedom();
     const double squared = track->squaredRest(no_error, state.frameCoordinate(0));
@@ -228,15 +291,13 @@ WindowState levelWindow(int frames) {
 
 TEST(TrackResidual, AHeightAddsOneRowThatSeesTheScale) {
   const WindowState state = levelWindow(5);
-  constexpr double kNoise_rad = 0.002;
   constexpr double kSigma_m = 0.05;
   RandomSource random(4);
   const auto views = viewsOf({0.3, 0.2, 0}, state, 0, random);
-  const auto point = triangulateTrack(state.frames(), kCamera_rig, views, kNoise_rad);
+  const auto point = triangulateTrack(state.frames(), kCamera_rig, views);
   ASSERT_TRUE(point);
-  const auto bare = residualOf(state, kCamera_rig, views, *point, kNoise_rad);
-  const auto floor =
-      residualOf(state, kCamera_rig, views, *point, kNoise_rad, FloorHeight{2, kSigma_m});
+  const auto bare = residualOf(state, kCamera_rig, views, *point);
+  const auto floor = residualOf(state, kCamera_rig, views, *point, FloorHeight{2, kSigma_m});
   ASSERT_TRUE(bare && floor);
   EXPECT_EQ(floor->degreesOfFreedom(), bare->degreesOfFreedom() + 1);
 
@@ -265,10 +326,10 @@ TEST(TrackResidual, AHeightAddsOneRowThatSeesTheScale) {
 TEST(TrackResidual, WithAHeightItsThreeFormsAgree) {
   const WindowState state = levelWindow(5);
   RandomSource random(6);
-  const auto views = viewsOf({0.3, 0.2, 0}, state, 0.002, random);
-  const auto point = triangulateTrack(state.frames(), kCamera_rig, views, 0.002);
+  const auto views = viewsOf({0.3, 0.2, 0}, state, kSigma_rad, random);
+  const auto point = triangulateTrack(state.frames(), kCamera_rig, views);
   ASSERT_TRUE(point);
-  const auto floor = residualOf(state, kCamera_rig, views, *point, 0.002, FloorHeight{2.1, 0.05});
+  const auto floor = residualOf(state, kCamera_rig, views, *point, FloorHeight{2.1, 0.05});
   ASSERT_TRUE(floor);
   // Stacked rows, projected.
   const int rows = 2 * static_cast<int>(floor->views.size());
@@ -332,9 +393,9 @@ TEST(CovarianceByFrames, IsTheScatterOfPointsSeenFromFramesThatErr) {
       const int at = state.frameCoordinate(i);
       truly.position_map += error.segment<3>(at);
       truly.R_map_rig = rotationOf(error.segment<3>(at + 3)) * truly.R_map_rig;
-      views.push_back({i, bearingTo(point, truly)});
+      views.push_back(viewOf(i, bearingTo(point, truly)));
     }
-    const auto seen = triangulateTrack(state.frames(), kCamera_rig, views, 1e-3);
+    const auto seen = triangulateTrack(state.frames(), kCamera_rig, views);
     ASSERT_TRUE(seen);
     const Clone& anchor = state.frames()[kAnchor];
     const int at = state.frameCoordinate(kAnchor);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <map>
 
@@ -11,10 +12,13 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr double kCornerSigma_px = 0.5;
+constexpr double kSceneSigma_px = 0.2;
+
 /// One image after the other, with the window's frames that they belong to.
 struct Images {
   std::vector<Clone> frames;
-  TrackWindow window{Eigen::Matrix3d::Identity()};
+  TrackWindow window{Eigen::Matrix3d::Identity(), kCornerSigma_px, kSceneSigma_px};
   ImageFeatures features;
   TrackOrder order;
 
@@ -157,6 +161,32 @@ TEST(TrackWindow, KeepsEveryViewOfRandomTracks) {
     }
     images.dropOldest();
   }
+}
+
+/// Deviation of the only view's ray along the image's columns and rows [px].
+Eigen::Vector2d sigmas_px(Images& images) {
+  const auto& finished = images.window.takeFinished(images.frames, true);
+  const RayRoot& root = finished.at(0).views.front().root_rig;
+  const Eigen::Matrix2d information = (root.transpose() * root).topLeftCorner<2, 2>();
+  return images.features.focal_length_px * information.inverse().diagonal().cwiseSqrt();
+}
+
+TEST(TrackWindow, RaysAreKnownAsTheTrackerSaysAndTheSceneAllows) {
+  Images corner;
+  corner.add({0});
+  EXPECT_LT((sigmas_px(corner) - Eigen::Vector2d(kCornerSigma_px, kCornerSigma_px)).norm(), 1e-6);
+  Images aligned;
+  aligned.show({0});
+  aligned.features.information_px2 = {{100, 0, 25}};  // 0.1 px and 0.2 px
+  aligned.window.add(1, aligned.features, aligned.order);
+  const Eigen::Vector2d expected(std::hypot(0.1, kSceneSigma_px), std::hypot(0.2, kSceneSigma_px));
+  EXPECT_LT((sigmas_px(aligned) - expected).norm(), 1e-6);
+  Images not_aligned;
+  not_aligned.show({0});
+  not_aligned.features.information_px2 = {{}};
+  not_aligned.window.add(1, not_aligned.features, not_aligned.order);
+  EXPECT_LT((sigmas_px(not_aligned) - Eigen::Vector2d(kCornerSigma_px, kCornerSigma_px)).norm(),
+            1e-6);
 }
 
 }  // namespace
