@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -14,8 +13,7 @@
 namespace ardrone_vslam {
 
 /// Gives tracks positions between pixels: what the image showed around a track's first corner is
-/// looked for, by its grey levels, around the corner that goes on with the track. Where it is not
-/// found the corner stays. Keeps 224 bytes of each track.
+/// looked for, by its grey levels, around the corner that goes on with the track, else that stays.
 class PatchAligner {
  public:
   /// @param camera  must outlive this
@@ -25,10 +23,8 @@ class PatchAligner {
   /// Makes room for so many features, so that align() does not allocate.
   void reserve(std::size_t features);
 
-  /// Moves the features of tracks that go on: pixel, bearing, information and residual.
-  /// @param previous_of  for each feature the place, in the image before, of the one it goes on
-  ///   from; -1: it begins a track
-  /// @pre the features lie as far inside the image as FREAK needs it
+  /// Moves the features of tracks that go on: pixel, bearing, information and residual. All lie as
+  /// far inside the image as FREAK needs it. @param previous_of  FrameTracker::assign()
   void align(const ImageView& image, const std::vector<int>& previous_of, ImageFeatures& features);
 
  private:
