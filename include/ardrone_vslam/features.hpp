@@ -63,6 +63,8 @@ struct ImageFeatures {
 
   /// Number of features.
   std::size_t size() const { return pixel_px.size(); }
+  /// How many of them have a position between pixels, or begin a track that can be aligned.
+  std::size_t aligned() const;
   /// No features; the arrays keep their memory.
   void clear();
   /// Makes room for so many features in every array.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ardrone_vslam/features.hpp"
 
+#include <algorithm>
+
 namespace ardrone_vslam {
 
 void ImageFeatures::clear() {
@@ -12,6 +14,12 @@ void ImageFeatures::clear() {
   descriptor.clear();
   information_px2.clear();
   residual.clear();
+}
+
+std::size_t ImageFeatures::aligned() const {
+  const auto none = std::count_if(information_px2.begin(), information_px2.end(),
+                                  [](const PixelInformation& known) { return known.empty(); });
+  return information_px2.size() - static_cast<std::size_t>(none);
 }
 
 void ImageFeatures::reserve(std::size_t count) {

@@ -56,11 +56,6 @@ class PatchAlignerTest : public ::testing::Test {
     return texture_.image(kWidth_px, kHeight_px, shift_px.x(), shift_px.y(), gain, middle, 2, 7);
   }
 
-  static int aligned(const ImageFeatures& features) {
-    int count = 0;
-    for (const PixelInformation& known : features.information_px2) count += known.empty() ? 0 : 1;
-    return count;
-  }
   /// Median distance of the aligned features from where they are.
   double error_px(const ImageFeatures& features, const Eigen::Vector2d& shift_px) const {
     std::vector<double> errors;
@@ -71,7 +66,7 @@ class PatchAlignerTest : public ::testing::Test {
     return test::median(errors);
   }
   void expectCorners(const ImageFeatures& features, const Eigen::Vector2d& shift_px) const {
-    EXPECT_EQ(aligned(features), 0);
+    EXPECT_EQ(features.aligned(), 0U);
     EXPECT_EQ(features.pixel_px, corners(shift_px).pixel_px);
     EXPECT_EQ(features.residual, std::vector<float>(features.size(), 0));
   }
@@ -89,7 +84,7 @@ TEST_F(PatchAlignerTest, TracksLieBetweenPixelsAndDoNotDriftAway) {
   for (int i = 0; i < 40; ++i) {
     shift_px += Eigen::Vector2d(0.37, -0.21);
     const ImageFeatures features = goOn(shifted(shift_px), shift_px, 1);
-    EXPECT_GT(aligned(features), 9 * kSide * kSide / 10) << "image " << i;
+    EXPECT_GT(features.aligned(), 9U * kSide * kSide / 10) << "image " << i;
     EXPECT_LT(error_px(features, shift_px), 0.085) << "image " << i;  // 0.056 is measured
     const std::size_t some = 5;
     if (features.information_px2[some].empty()) continue;
@@ -101,7 +96,7 @@ TEST_F(PatchAlignerTest, TracksLieBetweenPixelsAndDoNotDriftAway) {
 TEST_F(PatchAlignerTest, TheFirstCornerIsWhereItIsByDefinition) {
   const ImageFeatures features = begin(shifted({0, 0}));
   EXPECT_EQ(features.pixel_px, corners({0, 0}).pixel_px);
-  EXPECT_GT(aligned(features), 9 * kSide * kSide / 10);
+  EXPECT_GT(features.aligned(), 9U * kSide * kSide / 10);
 }
 
 TEST_F(PatchAlignerTest, ClaimsTheNoiseThatItHas) {
@@ -126,7 +121,7 @@ TEST_F(PatchAlignerTest, BrightnessMayChange) {
   begin(shifted({0, 0}));
   const Eigen::Vector2d shift_px(1.4, 0.3);
   const ImageFeatures features = goOn(shifted(shift_px, 0.6, 90), shift_px);
-  EXPECT_GT(aligned(features), 8 * kSide * kSide / 10);
+  EXPECT_GT(features.aligned(), 8U * kSide * kSide / 10);
   EXPECT_LT(error_px(features, shift_px), 0.08);
 }
 
@@ -141,7 +136,7 @@ TEST_F(PatchAlignerTest, BlackWhiteAndForeignImagesLeaveCorners) {
   begin(shifted({0, 0}));
   const Texture foreign(99);
   const ImageFeatures features = goOn(foreign.image(kWidth_px, kHeight_px, 0, 0), {0, 0});
-  EXPECT_LT(aligned(features), kSide * kSide / 10);
+  EXPECT_LT(features.aligned(), 1U * kSide * kSide / 10);
 }
 
 TEST_F(PatchAlignerTest, WhatIsCoveredKeepsItsCornerAndIsFoundAgain) {
@@ -156,14 +151,14 @@ TEST_F(PatchAlignerTest, WhatIsCoveredKeepsItsCornerAndIsFoundAgain) {
   }
   const Eigen::Vector2d shift_px(0.8, 0.3);
   const ImageFeatures again = goOn(shifted(shift_px), shift_px);
-  EXPECT_GT(aligned(again), 9 * kSide * kSide / 10);
+  EXPECT_GT(again.aligned(), 9U * kSide * kSide / 10);
   EXPECT_LT(error_px(again, shift_px), 0.085);
 }
 
 TEST_F(PatchAlignerTest, ACornerThatIsNoLongerTheSamePointIsNotTakenForIt) {
   begin(shifted({0, 0}));
   const Eigen::Vector2d wrong_px(14, 9);  // the matches are all wrong
-  EXPECT_LT(aligned(goOn(shifted({0, 0}), wrong_px)), kSide * kSide / 5);
+  EXPECT_LT(goOn(shifted({0, 0}), wrong_px).aligned(), 1U * kSide * kSide / 5);
   goOn(shifted({0, 0}), wrong_px);
   // Twice: the corner counts from now on, and the track says that it is known no better.
   const Eigen::Vector2d on_px(14.4, 9);
