@@ -15,17 +15,24 @@ using kernels::kPatchSide;
 
 constexpr float kPixels = kPatchSide * kPatchSide;
 
-/// Of the compared pixels: gradients along x and y, levels.
-Eigen::Matrix<float, kPatchSide * kPatchSide, 3> columnsOf(const AlignPatch& patch) {
-  Eigen::Matrix<float, kPatchSide * kPatchSide, 3> columns;
-  for (int i = 0; i < kPatchSide * kPatchSide; ++i) {
-    const int y = i / kPatchSide + kPatchBorder;
-    const int x = i % kPatchSide + kPatchBorder;
-    columns(i, 0) = static_cast<float>(patch.rows[y][x + 1] - patch.rows[y][x - 1]);
-    columns(i, 1) = static_cast<float>(patch.rows[y + 1][x] - patch.rows[y - 1][x]);
-    columns(i, 2) = static_cast<float>(patch.rows[y][x]);
+/// Sums over the compared pixels' gradients along x and y, and levels: whole numbers, so that they
+/// are the same on every machine.
+struct PatchSums {
+  Eigen::Vector3i sum = Eigen::Vector3i::Zero();
+  Eigen::Matrix3i products = Eigen::Matrix3i::Zero();
+};
+
+PatchSums sumsOf(const AlignPatch& patch) {
+  PatchSums sums;
+  for (int y = kPatchBorder; y < kPatchBorder + kPatchSide; ++y) {
+    for (int x = kPatchBorder; x < kPatchBorder + kPatchSide; ++x) {
+      const Eigen::Vector3i values(patch.rows[y][x + 1] - patch.rows[y][x - 1],
+                                   patch.rows[y + 1][x] - patch.rows[y - 1][x], patch.rows[y][x]);
+      sums.sum += values;
+      sums.products += values * values.transpose();
+    }
   }
-  return columns;
+  return sums;
 }
 
 }  // namespace
@@ -40,10 +47,10 @@ std::optional<AlignPatch> patchOf(const ImageView& image, int x_px, int y_px) {
                 image.row(y_px + row - kernels::kPatchCentre) + x_px - kernels::kPatchCentre,
                 kernels::kPatchStride);
   }
-  auto columns = columnsOf(patch);
-  const Eigen::RowVector3f mean = columns.colwise().mean();
-  columns.rowwise() -= mean;
-  const Eigen::Matrix3d products = (columns.transpose() * columns).cast<double>();
+  const PatchSums sums = sumsOf(patch);
+  const Eigen::Vector3d mean = sums.sum.cast<double>() / kPixels;
+  const Eigen::Matrix3d products =
+      sums.products.cast<double>() - mean * sums.sum.cast<double>().transpose();
   // Gradients as weak as the steps of grey levels tell no place.
   constexpr double kLeastGradient2 = kPixels;
   const double least = products(0, 0) + products(1, 1) -
@@ -51,7 +58,7 @@ std::optional<AlignPatch> patchOf(const ImageView& image, int x_px, int y_px) {
   if (!(least > kLeastGradient2)) return std::nullopt;
   const Eigen::Matrix3f inverse = products.inverse().cast<float>();
   if (!inverse.allFinite() || !(inverse.diagonal().minCoeff() > 0)) return std::nullopt;
-  Eigen::Map<Eigen::RowVector3f>(patch.mean) = mean;
+  Eigen::Map<Eigen::Vector3f>(patch.mean) = mean.cast<float>();
   int place = 0;
   for (int row = 0; row < 3; ++row)
     for (int column = row; column < 3; ++column) patch.inverse[place++] = inverse(row, column);
