@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   bench::addMatchingRows();
   bench::addProjectionRows();
   bench::addGuidedRows();
+  bench::addAlignmentRows();
   bench::addTrackerRows();
   benchmark::RunSpecifiedBenchmarks();
   return 0;

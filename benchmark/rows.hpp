@@ -3,6 +3,7 @@
 
 namespace ardrone_vslam::bench {
 
+void addAlignmentRows();
 void addCornerRows();
 void addDescriptorRows();
 void addGuidedRows();

@@ -10,10 +10,11 @@
 namespace ardrone_vslam::bench {
 namespace {
 
-auto ours(int features, const Frames& (*frames)()) {
+auto ours(int features, const Frames& (*frames)(), bool align_tracks = true) {
   return [=] {
     TrackerConfig config;
     config.corners.features_per_frame = features;
+    config.align_tracks = align_tracks;
     auto tracker = std::make_shared<Tracker>(config, frames().camera);
     auto found = std::make_shared<ImageFeatures>();
     return [=](std::size_t i) {
@@ -50,6 +51,9 @@ auto openCv(int features, const Frames& (*frames)()) {
 void addTrackerRows() {
   side("tracker_kitti", "ours", ours(600, streetFrames));
   side("tracker_kitti", "cv::ORB + cv::BFMatcher", openCv(600, streetFrames));
+  constexpr bool kAlignTracks = false;
+  side("tracker_whole_pixels_kitti", "ours", ours(600, streetFrames, kAlignTracks));
+  side("tracker_whole_pixels_kitti", "cv::ORB + cv::BFMatcher", openCv(600, streetFrames));
   side("tracker_320x240", "ours", ours(200, smallFrames));
   side("tracker_320x240", "cv::ORB + cv::BFMatcher", openCv(200, smallFrames));
 }

@@ -54,6 +54,19 @@ def check_lens_correction(program, folder):
         assert 0 <= mean_px <= largest_px < math.inf and time_ns > 0 and ratio > 0, rows
 
 
+def check_track_deviation(program, folder):
+    page = run(program, "--quick")
+    assert "## Tracks against truth\n" in page, page
+    rows = re.findall(r"^\| rendered: (.*) \|$", page, re.M)
+    deviations = [[float(cell) for cell in row.split(" | ")[3:9]] for row in rows[:3]]
+    assert len(rows) == 4, page
+    for row in deviations:
+        for whole_px, aligned_px, _ in (row[:3], row[3:]):
+            assert 0 < aligned_px < whole_px / 2, page
+    share = float(rows[3].split(" | ")[2])
+    assert 0.8 < share < 1, page
+
+
 def main():
     program = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
