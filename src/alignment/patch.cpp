@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <cstring>
 
 namespace ardrone_vslam {
@@ -22,15 +23,38 @@ struct PatchSums {
   Eigen::Matrix3i products = Eigen::Matrix3i::Zero();
 };
 
+using Column = std::int16_t[kPatchSide * kPatchSide];
+
+int sumOf(const Column& column) {
+  int sum = 0;
+  for (const std::int16_t value : column) sum += value;
+  return sum;
+}
+
+int productOf(const Column& a, const Column& b) {
+  int sum = 0;
+  for (int i = 0; i < kPatchSide * kPatchSide; ++i) sum += int{a[i]} * int{b[i]};
+  return sum;
+}
+
+// Columns of 16 bits: of these a compiler makes vectors.
 PatchSums sumsOf(const AlignPatch& patch) {
-  PatchSums sums;
-  for (int y = kPatchBorder; y < kPatchBorder + kPatchSide; ++y) {
-    for (int x = kPatchBorder; x < kPatchBorder + kPatchSide; ++x) {
-      const Eigen::Vector3i values(patch.rows[y][x + 1] - patch.rows[y][x - 1],
-                                   patch.rows[y + 1][x] - patch.rows[y - 1][x], patch.rows[y][x]);
-      sums.sum += values;
-      sums.products += values * values.transpose();
+  alignas(16) Column columns[3];
+  for (int row = 0; row < kPatchSide; ++row) {
+    for (int column = 0; column < kPatchSide; ++column) {
+      const int i = row * kPatchSide + column;
+      const int y = row + kPatchBorder;
+      const int x = column + kPatchBorder;
+      columns[0][i] = static_cast<std::int16_t>(patch.rows[y][x + 1] - patch.rows[y][x - 1]);
+      columns[1][i] = static_cast<std::int16_t>(patch.rows[y + 1][x] - patch.rows[y - 1][x]);
+      columns[2][i] = patch.rows[y][x];
     }
+  }
+  PatchSums sums;
+  for (int a = 0; a < 3; ++a) {
+    sums.sum[a] = sumOf(columns[a]);
+    for (int b = a; b < 3; ++b)
+      sums.products(a, b) = sums.products(b, a) = productOf(columns[a], columns[b]);
   }
   return sums;
 }
