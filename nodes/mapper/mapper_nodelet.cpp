@@ -39,7 +39,7 @@ void MapperNodelet::readParameters() {
   try {
     reader.finish();
     // Some faults lie between parameters: tell them now, not in mid-air.
-    Slam(settings_.slam, Eigen::Isometry3d::Identity());
+    const Slam trial(settings_.slam, Eigen::Isometry3d::Identity());
     matcher_ =
         std::make_unique<FrameMatcher>(settings_.slam.odometry, settings_.node.odometry_wait_s,
                                        settings_.slam.image_time_offset_s);
@@ -146,7 +146,7 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
 /// In tf, odom -> base is the driver's own, which is not what was integrated anew: map -> base
 /// comes out right all the same.
 Eigen::Isometry3d MapperNodelet::mapToOdomOfTf(const FrameResult& result) const {
-  const Eigen::Isometry3d T_map_odom = slam_->slam().T_map_odom();
+  Eigen::Isometry3d T_map_odom = slam_->slam().T_map_odom();
   if (settings_.slam.odometry_adapter.mode == OdometryMode::kPose) return T_map_odom;
   const Frames& frames = odometry_->frames();
   const auto T_odom_base = mounting_->T_odom_base(frames.odom, frames.base, result.stamp_ns);
