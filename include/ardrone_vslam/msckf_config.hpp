@@ -34,19 +34,18 @@ void visitParameters(HeightConfig& c, Visitor&& visit) {
 struct MsckfConfig {
   OdometryNoiseConfig odometry;
   double track_sigma_px = 1;
-  double track_common_px = 0.5;
+  double track_common_px = 0.7;
   double zero_motion_depth_m = 10;
   int max_clones = 12;
   int max_anchors = 32;
   double fix_min_age_s = 3;
+  int fix_independent_landmarks = 10;
   HeightConfig height;
 
-  // No parameters, but varied by tests.
+  // No parameter, but varied by tests.
   /// Of a track by itself, beside what its grey levels tell: a scene that is not flat, calibration,
   /// a rolling shutter. Less harms hand-held images, more gives away what alignment gains.
   double track_scene_px = 0.4;
-  /// Landmarks of one place err alike: together they are not taken as better than so many.
-  int fix_independent_landmarks = 10;
 };
 
 template <class Visitor>
@@ -64,11 +63,10 @@ void visitParameters(MsckfConfig& c, Visitor&& visit) {
                       "distance to what is seen",
                       turnFirst(18)},
         c.zero_motion_depth_m);
-  visit(
-      ParameterInfo{"track_sigma_px", "px", 0.01, 100,
-                    "standard deviation of a corner: of a landmark's match, and in a track that is "
-                    "not aligned (`align_tracks`). More with a rolling shutter or blur"},
-      c.track_sigma_px);
+  visit(ParameterInfo{"track_sigma_px", "px", 0.01, 100,
+                      "standard deviation of a corner: of a landmark's match, and in a track while "
+                      "it is not aligned. More with a rolling shutter or blur"},
+        c.track_sigma_px);
   visit(ParameterInfo{"max_clones", "frames", 3, 60,
                       "keyframes whose poses are in the state: a long track spans so many. Fewer "
                       "are faster and less exact"},
@@ -82,6 +80,10 @@ void visitParameters(MsckfConfig& c, Visitor&& visit) {
                       "landmarks of an anchor younger than this share the present drift and do not "
                       "correct it"},
         c.fix_min_age_s);
+  visit(ParameterInfo{"fix_independent_landmarks", "landmarks", 1, 1000000,
+                      "landmarks of one place err alike: together they are not taken as better "
+                      "than so many independent ones"},
+        c.fix_independent_landmarks);
 }
 
 }  // namespace ardrone_vslam

@@ -83,8 +83,8 @@ struct TrackerConfig {
   CornerDetectorConfig corners;
   FreakConfig freak;  ///< has no parameters
   FrameTrackerConfig tracks;
-  bool align_tracks = true;
   bool use_attitude = false;
+  bool align_tracks = true;  ///< no parameter. False: on whole pixels, as the thesis has them
   UndistortMethod undistort = UndistortMethod::kTable;  ///< no parameter: docs/lens_correction.md
 };
 
@@ -92,11 +92,6 @@ template <class Visitor>
 void visitParameters(TrackerConfig& c, Visitor&& visit) {
   visitParameters(c.corners, visit);
   visitParameters(c.tracks, visit);
-  visit(ParameterInfo{"align_tracks", "switch", 0, 0,
-                      "look for what a track showed first, by its grey levels, so that its "
-                      "positions lie between pixels. Off: corners on whole pixels, as the thesis "
-                      "has them"},
-        c.align_tracks);
   visit(ParameterInfo{"use_attitude", "switch", 0, 0,
                       "turn descriptors by the odometry's attitude (the nodelet's topic "
                       "`attitude`) and not by each corner's own look: cheaper and steadier"},

@@ -60,7 +60,6 @@ constexpr OldName kTable[] = {
     constant("mapper", "max_view_angle_deg", kDescriptor),
     constant("mapper", "max_distance_ratio", kDescriptor),
     constant("mapper", "max_window_share"),
-    constant("mapper", "fix_independent_landmarks"),
     constant("mapper", "index_from_landmarks"),
     constant("mapper", "index_probes"),
     constant("mapper", "max_hamming_bits", kDescriptor),
