@@ -15,7 +15,9 @@ constexpr int kThirds = 3;
 
 void printHead() {
   std::printf(
-      "\n## Tracks against truth\n\n"
+      "# Tracks against truth\n\n"
+      "Made by `scripts/benchmark`; edit benchmark/tracks, not this page. It measures the "
+      "[tracks between pixels](front_end.md#tracks-between-pixels).\n\n"
       "How far the tracks of %d features are from where the true motion allows them, on whole "
       "pixels and aligned. The deviation is 1.4826 times the median magnitude of the Sampson "
       "distance between two images [px], the bias its median with the sign. \"Truth\" takes the "

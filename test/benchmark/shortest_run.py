@@ -56,7 +56,7 @@ def check_lens_correction(program, folder):
 
 def check_track_deviation(program, folder):
     page = run(program, "--quick")
-    assert "## Tracks against truth\n" in page, page
+    assert "# Tracks against truth\n" in page, page
     rows = re.findall(r"^\| rendered: (.*) \|$", page, re.M)
     deviations = [[float(cell) for cell in row.split(" | ")[3:9]] for row in rows[:3]]
     assert len(rows) == 4, page
