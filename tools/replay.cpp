@@ -45,6 +45,7 @@ struct Options {
   std::string seeds;
   std::string frames;
   bool ping_pong = false;
+  bool whole_pixels = false;
   bool report = false;
   int threads = 2;
   ComputerSpeed speed;
@@ -88,6 +89,8 @@ void addOptions(CLI::App& app, Options& o) {
       ->excludes(o.seed_option);
   app.add_option("--frames", o.frames, "A:B:STEP, frames A up to but without B");
   app.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
+  app.add_flag("--whole-pixels", o.whole_pixels,
+               "tracks are not aligned between pixels, as the thesis has them");
   app.add_flag("--report", o.report,
                "also report.html, a page with tables and plots (docs/evaluate.md)");
   o.budget_option =
@@ -249,7 +252,8 @@ std::vector<std::string> reportRuns(const Options& o, const Sequence& sequence,
 }
 
 int run(const Options& o) {
-  const PipelineConfig config = configOf(o);
+  PipelineConfig config = configOf(o);
+  config.tracker.align_tracks = !o.whole_pixels;
   checkOdometry(o, config);
   const std::optional<ComputerSpeed> speed = speedOf(o);
   const FrameSelection selection =

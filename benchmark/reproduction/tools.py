@@ -40,9 +40,9 @@ class Tools:
         return folder
 
     def replay(self, name, sequence, *options, settings=()):
-        """@return the run's folder"""
+        """On whole pixels, as the thesis's tracker. @return the run's folder"""
         folder = os.path.join(self.out, "runs", name)
-        self._run(os.path.join(self.programs, "replay"), sequence, "--out", folder, *options, *self._settings(settings))
+        self._run(os.path.join(self.programs, "replay"), sequence, "--whole-pixels", "--out", folder, *options, *self._settings(settings))
         return folder
 
     def simulate_landmarks(self, name, path, *options, settings=()):

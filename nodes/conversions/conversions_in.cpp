@@ -41,6 +41,19 @@ std::string sizesFault(const Features& m) {
   return {};
 }
 
+/// @return the fault
+std::string faultOfFeature(const Features& m, std::size_t i) {
+  const Eigen::Vector3d bearing(m.bearing[3 * i], m.bearing[3 * i + 1], m.bearing[3 * i + 2]);
+  if (!(std::abs(bearing.norm() - 1) < kBearingTolerance)) {
+    return text("bearing ", i, " has length ", bearing.norm(), "; unit vectors are asked for");
+  }
+  if (!m.information.empty() && !isInformation(&m.information[3 * i])) {
+    return text("information ", i, " is neither positive definite nor all 0");
+  }
+  if (m.track_id[i] == 0) return text("track_id ", i, " is 0, which is not a track");
+  return {};
+}
+
 Matrix6d toMatrix(const boost::array<double, 36>& row_major) {
   return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(row_major.data());
 }
@@ -153,14 +166,8 @@ std::string faultOf(const Features& m) {
   if (!fault.empty()) return fault;
   if (!allFinite(m.x) || !allFinite(m.y)) return "a pixel position is not finite";
   for (std::size_t i = 0; i < m.x.size(); ++i) {
-    const Eigen::Vector3d bearing(m.bearing[3 * i], m.bearing[3 * i + 1], m.bearing[3 * i + 2]);
-    if (!(std::abs(bearing.norm() - 1) < kBearingTolerance)) {
-      return text("bearing ", i, " has length ", bearing.norm(), "; unit vectors are asked for");
-    }
-    if (!m.information.empty() && !isInformation(&m.information[3 * i])) {
-      return text("information ", i, " is neither positive definite nor all 0");
-    }
-    if (m.track_id[i] == 0) return text("track_id ", i, " is 0, which is not a track");
+    std::string feature_fault = faultOfFeature(m, i);
+    if (!feature_fault.empty()) return feature_fault;
   }
   return {};
 }

@@ -5,6 +5,7 @@
 
 #include "support/generated_image.hpp"
 #include "support/intrinsics.hpp"
+#include "support/textured_image.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -40,6 +41,25 @@ TEST(Tracker, FeaturesLieWhereTheImageShowsTheirCorners) {
     image = test::TestImage(100, 90);
     image.at(x, y) = 255;
     EXPECT_EQ(featuresOf(image, 150).size(), 0U) << x;
+  }
+}
+
+TEST(Tracker, TracksLieBetweenPixelsUnlessToldOtherwise) {
+  const test::Texture texture(5);
+  for (const bool align_tracks : {true, false}) {
+    TrackerConfig config;
+    config.align_tracks = align_tracks;
+    Tracker tracker(config, test::pinhole(200, 160, 200));
+    ImageFeatures features;
+    tracker.process(texture.image(200, 160, 0, 0, 1.8).view(), 1, features);
+    tracker.process(texture.image(200, 160, 1.4, 0.6, 1.8).view(), 2, features);
+    int between = 0;
+    for (const Eigen::Vector2f& pixel_px : features.pixel_px)
+      between += pixel_px != pixel_px.array().round().matrix() ? 1 : 0;
+    ASSERT_GT(features.size(), 10U);
+    EXPECT_EQ(between > 5, align_tracks);
+    EXPECT_EQ(features.information_px2.size(), align_tracks ? features.size() : 0U);
+    EXPECT_TRUE(align_tracks || between == 0);
   }
 }
 
