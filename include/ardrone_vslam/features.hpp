@@ -30,9 +30,9 @@ static_assert(sizeof(Descriptor) == 64, "a descriptor is exactly 512 bits");
 /// What is known of a feature's position beside its track's first corner: the inverse of the
 /// variance along columns and rows. All 0: not aligned, the position is a corner's whole pixel.
 struct PixelInformation {
-  float xx_per_px2 = 0;
-  float xy_per_px2 = 0;
-  float yy_per_px2 = 0;
+  float xx_per_px2 = 0;  ///< along columns
+  float xy_per_px2 = 0;  ///< of both
+  float yy_per_px2 = 0;  ///< along rows
 
   /// Whether it tells nothing.
   bool empty() const { return xx_per_px2 == 0 && yy_per_px2 == 0; }
