@@ -24,8 +24,8 @@ struct TrackPoint {
 using TrackPoints = std::unordered_map<std::uint32_t, TrackPoint>;
 
 std::optional<Eigen::Matrix2d> varianceOf(const ImageFeatures& features, std::size_t i) {
-  if (features.information_px2.empty() || features.information_px2[i].empty()) return std::nullopt;
-  const PixelInformation& told = features.information_px2[i];
+  if (features.information.empty() || features.information[i].empty()) return std::nullopt;
+  const PixelInformation& told = features.information[i];
   Eigen::Matrix2d information;
   information << told.xx_per_px2, told.xy_per_px2, told.xy_per_px2, told.yy_per_px2;
   return information.inverse();

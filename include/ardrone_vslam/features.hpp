@@ -58,7 +58,7 @@ struct ImageFeatures {
   std::vector<std::uint16_t> age_frames;  ///< frames since the track began, 0 for a new one
   std::vector<Descriptor> descriptor;     ///< FREAK of the patch around the corner
   // Of a tracker that aligns; else both are empty.
-  std::vector<PixelInformation> information_px2;  ///< of the position
+  std::vector<PixelInformation> information;  ///< of the position
   std::vector<float> residual;  ///< root mean square that alignment left [grey levels]
 
   /// Number of features.

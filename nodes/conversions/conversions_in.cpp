@@ -188,7 +188,7 @@ void toFeatures(const Features& message, ImageFeatures& features) {
   features.track_id = message.track_id;
   features.age_frames = message.age;
   for (std::size_t i = 0; i + 2 < message.information.size(); i += 3)
-    features.information_px2.push_back(
+    features.information.push_back(
         {message.information[i], message.information[i + 1], message.information[i + 2]});
   features.residual = message.residual;
   features.descriptor.resize(count);

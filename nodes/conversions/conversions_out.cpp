@@ -107,7 +107,7 @@ void toMessage(const ImageFeatures& features, const std::string& camera_frame, F
   message.track_id = features.track_id;
   message.age = features.age_frames;
   message.information.clear();
-  for (const PixelInformation& known : features.information_px2)
+  for (const PixelInformation& known : features.information)
     message.information.insert(message.information.end(),
                                {known.xx_per_px2, known.xy_per_px2, known.yy_per_px2});
   message.residual = features.residual;

@@ -2,6 +2,7 @@
 #include "alignment/patch_aligner.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -36,7 +37,7 @@ void PatchAligner::reserve(std::size_t features) {
 
 void PatchAligner::align(const ImageView& image, const std::vector<int>& previous_of,
                          ImageFeatures& features) {
-  features.information_px2.assign(features.size(), {});
+  features.information.assign(features.size(), {});
   features.residual.assign(features.size(), 0);
   next_.clear();
   for (std::size_t i = 0; i < features.size(); ++i) {
@@ -50,7 +51,7 @@ void PatchAligner::align(const ImageView& image, const std::vector<int>& previou
     // The corner is the track's point, so that it is where it is by definition.
     begin(image, features.pixel_px[i], reference);
     if (reference.patch)
-      features.information_px2[i] = {1 / kModelVariance_px2, 0, 1 / kModelVariance_px2};
+      features.information[i] = {1 / kModelVariance_px2, 0, 1 / kModelVariance_px2};
   }
   std::swap(references_, next_);
 }
@@ -85,7 +86,7 @@ void PatchAligner::goOn(const ImageView& image, std::size_t feature, Reference& 
   const Eigen::Matrix2f information = variance_px2.inverse();
   features.pixel_px[feature] = point_px;
   features.bearing_cam[feature] = bearing->cast<float>();
-  features.information_px2[feature] = {information(0, 0), information(0, 1), information(1, 1)};
+  features.information[feature] = {information(0, 0), information(0, 1), information(1, 1)};
   features.residual[feature] = std::sqrt(std::max(found.rest, 0.F) / kPixels);
   if (explainedShare(found) >= kRenewBelow) return;
   reference.variance_px2 = variance_px2.trace() / 2;

@@ -12,14 +12,14 @@ void ImageFeatures::clear() {
   track_id.clear();
   age_frames.clear();
   descriptor.clear();
-  information_px2.clear();
+  information.clear();
   residual.clear();
 }
 
 std::size_t ImageFeatures::aligned() const {
-  const auto none = std::count_if(information_px2.begin(), information_px2.end(),
+  const auto none = std::count_if(information.begin(), information.end(),
                                   [](const PixelInformation& known) { return known.empty(); });
-  return information_px2.size() - static_cast<std::size_t>(none);
+  return information.size() - static_cast<std::size_t>(none);
 }
 
 void ImageFeatures::reserve(std::size_t count) {
@@ -29,7 +29,7 @@ void ImageFeatures::reserve(std::size_t count) {
   track_id.reserve(count);
   age_frames.reserve(count);
   descriptor.reserve(count);
-  information_px2.reserve(count);
+  information.reserve(count);
   residual.reserve(count);
 }
 

@@ -69,14 +69,23 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// @param B  rows across the predicted direction
-RayResidual residualAcross(const Eigen::Matrix<double, 2, 3>& B, const Ray& measured,
-                           const Prediction& predicted, const Eigen::Vector3d& lever) {
+/// @param rowsAcross  gives the two rows, across the predicted direction, that residuals are taken
+/// in
+template <class RowsAcross>
+std::optional<RayResidual> residualIn(const RowsAcross& rowsAcross, const Clone& pose,
+                                      const Eigen::Vector3d& camera_rig,
+                                      const Eigen::Vector3d& bearing_rig,
+                                      const Eigen::Vector3d& point_map) {
+  const Eigen::Vector3d lever = pose.R_map_rig * camera_rig;
+  const Ray measured{pose.position_map + lever, pose.R_map_rig * bearing_rig};
+  const auto predicted = predict(measured, point_map);
+  if (!predicted) return std::nullopt;
+  const Eigen::Matrix<double, 2, 3> B = rowsAcross(predicted->direction);
   RayResidual ray;
-  ray.residual = B * measured.direction_map / predicted.along;
-  ray.point = B / predicted.distance_m;
+  ray.residual = B * measured.direction_map / predicted->along;
+  ray.point = B / predicted->distance_m;
   ray.pose.leftCols<3>() = -ray.point;
-  ray.pose.rightCols<3>() = B * skew(predicted.direction) + ray.point * skew(lever);
+  ray.pose.rightCols<3>() = B * skew(predicted->direction) + ray.point * skew(lever);
   return ray;
 }
 
@@ -85,21 +94,16 @@ RayResidual residualAcross(const Eigen::Matrix<double, 2, 3>& B, const Ray& meas
 std::optional<RayResidual> rayResidual(const Clone& pose, const Eigen::Vector3d& camera_rig,
                                        const Eigen::Vector3d& bearing_rig,
                                        const Eigen::Vector3d& point_map) {
-  const Eigen::Vector3d lever = pose.R_map_rig * camera_rig;
-  const Ray measured{pose.position_map + lever, pose.R_map_rig * bearing_rig};
-  const auto predicted = predict(measured, point_map);
-  if (!predicted) return std::nullopt;
-  return residualAcross(tangents(predicted->direction), measured, *predicted, lever);
+  return residualIn(tangents, pose, camera_rig, bearing_rig, point_map);
 }
 
 std::optional<RayResidual> rayResidual(const Clone& pose, const Eigen::Vector3d& camera_rig,
                                        const TrackView& view, const Eigen::Vector3d& point_map) {
-  const Eigen::Vector3d lever = pose.R_map_rig * camera_rig;
-  const Ray measured{pose.position_map + lever, pose.R_map_rig * view.bearing_rig};
-  const auto predicted = predict(measured, point_map);
-  if (!predicted) return std::nullopt;
   const RayRoot root_map = view.root_rig * pose.R_map_rig.transpose();
-  return residualAcross(across(root_map, predicted->direction), measured, *predicted, lever);
+  const auto rowsAcross = [&root_map](const Eigen::Vector3d& direction_map) {
+    return across(root_map, direction_map);
+  };
+  return residualIn(rowsAcross, pose, camera_rig, view.bearing_rig, point_map);
 }
 
 RayRoot rayRoot(const Eigen::Vector3d& bearing, double sigma_rad) {

@@ -59,9 +59,9 @@ TrackWindow::Motion TrackWindow::motionSince(const Clone& frame, const Clone& pr
 RayRoot TrackWindow::rootOf(const ImageFeatures& features, std::size_t feature) const {
   const Eigen::Vector3d bearing_cam = features.bearing_cam[feature].cast<double>();
   const double focal_px = features.focal_length_px;
-  if (features.information_px2.empty() || features.information_px2[feature].empty())
+  if (features.information.empty() || features.information[feature].empty())
     return rayRoot(bearing_cam, corner_sigma_px_ / focal_px);
-  const PixelInformation& known = features.information_px2[feature];
+  const PixelInformation& known = features.information[feature];
   Eigen::Matrix2d information;
   information << known.xx_per_px2, known.xy_per_px2, known.xy_per_px2, known.yy_per_px2;
   const Eigen::Matrix2d scene_px2 = scene_sigma_px_ * scene_sigma_px_ * Eigen::Matrix2d::Identity();

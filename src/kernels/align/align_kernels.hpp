@@ -26,8 +26,6 @@ struct AlignPatch {
 };
 
 constexpr int kAlignFarthest_px = 3;  ///< each way, from where the search starts
-/// Pixels that must lie around the start, in the image.
-constexpr int kAlignMargin_px = kAlignFarthest_px + kPatchStride;
 
 /// Where a patch was found.
 struct AlignResult {
@@ -49,7 +47,8 @@ struct AlignSums {
 };
 
 /// @param pixels  the image's first pixel
-/// @param x_px, y_px  where the search for the patch's own pixel starts, kAlignMargin_px inside
+/// @param x_px, y_px  where the search for the patch's own pixel starts, so far inside the image
+///   that kAlignFarthest_px further the patch still is
 AlignResult alignScalar(const AlignPatch& patch, const std::uint8_t* pixels,
                         std::ptrdiff_t stride_bytes, float x_px, float y_px);
 AlignResult alignAvx2(const AlignPatch& patch, const std::uint8_t* pixels,

@@ -31,8 +31,8 @@ ImageFeatures randomFeatures(std::size_t count, std::uint64_t seed) {
     for (auto& word : descriptor.words) word = random();
     features.descriptor.push_back(descriptor);
     const float xy = number(random);
-    features.information_px2.push_back({2, xy, 3});
-    if (i % 3 == 0) features.information_px2.back() = {};
+    features.information.push_back({2, xy, 3});
+    if (i % 3 == 0) features.information.back() = {};
     features.residual.push_back(2 + number(random));
   }
   return features;
@@ -50,11 +50,11 @@ void expectEqual(const ImageFeatures& a, const ImageFeatures& b) {
   EXPECT_EQ(a.age_frames, b.age_frames);
   EXPECT_EQ(a.descriptor, b.descriptor);
   EXPECT_EQ(a.residual, b.residual);
-  ASSERT_EQ(a.information_px2.size(), b.information_px2.size());
-  for (std::size_t i = 0; i < a.information_px2.size(); ++i) {
-    EXPECT_EQ(a.information_px2[i].xx_per_px2, b.information_px2[i].xx_per_px2);
-    EXPECT_EQ(a.information_px2[i].xy_per_px2, b.information_px2[i].xy_per_px2);
-    EXPECT_EQ(a.information_px2[i].yy_per_px2, b.information_px2[i].yy_per_px2);
+  ASSERT_EQ(a.information.size(), b.information.size());
+  for (std::size_t i = 0; i < a.information.size(); ++i) {
+    EXPECT_EQ(a.information[i].xx_per_px2, b.information[i].xx_per_px2);
+    EXPECT_EQ(a.information[i].xy_per_px2, b.information[i].xy_per_px2);
+    EXPECT_EQ(a.information[i].yy_per_px2, b.information[i].yy_per_px2);
   }
 }
 

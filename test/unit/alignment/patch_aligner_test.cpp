@@ -60,7 +60,7 @@ class PatchAlignerTest : public ::testing::Test {
   double error_px(const ImageFeatures& features, const Eigen::Vector2d& shift_px) const {
     std::vector<double> errors;
     for (std::size_t i = 0; i < features.size(); ++i) {
-      if (features.information_px2[i].empty()) continue;
+      if (features.information[i].empty()) continue;
       errors.push_back((features.pixel_px[i].cast<double>() - begin_px_[i] - shift_px).norm());
     }
     return test::median(errors);
@@ -87,7 +87,7 @@ TEST_F(PatchAlignerTest, TracksLieBetweenPixelsAndDoNotDriftAway) {
     EXPECT_GT(features.aligned(), 9U * kSide * kSide / 10) << "image " << i;
     EXPECT_LT(error_px(features, shift_px), 0.085) << "image " << i;  // 0.056 is measured
     const std::size_t some = 5;
-    if (features.information_px2[some].empty()) continue;
+    if (features.information[some].empty()) continue;
     const auto bearing = camera_.bearing(features.pixel_px[some].cast<double>());
     EXPECT_LT((bearing->cast<float>() - features.bearing_cam[some]).norm(), 1e-6F);
   }
@@ -105,7 +105,7 @@ TEST_F(PatchAlignerTest, ClaimsTheNoiseThatItHas) {
   const ImageFeatures features = goOn(shifted(shift_px), shift_px);
   std::vector<double> squared;
   for (std::size_t i = 0; i < features.size(); ++i) {
-    const PixelInformation& known = features.information_px2[i];
+    const PixelInformation& known = features.information[i];
     if (known.empty()) continue;
     const Eigen::Vector2d error = features.pixel_px[i].cast<double>() - begin_px_[i] - shift_px;
     squared.push_back(known.xx_per_px2 * error.x() * error.x() +
@@ -147,7 +147,7 @@ TEST_F(PatchAlignerTest, WhatIsCoveredKeepsItsCornerAndIsFoundAgain) {
   const ImageFeatures half = goOn(covered, {0.4, 0});
   for (std::size_t i = 0; i < half.size(); ++i) {
     const bool is_covered = begin_px_[i].x() < kWidth_px / 2.0 - 10;
-    EXPECT_TRUE(!is_covered || half.information_px2[i].empty());
+    EXPECT_TRUE(!is_covered || half.information[i].empty());
   }
   const Eigen::Vector2d shift_px(0.8, 0.3);
   const ImageFeatures again = goOn(shifted(shift_px), shift_px);
@@ -164,7 +164,7 @@ TEST_F(PatchAlignerTest, ACornerThatIsNoLongerTheSamePointIsNotTakenForIt) {
   const Eigen::Vector2d on_px(14.4, 9);
   const ImageFeatures features = goOn(shifted({0.4, 0}), on_px);
   int uncertain = 0;
-  for (const PixelInformation& known : features.information_px2)
+  for (const PixelInformation& known : features.information)
     uncertain += !known.empty() && known.xx_per_px2 < 1 / 0.35F ? 1 : 0;
   EXPECT_GT(uncertain, kSide * kSide / 2);
 }

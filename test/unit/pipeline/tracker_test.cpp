@@ -58,7 +58,7 @@ TEST(Tracker, TracksLieBetweenPixelsUnlessToldOtherwise) {
       between += pixel_px != pixel_px.array().round().matrix() ? 1 : 0;
     ASSERT_GT(features.size(), 10U);
     EXPECT_EQ(between > 5, align_tracks);
-    EXPECT_EQ(features.information_px2.size(), align_tracks ? features.size() : 0U);
+    EXPECT_EQ(features.information.size(), align_tracks ? features.size() : 0U);
     EXPECT_TRUE(align_tracks || between == 0);
   }
 }

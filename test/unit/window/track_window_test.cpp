@@ -177,13 +177,13 @@ TEST(TrackWindow, RaysAreKnownAsTheTrackerSaysAndTheSceneAllows) {
   EXPECT_LT((sigmas_px(corner) - Eigen::Vector2d(kCornerSigma_px, kCornerSigma_px)).norm(), 1e-3);
   Images aligned;
   aligned.show({1});
-  aligned.features.information_px2 = {{100, 0, 25}};  // 0.1 px and 0.2 px
+  aligned.features.information = {{100, 0, 25}};  // 0.1 px and 0.2 px
   aligned.window.add(1, aligned.features, aligned.order);
   const Eigen::Vector2d expected(std::hypot(0.1, kSceneSigma_px), std::hypot(0.2, kSceneSigma_px));
   EXPECT_LT((sigmas_px(aligned) - expected).norm(), 1e-3);
   Images not_aligned;
   not_aligned.show({1});
-  not_aligned.features.information_px2 = {{}};
+  not_aligned.features.information = {{}};
   not_aligned.window.add(1, not_aligned.features, not_aligned.order);
   EXPECT_LT((sigmas_px(not_aligned) - Eigen::Vector2d(kCornerSigma_px, kCornerSigma_px)).norm(),
             1e-3);
