@@ -12,7 +12,6 @@ namespace ardrone_vslam {
 namespace {
 
 using Vector5d = Eigen::Matrix<double, 5, 1>;
-using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
 constexpr int kCommonRounds = 4;
 constexpr int kPlaneRounds = 8;
@@ -22,17 +21,12 @@ constexpr double kInlierShare = 0.6;
 constexpr double kNearestToWay = 0.15;
 /// Jumps of neighbouring corners are alike: more tracks than this say no more.
 constexpr double kIndependentTracks = 40;
+constexpr double kMostSense = 5;  // deviations of one corner, of the way's sense
 
 double weightOf(double left, double scale) {
   const double off = left / scale;
   return 1 / ((1 + off * off) * (1 + off * off));  // Geman and McClure
 }
-
-/// Turn and way between two images; the way has length 1.
-struct Motion {
-  Eigen::Matrix3d R_then_now = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d way_then = Eigen::Vector3d::UnitZ();
-};
 
 struct Prior {
   Eigen::Vector3d way_then = Eigen::Vector3d::UnitZ();
@@ -71,13 +65,6 @@ Eigen::Matrix3d commonTurn(const std::vector<BearingPair>& pairs, double corner_
   return R_then_now;
 }
 
-Eigen::Matrix<double, 3, 2> tangentsOf(const Eigen::Vector3d& direction) {
-  Eigen::Matrix<double, 3, 2> across;
-  across.col(0) = direction.unitOrthogonal();
-  across.col(1) = direction.cross(across.col(0));
-  return across;
-}
-
 /// Normal equations of the distances from the epipolar planes; turn, then the way across itself.
 struct PlaneFit {
   Matrix5d A = Matrix5d::Zero();
@@ -86,8 +73,8 @@ struct PlaneFit {
   int inliers = 0;
 };
 
-PlaneFit planeFit(const std::vector<BearingPair>& pairs, const Motion& motion, const Prior& prior,
-                  double scale_rad) {
+PlaneFit planeFit(const std::vector<BearingPair>& pairs, const ImageMotion& motion,
+                  const Prior& prior, double scale_rad) {
   PlaneFit fit;
   const Eigen::Matrix<double, 3, 2> across = tangentsOf(motion.way_then);
   for (const BearingPair& pair : pairs) {
@@ -114,7 +101,7 @@ PlaneFit planeFit(const std::vector<BearingPair>& pairs, const Motion& motion, c
 
 /// Improves the motion (Levenberg and Marquardt); the scale shrinks to the corners' own noise.
 PlaneFit refine(const std::vector<BearingPair>& pairs, double corner_sigma_rad, const Prior& prior,
-                Motion& motion) {
+                ImageMotion& motion) {
   double scale_rad = 4 * kInlierSigmas * corner_sigma_rad;
   double damping = 1e-3;
   PlaneFit fit = planeFit(pairs, motion, prior, scale_rad);
@@ -122,7 +109,7 @@ PlaneFit refine(const std::vector<BearingPair>& pairs, double corner_sigma_rad, 
     Matrix5d A = fit.A;
     A.diagonal() *= 1 + damping;
     const Vector5d step = -A.ldlt().solve(fit.g);
-    Motion moved;
+    ImageMotion moved;
     moved.way_then = (motion.way_then + tangentsOf(motion.way_then) * step.tail<2>()).normalized();
     moved.R_then_now = rotationOf(step.head<3>()) * motion.R_then_now;
     const PlaneFit tried = planeFit(pairs, moved, prior, scale_rad);
@@ -140,9 +127,41 @@ PlaneFit refine(const std::vector<BearingPair>& pairs, double corner_sigma_rad, 
   return fit;
 }
 
+/// Points are in front of the camera: the way's sign, and pairs that contradict it cost like
+/// outliers.
+void findSense(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
+               ImageMotion& motion) {
+  double ahead = 0;
+  int forward = 0, backward = 0;
+  for (const BearingPair& pair : pairs) {
+    const Eigen::Vector3d now = motion.R_then_now * pair.now;
+    const Eigen::Vector3d across = pair.then.dot(motion.way_then) * pair.then - motion.way_then;
+    const double sine = across.norm();
+    if (sine < kNearestToWay) continue;
+    const double shift = (now - pair.then).dot(across) / sine / corner_sigma_rad;
+    const Eigen::Vector3d normal = motion.way_then.cross(now);
+    if (std::abs(pair.then.dot(normal)) > kInlierSigmas * corner_sigma_rad * sine) continue;
+    ahead += std::clamp(shift, -kMostSense, kMostSense);
+    forward += shift > kInlierSigmas ? 1 : 0;
+    backward += shift < -kInlierSigmas ? 1 : 0;
+  }
+  if (ahead < 0) {
+    motion.way_then = -motion.way_then;
+    std::swap(forward, backward);
+  }
+  motion.cost += backward;
+}
+
 }  // namespace
 
-std::optional<ImageRotation> fitTurn(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
+Eigen::Matrix<double, 3, 2> tangentsOf(const Eigen::Vector3d& direction) {
+  Eigen::Matrix<double, 3, 2> across;
+  across.col(0) = direction.unitOrthogonal();
+  across.col(1) = direction.cross(across.col(0));
+  return across;
+}
+
+std::optional<ImageMotion> fitMotion(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
                                      const DisplacementGuess& guess) {
   if (pairs.size() < kFewestTurnTracks) return std::nullopt;
   Prior prior;
@@ -152,22 +171,34 @@ std::optional<ImageRotation> fitTurn(const std::vector<BearingPair>& pairs, doub
   const double sigma_rad =
       std::max(guess.sigma_m, 1e-3 * displacement_m) / std::max(displacement_m, 1e-9);
   prior.weight = std::pow(corner_sigma_rad / std::min(sigma_rad, 1.0), 2);
-  Motion motion;
+  ImageMotion motion;
   motion.way_then = prior.way_then;
   motion.R_then_now = commonTurn(pairs, corner_sigma_rad, prior.way_then);
   const PlaneFit fit = refine(pairs, corner_sigma_rad, prior, motion);
   const auto count = static_cast<double>(pairs.size());
   if (!motion.R_then_now.allFinite() || fit.inliers < kInlierShare * count) return std::nullopt;
   const double share = std::min(1.0, kIndependentTracks / fit.inliers);
-  const double scale = 1 / (corner_sigma_rad * corner_sigma_rad);
-  const Eigen::Matrix2d A_prior = prior.weight * Eigen::Matrix2d::Identity();
-  const Eigen::Matrix2d A_way = share * (fit.A.bottomRightCorner<2, 2>() - A_prior) + A_prior;
-  const Eigen::Matrix<double, 3, 2> A_mixed = share * fit.A.topRightCorner<3, 2>();
+  Matrix5d of_prior = Matrix5d::Zero();
+  of_prior.bottomRightCorner<2, 2>() = prior.weight * Eigen::Matrix2d::Identity();
+  motion.information =
+      (share * (fit.A - of_prior) + of_prior) / (corner_sigma_rad * corner_sigma_rad);
+  motion.inliers = fit.inliers;
+  motion.cost = fit.cost;
+  findSense(pairs, corner_sigma_rad, motion);
+  return motion;
+}
+
+std::optional<ImageRotation> fitTurn(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
+                                     const DisplacementGuess& guess) {
+  const auto motion = fitMotion(pairs, corner_sigma_rad, guess);
+  if (!motion) return std::nullopt;
+  const Eigen::Matrix<double, 3, 2> A_mixed = motion->information.topRightCorner<3, 2>();
   ImageRotation turn;
-  turn.R_then_now = motion.R_then_now;
-  turn.information = scale * (share * fit.A.topLeftCorner<3, 3>() -
-                              A_mixed * A_way.inverse() * A_mixed.transpose());
-  turn.inliers = fit.inliers;
+  turn.R_then_now = motion->R_then_now;
+  turn.information =
+      motion->information.topLeftCorner<3, 3>() -
+      A_mixed * motion->information.bottomRightCorner<2, 2>().inverse() * A_mixed.transpose();
+  turn.inliers = motion->inliers;
   return turn;
 }
 

@@ -7,6 +7,8 @@
 
 namespace ardrone_vslam {
 
+using Matrix5d = Eigen::Matrix<double, 5, 5>;
+
 /// One track in two images: unit vectors, each in its own image's optical frame.
 struct BearingPair {
   Eigen::Vector3d then;  ///< in the earlier image
@@ -20,6 +22,21 @@ struct DisplacementGuess {
   double sigma_m = 0;                                        ///< per axis
 };
 
+/// Turn of the camera, and which way it went, between two images.
+struct ImageMotion {
+  Eigen::Matrix3d R_then_now =
+      Eigen::Matrix3d::Identity();  ///< takes directions in the later image to the earlier one
+  Eigen::Vector3d way_then = Eigen::Vector3d::UnitZ();  ///< of length 1, axes of the image then
+  /// Inverse covariance [1/rad^2] of the rotation vector, axes of the image then, and of the way
+  /// along tangentsOf(way_then).
+  Matrix5d information = Matrix5d::Zero();
+  int inliers = 0;  ///< pairs that agree with it
+  double cost = 0;  ///< sum over the pairs, each 0 (agrees) to 1; one seen behind the camera 1 more
+};
+
+/// Two unit vectors across a direction and each other.
+Eigen::Matrix<double, 3, 2> tangentsOf(const Eigen::Vector3d& direction);
+
 /// By how much the camera turned between two images.
 struct ImageRotation {
   Eigen::Matrix3d R_then_now =
@@ -32,6 +49,11 @@ struct ImageRotation {
 
 /// Fewer tracks tell no turn.
 constexpr std::size_t kFewestTurnTracks = 20;
+
+/// As fitTurn(), which says more: turn and way together. The sense of the way is that in which
+/// points lie in front of the camera.
+std::optional<ImageMotion> fitMotion(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
+                                     const DisplacementGuess& guess);
 
 /// Fits turn and direction of the way to the epipolar planes (5.37) of the tracks, robustly: up to
 /// a third of them may be wrong. Neither depths nor the length of the way matter. O(pairs).

@@ -58,13 +58,8 @@ void TimeOffsetEstimator::State::see(const ImageFeatures& features,
 
 void TimeOffsetEstimator::State::take(const ImageFeatures& features) {
   Image& now = image(taken_);
-  now.stamp_ns = features.stamp_ns;
-  now.focal_length_px = features.focal_length_px;
+  now.take(features, order_);
   now.has_odometry = false;
-  now.rays.clear();
-  order_.reset(features);
-  for (const TrackedFeature& one : order_)
-    now.rays.push_back({one.track_id, features.bearing_cam[one.feature]});
   ++taken_;
   used_ = std::max(used_, taken_ - std::min(taken_, kImages / 2));
 }
@@ -110,18 +105,7 @@ DisplacementGuess TimeOffsetEstimator::State::wayBetween(const Image& then, cons
 
 std::optional<ImageRotation> TimeOffsetEstimator::State::turnBetween(const Image& then,
                                                                      const Image& now) {
-  pairs_.clear();
-  auto ray = then.rays.begin();
-  for (const Ray& one : now.rays) {
-    while (ray != then.rays.end() && ray->track_id < one.track_id) ++ray;
-    if (ray == then.rays.end()) break;
-    if (ray->track_id != one.track_id) continue;
-    pairs_.push_back({ray->bearing_cam.cast<double>(), one.bearing_cam.cast<double>()});
-  }
-  if (pairs_.size() > kMostPairs) {
-    for (std::size_t i = 0; i < kMostPairs; ++i) pairs_[i] = pairs_[i * pairs_.size() / kMostPairs];
-    pairs_.resize(kMostPairs);
-  }
+  findPairs(then, now, kMostPairs, pairs_);
   return fitTurn(pairs_, kCorner_px / now.focal_length_px, wayBetween(then, now));
 }
 

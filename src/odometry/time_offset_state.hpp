@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "ardrone_vslam/time_offset.hpp"
-#include "matching/track_order.hpp"
-#include "odometry/image_rotation.hpp"
+#include "odometry/image_rays.hpp"
 #include "odometry/time_offset_sums.hpp"
 
 namespace ardrone_vslam {
@@ -24,14 +23,7 @@ class TimeOffsetEstimator::State {
  private:
   static constexpr std::size_t kImages = 16;  // kept: those of kReach_ns and kSpan_ns, and some
 
-  struct Ray {
-    std::uint32_t track_id;
-    Eigen::Vector3f bearing_cam;
-  };
-  struct Image {
-    std::int64_t stamp_ns = 0;
-    double focal_length_px = 0;
-    std::vector<Ray> rays;      // ascending in track id
+  struct Image : ImageRays {
     bool has_odometry = false;  // which gives the following
     AttitudesAtOffsets q_odom_cam;
     Eigen::Vector3d camera_odom_m;  // at the stamp plus the centre

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "odometry/image_rays.hpp"
+
+namespace ardrone_vslam {
+
+void ImageRays::take(const ImageFeatures& features, TrackOrder& order) {
+  stamp_ns = features.stamp_ns;
+  focal_length_px = features.focal_length_px;
+  rays.clear();
+  order.reset(features);
+  for (const TrackedFeature& one : order)
+    rays.push_back({one.track_id, features.bearing_cam[one.feature]});
+}
+
+void findPairs(const ImageRays& then, const ImageRays& now, std::size_t most,
+               std::vector<BearingPair>& pairs) {
+  pairs.clear();
+  auto ray = then.rays.begin();
+  for (const ImageRays::Ray& one : now.rays) {
+    while (ray != then.rays.end() && ray->track_id < one.track_id) ++ray;
+    if (ray == then.rays.end()) break;
+    if (ray->track_id != one.track_id) continue;
+    pairs.push_back({ray->bearing_cam.cast<double>(), one.bearing_cam.cast<double>()});
+  }
+  if (pairs.size() <= most) return;
+  for (std::size_t i = 0; i < most; ++i) pairs[i] = pairs[i * pairs.size() / most];
+  pairs.resize(most);
+}
+
+}  // namespace ardrone_vslam
