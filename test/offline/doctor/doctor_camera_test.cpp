@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ardrone_vslam/setup_watch.hpp"
 #include "doctor/camera/doctor_frames.hpp"
 #include "doctor/doctor_examination.hpp"
 #include "sequences/drone_cameras.hpp"

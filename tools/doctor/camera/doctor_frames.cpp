@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "ardrone_vslam/setup_watch.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "input_checks/checked.hpp"
 #include "sequences/drone_cameras.hpp"
@@ -54,23 +55,6 @@ std::vector<std::string> cameraFrames(const DoctorRecording& recording) {
     }
   }
   return frames;
-}
-
-std::string staticTransformLine(const Eigen::Isometry3d& T_base_cam, const std::string& base,
-                                const std::string& camera) {
-  // Fixed axes roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll).
-  const Eigen::Matrix3d& R = T_base_cam.linear();
-  const double pitch = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
-  const bool is_steep = std::abs(R(2, 0)) > 1 - 1e-9;  // yaw and roll about one axis: all is roll
-  const double yaw = is_steep ? 0 : std::atan2(R(1, 0), R(0, 0));
-  const double roll =
-      is_steep ? std::atan2(-R(0, 1) * R(2, 0), R(1, 1)) : std::atan2(R(2, 1), R(2, 2));
-  const Eigen::Vector3d& t = T_base_cam.translation();
-  const auto round = [](double value) { return std::round(value * 1e5) / 1e5 + 0.0; };
-  std::array<char, 160> numbers{};
-  std::snprintf(numbers.data(), numbers.size(), "%g %g %g %g %g %g", round(t.x()), round(t.y()),
-                round(t.z()), round(yaw), round(pitch), round(roll));
-  return text("rosrun tf2_ros static_transform_publisher ", numbers.data(), " ", base, " ", camera);
 }
 
 Finding checkOdometryFrames(const DoctorRecording& recording,

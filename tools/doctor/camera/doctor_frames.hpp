@@ -19,8 +19,4 @@ Findings checkCameraTf(const DoctorRecording& recording, std::string& static_tra
 /// The frames of the images, in the order of their first one.
 std::vector<std::string> cameraFrames(const DoctorRecording& recording);
 
-/// `rosrun tf2_ros static_transform_publisher x y z yaw pitch roll base camera`.
-std::string staticTransformLine(const Eigen::Isometry3d& T_base_cam, const std::string& base,
-                                const std::string& camera);
-
 }  // namespace ardrone_vslam

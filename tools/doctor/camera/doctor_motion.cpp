@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <optional>
 
+#include "ardrone_vslam/setup_watch.hpp"
 #include "doctor/camera/doctor_frames.hpp"
 #include "input_checks/checked.hpp"
 #include "input_checks/standstill_watch.hpp"

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/parameters.hpp"
+
+namespace ardrone_vslam {
+
+/// What of the set-up is wrong, so that images and odometry contradict each other.
+enum class SetupFault {
+  kNone,
+  kMounting,          ///< the camera is turned otherwise than told
+  kMirrored,          ///< the images are
+  kTimeOffset,        ///< the images' stamps are late or early
+  kFocalLength,       ///< the calibration's
+  kOdometryPosition,  ///< integrated with a mirrored yaw
+  kOdometryYaw,       ///< mirrored
+  kUnknown            ///< none of these explains it
+};
+template <>
+struct EnumNames<SetupFault> {
+  static constexpr std::array<const char*, 8> kNames{
+      "none",         "mounting",          "mirrored",     "time_offset",
+      "focal_length", "odometry_position", "odometry_yaw", "unknown"};
+};
+
+/// What the motion so far says of the set-up.
+struct SetupFinding {
+  SetupFault fault = SetupFault::kNone;  ///< while it is not kNone the camera is not to be used
+  /// Another fault, or kMounting another mounting, that explains the images nearly as well.
+  SetupFault rival = SetupFault::kNone;
+  /// Without a fault: the motion since the last fault has shown that there is none.
+  bool is_confirmed = false;
+  Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();  ///< kMounting: that which fits
+  double offset_s = 0;      ///< kTimeOffset: an image is exposed at its stamp plus this, roughly
+  double focal_factor = 1;  ///< kFocalLength: the calibration's over the true one, roughly
+};
+
+/// What is wrong and what helps, for users; empty without a fault.
+/// @param base, camera  names of the frames, for the line that corrects the mounting
+std::string explain(const SetupFinding& finding, const std::string& base,
+                    const std::string& camera);
+
+/// The command that publishes a camera's mounting.
+std::string staticTransformLine(const Eigen::Isometry3d& T_base_cam, const std::string& base,
+                                const std::string& camera);
+
+/// Finds faults of the set-up while the camera moves. From two images about a quarter of a second
+/// apart come the camera's turn and the direction of its way (fitMotion), without any length. The
+/// odometry says both, too. For each fault of a fixed list, and for none, their squared deviations
+/// are summed up and forgotten after some sixty of such pairs. A fault is found when it explains
+/// the images far better than the set-up as it is told; it ends when that is the other way round.
+/// Directions count where the odometry is fast, as its velocity may be wrong by decimetres a
+/// second; clocks that are 0.16 s apart or less are no fault here (TimeOffsetEstimator). Memory as
+/// for 16 images; none is allocated once the images have been as rich as they get. Deterministic:
+/// stamps are its only clock.
+class SetupWatch {
+ public:
+  /// @param T_base_cam  mounting of the camera, as told: optical frame to base
+  /// @param image_time_offset_s  the parameter
+  explicit SetupWatch(const Eigen::Isometry3d& T_base_cam, double image_time_offset_s = 0);
+  ~SetupWatch();
+  SetupWatch(SetupWatch&& other) noexcept;
+  SetupWatch& operator=(SetupWatch&& other) noexcept;
+
+  /// One image. Stamps that go back: the images before are forgotten.
+  /// @param odometry  must keep at least a second, and reach to the image; more is waited for
+  void see(const ImageFeatures& features, const OdometryBuffer& odometry);
+  /// The images that follow are another camera's: all begins anew.
+  void useCamera(const Eigen::Isometry3d& T_base_cam);
+  /// After the images so far.
+  const SetupFinding& finding() const;
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace ardrone_vslam
