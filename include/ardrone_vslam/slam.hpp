@@ -9,6 +9,7 @@
 #include "ardrone_vslam/frame_result.hpp"
 #include "ardrone_vslam/landmark.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/setup_watch.hpp"
 #include "ardrone_vslam/slam_config.hpp"
 #include "ardrone_vslam/stages.hpp"
 
@@ -34,6 +35,11 @@ class Slam {
   /// At the first frame map equals odom. After kNotFinite every further answer may be that.
   const FrameResult& process(const ImageFeatures& features, const OdometryState& odometry,
                              const StageHook& hook = {});
+
+  /// What a SetupWatch says at the next frame. With a fault, poses are the odometry's, the state is
+  /// kDistrusted, and with MSCKF the map keeps only what was made until the set-up was last
+  /// confirmed.
+  void heed(const SetupFinding& finding);
 
   /// The next frame is another camera's, on the same base (or the camera's calibration is another
   /// one): the map goes on, and pose and odometry with it. Its features must have new tracks.

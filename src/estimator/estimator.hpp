@@ -7,6 +7,7 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/frame_result.hpp"
+#include "ardrone_vslam/setup_watch.hpp"
 #include "map/association.hpp"
 #include "map/landmark_locator.hpp"
 #include "map/landmark_map.hpp"
@@ -75,6 +76,9 @@ class Estimator {
   /// After what has been called last.
   virtual Estimate estimate() const = 0;
 
+  /// What is known of the set-up at the next frame. While it has a fault the pose is the
+  /// odometry's; what the camera said since it was last confirmed is taken back, where that can be.
+  virtual void heed(const SetupFinding& finding) = 0;
   /// Whether changeCamera() may be called.
   virtual bool canChangeCamera() const { return true; }
   /// The next frame is another camera's, on the same base.

@@ -62,7 +62,7 @@ void Msckf::watchForContradiction() {
     map_update_.reset();
     zero_motion_.reset();
     while (state_.frames().size() > 1) dropOldest();
-    propagator_.returnTo(watchdog_.calmT_map_odom(), state_);
+    propagator_.returnTo(watchdog_.trustedT_map_odom(), state_);
   }
   watchdog_.keepWhileCalm(propagator_.T_map_odom(state_));
 }

@@ -36,6 +36,8 @@ class Msckf {
   void start(const OdometryState& odometry);
   /// The next frame is another camera's, on the same base: tracks end, all else goes on.
   void changeCamera(const Eigen::Isometry3d& T_base_cam);
+  /// What is known of the set-up at the next frame.
+  void heed(const SetupFinding& finding) { watchdog_.heed(finding); }
   /// The next frame, by the odometry's increment. @param step  a jump in it, which is no motion
   void predict(const OdometryState& odometry,
                const std::optional<OdometryStep>& step = std::nullopt);

@@ -26,6 +26,11 @@ bool MsckfEstimator::canChangeCamera() const {
   return config_.msckf.odometry.extrinsics_sigma_deg == 0;
 }
 
+void MsckfEstimator::heed(const SetupFinding& finding) {
+  setup_ = finding;
+  filter_.heed(finding);
+}
+
 void MsckfEstimator::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   T_rig_cam_ = T_base_cam;
   filter_.changeCamera(T_base_cam);
@@ -91,6 +96,14 @@ SlamState MsckfEstimator::fix(const AssociationResult& matches, const FrameView&
   return map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTracking;
 }
 
+/// What was made of images that a wrong set-up explains is wrong as well.
+int MsckfEstimator::dropUnconfirmed(LandmarkMap& map) const {
+  const std::size_t before = map.size();
+  for (std::size_t i = before; i-- > 0;)
+    if (map.all()[i].id > confirmed_landmark_) map.remove(map.all()[i].id);
+  return static_cast<int>(before - map.size());
+}
+
 void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& map) {
   trusted_.clear();
   std::vector<std::uint32_t> anchors;
@@ -114,6 +127,8 @@ void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& 
 MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView& view,
                                      LandmarkMap& map) {
   MapChanges changes;
+  if (setup_.is_confirmed) confirmed_landmark_ = newest_landmark_;
+  if (setup_.fault != SetupFault::kNone) changes.removed_landmarks = dropUnconfirmed(map);
   const std::vector<UsedTrack>& used_tracks = filter_.track(view.features());
   // Landmarks decided on the state, be it that they were rejected: the image's rest stays unsaid.
   const bool is_located = state_ == SlamState::kLocalised || state_ == SlamState::kRelocated ||
@@ -131,13 +146,14 @@ MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView
     filter_.assignLandmark(landmark.track_id, landmark.id);
   }
   const bool is_relocated = state_ == SlamState::kRelocated;
-  changes.removed_landmarks = mapper_.countFailed(
+  changes.removed_landmarks += mapper_.countFailed(
       takeFailed(matches, trusted_, filter_.verdicts(), is_relocated, map), map);
   for (const UsedTrack& one : used_tracks) {
     if (const Landmark* landmark = map.find(one.track.landmark_id)) {
       renew(one, view, config_.msckf, *landmark, map);
     } else if (isWellKnown(one, view)) {
-      filter_.assignLandmark(one.track.track_id, map.add(landmarkOf(one, view)));
+      newest_landmark_ = map.add(landmarkOf(one, view));
+      filter_.assignLandmark(one.track.track_id, newest_landmark_);
       ++changes.new_landmarks;
     }
   }

@@ -24,11 +24,13 @@ class MsckfEstimator final : public Estimator {
   MapChanges updateMap(const AssociationResult& matches, FrameView& view,
                        LandmarkMap& map) override;
   Estimate estimate() const override;
+  void heed(const SetupFinding& finding) override;
   bool canChangeCamera() const override;
   void changeCamera(const Eigen::Isometry3d& T_base_cam) override;
 
  private:
   SlamState fix(const AssociationResult& matches, const FrameView& view, const LandmarkMap& map);
+  int dropUnconfirmed(LandmarkMap& map) const;
   void judge(const AssociationResult& matches, const LandmarkMap& map);
 
   SlamConfig config_;
@@ -40,7 +42,10 @@ class MsckfEstimator final : public Estimator {
   bool started_ = false;
   Eigen::Isometry3d T_odom_base_ = Eigen::Isometry3d::Identity();
   SlamState state_ = SlamState::kBuildingMap;  // of the newest frame, by landmarks
-  std::vector<Association> trusted_;           // the newest frame's matches that may be right
+  SetupFinding setup_;
+  std::uint32_t newest_landmark_ = 0;     // id
+  std::uint32_t confirmed_landmark_ = 0;  // the newest when the set-up was last confirmed
+  std::vector<Association> trusted_;      // the newest frame's matches that may be right
 };
 
 }  // namespace ardrone_vslam

@@ -2,6 +2,7 @@
 #include "msckf/watchdog.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace ardrone_vslam {
 namespace {
@@ -19,6 +20,12 @@ bool Watchdog::see(std::int64_t stamp_ns, const Contradiction& contradiction) {
   const double passed_s = last_ns_ ? static_cast<double>(stamp_ns - *last_ns_) * 1e-9 : 0;
   last_ns_ = stamp_ns;
 
+  const bool was_refused = std::exchange(is_refused_, setup_.fault != SetupFault::kNone);
+  if (is_refused_) {
+    bias_s_ = 0;
+    fixes_s_ = 0;
+    return !was_refused;
+  }
   const double bias = contradiction.bias_sigmas / kMostBiasSigmas;
   bias_s_ = bias > 1 && !contradiction.is_camera_confirmed ? bias_s_ + passed_s : 0;
   // Images without old landmarks say nothing of fixes: the time with them counts.
@@ -34,7 +41,7 @@ bool Watchdog::see(std::int64_t stamp_ns, const Contradiction& contradiction) {
 }
 
 bool Watchdog::isDistrustful(std::int64_t stamp_ns) const {
-  return until_ns_ && stamp_ns < *until_ns_;
+  return is_refused_ || (until_ns_ && stamp_ns < *until_ns_);
 }
 
 }  // namespace ardrone_vslam

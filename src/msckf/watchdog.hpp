@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "ardrone_vslam/setup_watch.hpp"
+
 namespace ardrone_vslam {
 
 /// How long the pose is the odometry's when trust has ended for the first time: long enough to get
@@ -23,9 +25,12 @@ struct Contradiction {
 /// nobody knows, but without the camera the pose is never worse than the odometry.
 class Watchdog {
  public:
+  /// While the set-up has a fault there is no trust, from the next see() on.
+  void heed(const SetupFinding& finding) { setup_ = finding; }
   /// @return whether trust ends with this image
   bool see(std::int64_t stamp_ns, const Contradiction& contradiction);
-  /// For kFirstPause_s after trust ended, and twice as long each time it ends again.
+  /// For kFirstPause_s after trust ended, and twice as long each time it ends again; and while the
+  /// set-up has a fault.
   bool isDistrustful(std::int64_t stamp_ns) const;
   /// Nothing hints at a contradiction: camera and odometry are a good deal closer than the limits.
   bool isCalm() const { return calm_; }
@@ -33,13 +38,18 @@ class Watchdog {
   /// Remembers this one while nothing hints at a contradiction.
   void keepWhileCalm(const Eigen::Isometry3d& T_map_odom) {
     if (isCalm()) calm_T_map_odom_ = T_map_odom;
+    if (isCalm() && setup_.is_confirmed) confirmed_T_map_odom_ = T_map_odom;
   }
   /// The odometry's frame jumps: what is remembered goes along.
   void step(const Eigen::Vector3d& jump_odom_m) {
-    calm_T_map_odom_.translation() -= calm_T_map_odom_.linear() * jump_odom_m;
+    for (Eigen::Isometry3d* T_map_odom : {&calm_T_map_odom_, &confirmed_T_map_odom_})
+      T_map_odom->translation() -= T_map_odom->linear() * jump_odom_m;
   }
-  /// The last one remembered: to go back to when trust ends.
-  const Eigen::Isometry3d& calmT_map_odom() const { return calm_T_map_odom_; }
+  /// The last one remembered: to go back to when trust ends. With a fault of the set-up it is that
+  /// of the last time at which the set-up was confirmed; before, map equals odom.
+  const Eigen::Isometry3d& trustedT_map_odom() const {
+    return is_refused_ ? confirmed_T_map_odom_ : calm_T_map_odom_;
+  }
 
  private:
   std::optional<std::int64_t> last_ns_;
@@ -48,7 +58,10 @@ class Watchdog {
   double bias_s_ = 0;                     // how long each has been beyond its limit
   double fixes_s_ = 0;
   bool calm_ = true;
+  SetupFinding setup_;
+  bool is_refused_ = false;  // as of the last image
   Eigen::Isometry3d calm_T_map_odom_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d confirmed_T_map_odom_ = Eigen::Isometry3d::Identity();
 };
 
 }  // namespace ardrone_vslam

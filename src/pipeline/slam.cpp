@@ -105,6 +105,10 @@ Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
 
 Slam::~Slam() = default;
 
+void Slam::heed(const SetupFinding& finding) {
+  state_->estimator->heed(finding);
+}
+
 bool Slam::canChangeCamera() const {
   return state_->estimator->canChangeCamera();
 }

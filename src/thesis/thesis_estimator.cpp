@@ -41,6 +41,7 @@ CameraPose ThesisEstimator::camera() {
 Correction ThesisEstimator::correct(const AssociationResult& matches, const FrameView& view,
                                     const LandmarkMap& map) {
   Correction correction;
+  if (is_refused_) return {SlamState::kDistrusted, std::nullopt};
   auto fix =
       locator_.locate(matches.matches, view, map, mapper_.angleSigma_rad(view.focalLength_px()));
   if (!fix) {
@@ -59,6 +60,7 @@ Correction ThesisEstimator::correct(const AssociationResult& matches, const Fram
 MapChanges ThesisEstimator::updateMap(const AssociationResult& matches, FrameView& view,
                                       LandmarkMap& map) {
   MapChanges changes;
+  if (is_refused_) return changes;
   moveTo(camera(), view);
   used_.assign(view.size(), false);
   for (const Association& match : matches.matches)

@@ -25,6 +25,10 @@ class ThesisEstimator : public Estimator {
   MapChanges updateMap(const AssociationResult& matches, FrameView& view,
                        LandmarkMap& map) override;
   Estimate estimate() const override;
+  bool wantsLandmarks() const override { return !is_refused_; }
+  void heed(const SetupFinding& finding) override {
+    is_refused_ = finding.fault != SetupFault::kNone;
+  }
   void changeCamera(const Eigen::Isometry3d& T_base_cam) override { T_base_cam_ = T_base_cam; }
 
  private:
@@ -38,6 +42,7 @@ class ThesisEstimator : public Estimator {
   AssociationResult feature_matches_;
   std::vector<bool> used_;  // the frame's features that need not be stored
   bool started_ = false;
+  bool is_refused_ = false;  // the set-up has a fault: the camera is not used
   Eigen::Isometry3d T_odom_base_ = Eigen::Isometry3d::Identity();
 };
 
