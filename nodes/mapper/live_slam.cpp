@@ -5,13 +5,14 @@
 
 namespace ardrone_vslam {
 
-void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam) {
+void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam,
+                         const std::string& base, const std::string& frame) {
   if (slam_) {
     slam_->changeCamera(T_base_cam);
   } else {
     slam_ = std::make_unique<Slam>(config_, T_base_cam);
   }
-  time_offset_.useCamera(T_base_cam);
+  setup_.useCamera(T_base_cam, base, frame);
   camera_ = camera;
   T_base_cam_ = T_base_cam;
 }
@@ -25,7 +26,8 @@ void LiveSlam::endMap() {
 const FrameResult& LiveSlam::process(const Features& message, OdometryState odometry,
                                      const OdometryBuffer& odometries) {
   toFeatures(message, features_);
-  time_offset_.see(features_, odometries);
+  setup_.see(features_, odometries);
+  slam_->heed(setup_.finding());
   odometry.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
   const FrameResult& result = slam_->process(features_, odometry, stage_clock_.hook());
   has_answered_ = true;
@@ -49,7 +51,7 @@ void LiveSlam::fill(Status& status) const {
   status.results_not_finite = counts_.results_not_finite;
   status.restarts = counts_.restarts;
   status.camera_changes = counts_.camera_changes;
-  time_offset_.fill(status);
+  setup_.fill(status);
 }
 
 }  // namespace ardrone_vslam

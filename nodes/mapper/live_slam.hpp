@@ -8,7 +8,7 @@
 #include "ardrone_vslam/slam.hpp"
 #include "conversions/conversions.hpp"
 #include "inputs/camera_identity.hpp"
-#include "mapper/time_offset_watch.hpp"
+#include "mapper/setup_report.hpp"
 #include "timing/stage_clock.hpp"
 
 namespace ardrone_vslam {
@@ -18,14 +18,16 @@ namespace ardrone_vslam {
 class LiveSlam {
  public:
   LiveSlam(const SlamConfig& config, Warnings& warnings)
-      : config_(config), time_offset_(config.image_time_offset_s, warnings) {}
+      : config_(config), setup_(config.image_time_offset_s, warnings) {}
 
   bool hasMap() const { return slam_ != nullptr; }
   /// As useCamera() was told last.
   const CameraIdentity& camera() const { return camera_; }
   const Eigen::Isometry3d& T_base_cam() const { return T_base_cam_; }
   /// Makes the Slam, or has it change the camera. @pre without a map, or Slam::canChangeCamera()
-  void useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam);
+  /// @param base, frame  names of the drone's and the camera's frames in tf
+  void useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam,
+                 const std::string& base, const std::string& frame);
   void countCameraChange() { ++counts_.camera_changes; }
   void endMap();
 
@@ -52,13 +54,13 @@ class LiveSlam {
     std::uint64_t camera_changes = 0;
   };
   const Counts& counts() const { return counts_; }
-  const TimeOffsetWatch& timeOffset() const { return time_offset_; }
+  const SetupReport& setup() const { return setup_; }
   void fill(Status& status) const;
 
  private:
   SlamConfig config_;
   std::unique_ptr<Slam> slam_;
-  TimeOffsetWatch time_offset_;
+  SetupReport setup_;
   CameraIdentity camera_;
   Eigen::Isometry3d T_base_cam_ = Eigen::Isometry3d::Identity();
   ImageFeatures features_;  // kept for its memory

@@ -104,14 +104,15 @@ bool MapperNodelet::prepareSlam(const Features& features) {
   const auto T_base_cam = mounting_->find(frames.base, frame, extrinsics_fault_);
   if (!T_base_cam) return false;
   extrinsics_fault_.clear();
-  useCamera(camera, *T_base_cam);
+  useCamera(camera, *T_base_cam, frame);
   NODELET_INFO_STREAM("frames: " << frames.map << " -> " << frames.odom << " -> " << frames.base
                                  << " -> " << frame << ", camera at ("
                                  << T_base_cam->translation().transpose() << ") m");
   return true;
 }
 
-void MapperNodelet::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam) {
+void MapperNodelet::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam,
+                              const std::string& frame) {
   if (slam_->hasMap()) {
     const std::string change =
         "the camera changed from " + slam_->camera().text() + " to " + camera.text();
@@ -123,7 +124,7 @@ void MapperNodelet::useCamera(const CameraIdentity& camera, const Eigen::Isometr
       beginMapAnew(change + ", and extrinsics_sigma_deg is of one camera");
     }
   }
-  slam_->useCamera(camera, T_base_cam);
+  slam_->useCamera(camera, T_base_cam, odometry_->frames().base, frame);
 }
 
 void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
@@ -131,7 +132,9 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   odometry.height_m = heights_->at(odometry);
   const FrameResult& result = slam_->process(*frame.features, odometry, matcher_->odometries());
   odometry_->watch().seeStep(result.odometry_step_m);
-  if (result.state == SlamState::kDistrusted) warnings_.limited(explain(result.state));
+  // Of a fault of the set-up its report has warned.
+  if (result.state == SlamState::kDistrusted && slam_->setup().fault().empty())
+    warnings_.limited(explain(result.state));
   if (result.state == SlamState::kNotFinite) {  // answered by its status alone
     status_->publishAnswer(result, *frame.features);
     return beginMapAnew(explain(result.state));  // last: it ends the life of the result

@@ -35,7 +35,8 @@ class MapperNodelet : public nodelet::Nodelet {
   /// Makes the Slam, or has it change the camera, once the mounting of these features' camera is
   /// known. @return false while it is not
   bool prepareSlam(const Features& features);
-  void useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam);
+  void useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam,
+                 const std::string& frame);
   Eigen::Isometry3d mapToOdomOfTf(const FrameResult& result) const;
   /// Time began again at this stamp: forgets what belongs to the run before.
   void restartAt(std::int64_t stamp_ns, const std::string& topic);

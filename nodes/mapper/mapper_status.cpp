@@ -22,7 +22,9 @@ void MapperStatus::publishAnswer(const FrameResult& result, const Features& feat
   const OdometryWatch& watch = parts_.odometry.watch();
   Status status;
   toStatus(result, parts_.odometry.frames().map, status);
-  if (watch.isStuck()) {
+  if (!parts_.slam.setup().fault().empty()) {
+    status.reason = parts_.slam.setup().fault();
+  } else if (watch.isStuck()) {
     status.reason = explainStandstill(parts_.odometry.name());
     warnings_.limited(status.reason);
   } else if (status.reason.empty()) {
@@ -103,7 +105,7 @@ unsigned char MapperStatus::level() const {
   const OdometryWatch& watch = parts_.odometry.watch();
   if (latest_.state == Status::WAITING_FOR_ODOMETRY ||
       latest_.state == Status::WAITING_FOR_EXTRINSICS || latest_.state == Status::NOT_FINITE ||
-      watch.isStuck())
+      watch.isStuck() || !parts_.slam.setup().fault().empty())
     return DiagnosticStatus::ERROR;
   const bool is_well = isWell(latest_.state) && watch.isWell() && parts_.heights.missing().empty();
   return is_well ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
@@ -119,7 +121,7 @@ void MapperStatus::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper
   wrapper.add("tf transforms with a stamp that was there", parts_.mounting.tf().repeated());
   wrapper.add("tf transforms older than all kept", parts_.mounting.tf().tooOld());
   if (parts_.heights.isUsed()) diagnoseHeights(wrapper);
-  parts_.slam.timeOffset().diagnose(wrapper);
+  parts_.slam.setup().diagnose(wrapper);
   wrapper.add("results not finite", counts.results_not_finite);
   wrapper.add("camera changes", counts.camera_changes);
   wrapper.add("landmarks", latest_.landmarks);
