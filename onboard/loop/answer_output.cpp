@@ -74,6 +74,14 @@ void AnswerOutput::send(VslamPose& pose, const Counters& counters) {
   pose_file_ = FileDescriptor();
 }
 
+void AnswerOutput::saySetup(const SetupFinding& finding) {
+  if (finding.fault == said_fault_) return;
+  said_fault_ = finding.fault;
+  const std::string fault = explain(finding, "BASE", "CAMERA");
+  std::fprintf(stderr, "vslam_onboard: %s\n",
+               fault.empty() ? "camera and odometry agree again" : fault.c_str());
+}
+
 void AnswerOutput::sendTelemetry(const ImageFeatures& features, const std::vector<Landmark>& map,
                                  std::int64_t now_ns) {
   if (!telemetry_socket_.isOpen() || now_ns - telemetry_sent_ns_ < telemetry_period_ns_) return;

@@ -170,6 +170,7 @@ void OnboardLoop::answer() {
   } else {
     output_.sendState(VSLAM_NOT_FINITE, result.stamp_ns, counters());
   }
+  output_.saySetup(pipeline_.setup());
   output_.sendTelemetry(pipeline_.features(), pipeline_.landmarks(), now);
 }
 

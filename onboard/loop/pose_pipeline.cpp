@@ -19,6 +19,7 @@ PosePipeline::PosePipeline(const TrackerConfig& tracker, const SlamConfig& slam,
       tracker_(tracker, camera),
       adapter_(slam.odometry_adapter),
       buffer_(slam.odometry),
+      setup_(T_base_cam, slam.image_time_offset_s),
       heights_(slam.height_input, slam.odometry.buffer_s) {
   slam_.emplace(config_, T_base_cam_);
   slam_->reserveMap();
@@ -94,6 +95,8 @@ PosePipeline::Answer PosePipeline::localise() {
   if (lookup != Lookup::kFound) return Answer::kNever;
   state.height_m = heights_.at(state);
   state.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
+  setup_.see(features_, buffer_);
+  slam_->heed(setup_.finding());
   result_ = &slam_->process(features_, state);
   return Answer::kPose;
 }

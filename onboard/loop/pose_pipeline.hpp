@@ -9,6 +9,7 @@
 #include "ardrone_vslam/height_input.hpp"
 #include "ardrone_vslam/odometry_adapter.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/setup_watch.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/tracker.hpp"
 #include "input/frame_source.hpp"
@@ -48,6 +49,7 @@ class PosePipeline {
   const CameraModel& cameraModel() const { return tracker_.camera(); }
   const FrameResult& result() const { return *result_; }
   const ImageFeatures& features() const { return features_; }
+  const SetupFinding& setup() const { return setup_.finding(); }
   const std::vector<Landmark>& landmarks() const { return slam_->landmarks(); }
   int restarts() const { return restarts_; }
 
@@ -62,6 +64,7 @@ class PosePipeline {
   std::optional<Slam> slam_;
   OdometryAdapter adapter_;
   OdometryBuffer buffer_;
+  SetupWatch setup_;
   HeightInput heights_;
   std::vector<OdometryState> ready_;
   ImageFeatures features_;
