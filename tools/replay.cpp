@@ -21,6 +21,7 @@
 #include "report/run_verdict.hpp"
 #include "run/run_all.hpp"
 #include "run/run_odometry.hpp"
+#include "sequences/faulty_sequence.hpp"
 #include "sequences/kitti_folder.hpp"
 #include "trajectory/text_file.hpp"
 #ifdef ARDRONE_VSLAM_WITH_ROS
@@ -46,6 +47,7 @@ struct Options {
   std::string frames;
   bool ping_pong = false;
   bool whole_pixels = false;
+  std::string setup_fault;
   bool report = false;
   int threads = 2;
   ComputerSpeed speed;
@@ -91,6 +93,9 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
   app.add_flag("--whole-pixels", o.whole_pixels,
                "tracks are not aligned between pixels, as the thesis has them");
+  app.add_option("--setup-fault", o.setup_fault,
+                 "make the set-up wrong, to see what becomes of it: mirrored, late=SECONDS, "
+                 "focal=FACTOR, roll=, pitch= or yaw=DEGREES (of the camera)");
   app.add_flag("--report", o.report,
                "also report.html, a page with tables and plots (docs/evaluate.md)");
   o.budget_option =
@@ -258,7 +263,9 @@ int run(const Options& o) {
   const std::optional<ComputerSpeed> speed = speedOf(o);
   const FrameSelection selection =
       asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
-  const auto sequence = select(openInput(o, config), selection);
+  auto sequence = select(openInput(o, config), selection);
+  if (!o.setup_fault.empty())
+    sequence = asUsage([&] { return withFault(std::move(sequence), o.setup_fault); });
   checkHeights(*sequence, config.mapper.height_input);
   const std::vector<RunOdometry> odometries = odometriesOf(*sequence, o);
   makeFolder(o.out);

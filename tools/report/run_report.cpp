@@ -195,6 +195,13 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
       is_offset_known ? Json(run.time_offset.deviation_s) : Json(nullptr);
   summary["image_time_offset_unknown"] =
       is_offset_known ? Json(nullptr) : Json(explain(run.time_offset.state));
+  summary["setup_fault"] = nameOf(run.setup.fault);
+  summary["setup_confirmed"] = run.setup.is_confirmed;
+  summary["setup_fault_found_s"] =
+      run.setup_fault_ns == 0
+          ? Json(nullptr)
+          : Json(static_cast<double>(run.setup_fault_ns - run.frames.front().result.stamp_ns) *
+                 1e-9);
   summary["odometry_steps"] =
       std::count_if(run.frames.begin(), run.frames.end(),
                     [](const RunFrame& f) { return f.result.odometry_step_m > 0; });

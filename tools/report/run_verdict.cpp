@@ -154,8 +154,9 @@ void warnOfCamera(const std::string& name, const RunResult& run,
                   std::vector<std::string>& warnings) {
   const auto distrusted = countDistrusted(run);
   if (distrusted > 0) {
+    const std::string fault = explain(run.setup, "BASE", "CAMERA");
     warnings.push_back(name + ": distrusted at " + std::to_string(distrusted) +
-                       " images: " + explain(SlamState::kDistrusted));
+                       " images: " + (fault.empty() ? explain(SlamState::kDistrusted) : fault));
   }
   if (run.landmarks.empty()) {
     warnings.push_back(

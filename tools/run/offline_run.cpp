@@ -116,6 +116,7 @@ BackEnd::BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
       T_base_cam_(T_base_cam),
       image_time_offset_ns_(std::llround(config.image_time_offset_s * 1e9)),
       time_offset_(T_base_cam, config.image_time_offset_s),
+      setup_(T_base_cam, config.image_time_offset_s),
       odometry_(config, odometry),
       heights_(config, std::move(ranges)) {
   run_.image_time_offset_s = config.image_time_offset_s;
@@ -128,6 +129,7 @@ void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   slam_.changeCamera(T_base_cam);
   T_base_cam_ = T_base_cam;
   time_offset_.useCamera(T_base_cam);
+  setup_.useCamera(T_base_cam);
   watch_.reset();
   standstill_.reset();
   ++run_.camera_changes;
@@ -146,12 +148,22 @@ double BackEnd::process(const TrackedFrame& frame) {
   state.height_m = heights_.at(state);
   state.stamp_ns = frame.features.stamp_ns;  // the pose keeps the image's stamp
   time_offset_.see(frame.features, odometry_.buffer());
+  watchSetup(frame.features);
   RunFrame run_frame;
   run_frame.times_ms = frame.times_ms;
   StageTimer timer(run_frame.times_ms);
   run_frame.result = slam_.process(frame.features, state, timer.hook());
   run_.frames.push_back(std::move(run_frame));
   return total_ms(run_.frames.back().times_ms);
+}
+
+void BackEnd::watchSetup(const ImageFeatures& features) {
+  setup_.see(features, odometry_.buffer());
+  const SetupFinding& found = setup_.finding();
+  slam_.heed(found);
+  const bool is_fault = found.fault != SetupFault::kNone;
+  if (is_fault || run_.setup.fault == SetupFault::kNone) run_.setup = found;
+  if (is_fault && run_.setup_fault_ns == 0) run_.setup_fault_ns = features.stamp_ns;
 }
 
 RunResult BackEnd::finish() {

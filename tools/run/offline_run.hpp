@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/setup_watch.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/stages.hpp"
 #include "ardrone_vslam/time_offset.hpp"
@@ -57,10 +58,13 @@ struct RunResult {
   int camera_changes = 0;
   double image_time_offset_s = 0;  ///< the parameter
   TimeOffset time_offset;          ///< what it seems to be
-  double scale_error = 0;          ///< the one drawn for the odometry
+  SetupFinding setup;              ///< the last fault that was found, or else what is known at last
+  std::int64_t setup_fault_ns =
+      0;                   ///< stamp of the image at which a fault was first found; 0: none
+  double scale_error = 0;  ///< the one drawn for the odometry
 };
 
-/// Images at which the watchdog left the camera out.
+/// Images at which the camera was left out, by a fault of the set-up or by the watchdog.
 std::int64_t countDistrusted(const RunResult& run);
 
 /// Called with the number of images done, from the calling thread.
@@ -98,11 +102,13 @@ class BackEnd {
 
  private:
   void changeCamera(const Eigen::Isometry3d& T_base_cam);
+  void watchSetup(const ImageFeatures& features);
 
   Slam slam_;
   Eigen::Isometry3d T_base_cam_;
   std::int64_t image_time_offset_ns_;
   TimeOffsetEstimator time_offset_;
+  SetupWatch setup_;
   StandstillWatch watch_;       ///< sees odometry that only turns: what moves then is the images
   StandstillWatch standstill_;  ///< the same with its positions
   RecordedOdometry odometry_;

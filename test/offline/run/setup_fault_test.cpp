@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wrong set-ups, flown: found, named, and the pose no worse than the odometry.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "report/run_report.hpp"
+#include "run/run_all.hpp"
+#include "run/run_odometry.hpp"
+#include "sequences/faulty_sequence.hpp"
+#include "simulation/odometry_model.hpp"
+#include "test_paths.hpp"
+#include "world/world_sequence.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+std::unique_ptr<Sequence> lapsWith(const std::string& fault) {
+  WorldOptions options;
+  options.duration_s = 12;
+  options.rate_hz = 15;
+  auto sequence = std::make_unique<WorldSequence>(options);
+  if (fault.empty()) return sequence;
+  return withFault(std::move(sequence), fault);
+}
+
+struct Flown {
+  RunResult run;
+  double ratio = 0;  // fused over odometry
+};
+
+Flown fly(const std::string& fault) {
+  const auto sequence = lapsWith(fault);
+  const std::string profiles = ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml";
+  const RunOdometry odometry{
+      "drone", 1, simulateOdometry(sequence->truth(), loadOdometryProfile("drone", profiles), 1)};
+  Flown flown;
+  flown.run = runAll(*sequence, PipelineConfig{}, {odometry}, 2, {}).front();
+  const auto summary =
+      summaryOf(flown.run, evaluate(flown.run, sequence->truth()), {"laps", "drone", 1, "msckf"});
+  flown.ratio =
+      summary["fused_ate_rmse_m"].get<double>() / summary["odometry_ate_rmse_m"].get<double>();
+  EXPECT_EQ(summary["setup_fault"], nameOf(flown.run.setup.fault));
+  return flown;
+}
+
+TEST(SetupFaults, AreNamedAndDoNoHarm) {
+  const std::vector<std::pair<std::string, SetupFault>> faults{
+      {"yaw=180", SetupFault::kMounting},
+      {"roll=90", SetupFault::kMounting},
+      {"mirrored", SetupFault::kMirrored},
+      {"late=0.3", SetupFault::kTimeOffset},
+      {"late=-0.3", SetupFault::kTimeOffset}};
+  for (const auto& [fault, expected] : faults) {
+    const Flown flown = fly(fault);
+    EXPECT_EQ(flown.run.setup.fault, expected) << fault;
+    EXPECT_GT(flown.run.setup_fault_ns, 0) << fault;
+    EXPECT_LT(flown.ratio, 1.05) << fault;
+  }
+}
+
+TEST(SetupFaults, AreNotFoundWhereThereIsNone) {
+  const Flown flown = fly("");
+  EXPECT_EQ(flown.run.setup.fault, SetupFault::kNone);
+  EXPECT_EQ(countDistrusted(flown.run), 0);
+  EXPECT_LT(flown.ratio, 0.6);
+}
+
+TEST(FaultySequence, MakesWhatIsAskedFor) {
+  const auto right = lapsWith("");
+  const auto late = lapsWith("late=0.3");
+  EXPECT_EQ(late->stamp_ns(3), right->stamp_ns(3) + 300'000'000);
+  const auto focal = lapsWith("focal=1.5");
+  EXPECT_DOUBLE_EQ(focal->camera().fx_px, 1.5 * right->camera().fx_px);
+  EXPECT_DOUBLE_EQ(focal->camera().cx_px, right->camera().cx_px);
+  const auto turned = lapsWith("pitch=90");
+  const Eigen::Matrix3d turn =
+      right->T_base_cam().linear().transpose() * turned->T_base_cam().linear();
+  EXPECT_TRUE(turn.isApprox(
+      Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX()).toRotationMatrix(), 1e-9));
+  const cv::Mat image = right->image(0);
+  const cv::Mat mirrored = lapsWith("mirrored")->image(0);
+  EXPECT_EQ(mirrored.at<std::uint8_t>(5, 7), image.at<std::uint8_t>(5, image.cols - 8));
+}
+
+TEST(FaultySequence, RefusesWhatItDoesNotKnow) {
+  for (const char* fault : {"", "late", "late=", "late=x", "focal=0", "focal=-1", "tilt=3"})
+    EXPECT_THROW(withFault(lapsWith(""), fault), std::invalid_argument) << fault;
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

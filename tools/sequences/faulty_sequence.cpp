@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sequences/faulty_sequence.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+#include "ardrone_vslam/rotation.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+/// What is wrong; by itself nothing.
+struct Fault {
+  bool is_mirrored = false;
+  std::int64_t late_ns = 0;
+  double focal_factor = 1;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+};
+
+Fault parseFault(const std::string& text) {
+  Fault fault;
+  fault.is_mirrored = text == "mirrored";
+  if (fault.is_mirrored) return fault;
+  const auto equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  const std::string number = equals == std::string::npos ? "" : text.substr(equals + 1);
+  char* end = nullptr;
+  const double value = std::strtod(number.c_str(), &end);
+  const bool is_number = !number.empty() && *end == '\0' && std::isfinite(value);
+  const auto turned = [value](int axis) {
+    return rotationOf(value * M_PI / 180 * Eigen::Vector3d::Unit(axis));
+  };
+  if (is_number && name == "late") {
+    fault.late_ns = std::llround(value * 1e9);
+  } else if (is_number && name == "focal" && value > 0) {
+    fault.focal_factor = value;
+  } else if (is_number && name == "pitch") {
+    fault.turn = turned(0);
+  } else if (is_number && name == "yaw") {
+    fault.turn = turned(1);
+  } else if (is_number && name == "roll") {
+    fault.turn = turned(2);
+  } else {
+    throw std::invalid_argument("fault '" + text +
+                                "' must be mirrored, late=SECONDS, focal=FACTOR, or roll=, pitch= "
+                                "or yaw=DEGREES, for example late=0.3");
+  }
+  return fault;
+}
+
+class FaultySequence : public Sequence {
+ public:
+  FaultySequence(std::unique_ptr<Sequence> sequence, const Fault& fault)
+      : sequence_(std::move(sequence)), fault_(fault), first_(cameraAt(0)) {}
+
+  std::string name() const override { return sequence_->name(); }
+  std::size_t size() const override { return sequence_->size(); }
+  std::int64_t stamp_ns(std::size_t index) const override {
+    return sequence_->stamp_ns(index) + fault_.late_ns;
+  }
+  cv::Mat image(std::size_t index) override {
+    const cv::Mat image = sequence_->image(index);
+    if (!fault_.is_mirrored) return image;
+    cv::Mat mirrored;
+    cv::flip(image, mirrored, 1);
+    return mirrored;
+  }
+  const CameraIntrinsics& camera() const override { return first_.intrinsics; }
+  Eigen::Isometry3d T_base_cam() const override { return first_.T_base_cam; }
+  std::size_t cameraOf(std::size_t index) const override { return sequence_->cameraOf(index); }
+  SequenceCamera cameraAt(std::size_t which) const override {
+    SequenceCamera camera = sequence_->cameraAt(which);
+    camera.intrinsics.fx_px *= fault_.focal_factor;
+    camera.intrinsics.fy_px *= fault_.focal_factor;
+    camera.T_base_cam.linear() = camera.T_base_cam.linear() * fault_.turn;
+    return camera;
+  }
+  const Trajectory& truth() const override { return sequence_->truth(); }
+  const std::vector<OdometryState>& odometry() const override { return sequence_->odometry(); }
+  OdometryFaultCounts odometryInputFaults() const override {
+    return sequence_->odometryInputFaults();
+  }
+  std::vector<RangeReading> ranges() const override { return sequence_->ranges(); }
+  OdometryNote odometryNote() const override { return sequence_->odometryNote(); }
+
+ private:
+  std::unique_ptr<Sequence> sequence_;
+  Fault fault_;
+  SequenceCamera first_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sequence> withFault(std::unique_ptr<Sequence> sequence, const std::string& fault) {
+  return std::make_unique<FaultySequence>(std::move(sequence), parseFault(fault));
+}
+
+}  // namespace ardrone_vslam
