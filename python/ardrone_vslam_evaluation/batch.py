@@ -6,7 +6,7 @@ import os
 import re
 import sys
 
-from . import baseline, batch_jobs, batch_results, sweep_command
+from . import baseline, batch_jobs, batch_results, honesty, sweep_command
 from .batch_run import Programs, run_jobs
 from .command import write
 from .faults import InputFault, MachineFault
@@ -47,6 +47,8 @@ def parser_of(source):
     parser.add_argument("--sweep", action="append", metavar="NAME=V1,V2", help="instead: runs with this parameter at these values, and at what it is "
                         "else, into WORK/sweep.md and sweep.png; may be repeated, one at a time is varied")
     parser.add_argument("--tuning", action="store_true", help="instead: all parameters of docs/tuning_sweep.json; with --update into docs/tuning.md")
+    parser.add_argument("--honesty", action="store_true", help="instead: flights whose set-up is made wrong, whether that is found, and what "
+                        "becomes of the pose; with --update into docs/honesty.md")
     parser.add_argument("--list", action="store_true", help="only say what would run")
     parser.add_argument("--jobs", default=str(os.cpu_count()), metavar="N", help="at a time on each machine; default: its cores")
     parser.add_argument("--sshlogin", action="append", default=[], metavar="HOST",
@@ -93,12 +95,14 @@ def judge(rows, before, margin):
 
 
 def run(arguments, source):
-    jobs = batch_jobs.jobs_of(sequences_of(arguments), arguments.seeds, arguments.sequences, arguments.profiles, arguments.estimators)
+    jobs = (honesty.jobs_of(arguments.seeds) if arguments.honesty else
+            batch_jobs.jobs_of(sequences_of(arguments), arguments.seeds, arguments.sequences, arguments.profiles, arguments.estimators))
     if arguments.list:
         print("\n".join(f"{job.name()} seeds {job.seeds}" for job in jobs))
         return True
     path = arguments.baseline or os.path.join(source, "docs", "results_baseline.json")
-    before = {} if arguments.update or arguments.sweep or arguments.tuning else baseline.read(path)
+    is_compared = not (arguments.update or arguments.sweep or arguments.tuning or arguments.honesty)
+    before = baseline.read(path) if is_compared else {}
     work = os.path.abspath(arguments.work)
     try:
         os.makedirs(work, exist_ok=True)
@@ -109,6 +113,11 @@ def run(arguments, source):
     if arguments.sweep:
         return sweep_command.run_sweep(arguments, jobs, source, work)
     programs = Programs(os.path.abspath(arguments.programs), os.path.join(source, "config"))
+    if arguments.honesty:
+        faults = honesty.run(arguments, programs, source, work)
+        for text in faults:
+            print(f"evaluate_all: {text}", file=sys.stderr)
+        return not faults
     folders, faults = run_jobs(jobs, programs, work, arguments.jobs, arguments.sshlogin)
     rows = [batch_results.row_of(job, folder) for job, folder in folders.items()]
     table = batch_results.page(rows, selection_name(arguments))
@@ -135,6 +144,8 @@ def main():
         parser.error("--tuning has sequences and values of its own (docs/tuning_sweep.json); for others use --sweep")
     if arguments.sweep and arguments.update:
         parser.error("--sweep updates no page; --tuning does")
+    if arguments.honesty and (arguments.quick or arguments.sequences or arguments.profiles or arguments.estimators or arguments.selection):
+        parser.error("--honesty has sequences, profiles and faults of its own")
     if not arguments.programs and not arguments.list:
         parser.error("--programs DIR is needed; scripts/evaluate_all builds them and fills it in")
     try:

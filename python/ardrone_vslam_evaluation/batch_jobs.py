@@ -37,13 +37,17 @@ class Job:
     estimator: str
     seeds: str
     settings: tuple = ()  # name=value over the configuration
+    fault: str = ""  # of the set-up, for replay
 
     def name(self):
-        return " ".join((self.sequence.name, self.profile, self.estimator, *self.settings))
+        return " ".join((self.sequence.name, self.profile, self.estimator, *self.extras()))
 
     def parts(self):
         """Of its folder."""
-        return self.sequence.name, self.profile, ",".join((self.estimator, *self.settings))
+        return self.sequence.name, self.profile, ",".join((self.estimator, *self.extras()))
+
+    def extras(self):
+        return (*self.settings, self.fault) if self.fault else self.settings
 
 
 def rendered(flight, *profiles, seconds=None):
