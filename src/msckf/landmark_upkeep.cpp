@@ -124,4 +124,11 @@ std::vector<int> takeFailed(const AssociationResult& matches,
   return failed;
 }
 
+int dropNewerThan(std::uint32_t last_id, LandmarkMap& map) {
+  const std::size_t before = map.size();
+  for (std::size_t i = before; i-- > 0;)
+    if (map.all()[i].id > last_id) map.remove(map.all()[i].id);
+  return static_cast<int>(before - map.size());
+}
+
 }  // namespace ardrone_vslam

@@ -40,4 +40,9 @@ std::vector<int> takeFailed(const AssociationResult& matches,
                             const std::vector<ObservationVerdict>& verdicts, bool is_relocated,
                             LandmarkMap& map);
 
+/// What was made of images that a wrong set-up explains is wrong as well.
+/// @param last_id  of the landmarks that stay
+/// @return how many went
+int dropNewerThan(std::uint32_t last_id, LandmarkMap& map);
+
 }  // namespace ardrone_vslam

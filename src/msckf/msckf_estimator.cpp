@@ -96,14 +96,6 @@ SlamState MsckfEstimator::fix(const AssociationResult& matches, const FrameView&
   return map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTracking;
 }
 
-/// What was made of images that a wrong set-up explains is wrong as well.
-int MsckfEstimator::dropUnconfirmed(LandmarkMap& map) const {
-  const std::size_t before = map.size();
-  for (std::size_t i = before; i-- > 0;)
-    if (map.all()[i].id > confirmed_landmark_) map.remove(map.all()[i].id);
-  return static_cast<int>(before - map.size());
-}
-
 void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& map) {
   trusted_.clear();
   std::vector<std::uint32_t> anchors;
@@ -128,7 +120,8 @@ MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView
                                      LandmarkMap& map) {
   MapChanges changes;
   if (setup_.is_confirmed) confirmed_landmark_ = newest_landmark_;
-  if (setup_.fault != SetupFault::kNone) changes.removed_landmarks = dropUnconfirmed(map);
+  if (setup_.fault != SetupFault::kNone)
+    changes.removed_landmarks = dropNewerThan(confirmed_landmark_, map);
   const std::vector<UsedTrack>& used_tracks = filter_.track(view.features());
   // Landmarks decided on the state, be it that they were rejected: the image's rest stays unsaid.
   const bool is_located = state_ == SlamState::kLocalised || state_ == SlamState::kRelocated ||

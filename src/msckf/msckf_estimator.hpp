@@ -30,7 +30,6 @@ class MsckfEstimator final : public Estimator {
 
  private:
   SlamState fix(const AssociationResult& matches, const FrameView& view, const LandmarkMap& map);
-  int dropUnconfirmed(LandmarkMap& map) const;
   void judge(const AssociationResult& matches, const LandmarkMap& map);
 
   SlamConfig config_;

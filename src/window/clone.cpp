@@ -12,4 +12,17 @@ std::optional<std::size_t> indexOf(const std::vector<Clone>& poses, std::uint32_
   return static_cast<std::size_t>(found - poses.begin());
 }
 
+Eigen::Vector3d recentVelocity_base_m_s(const std::vector<Clone>& frames,
+                                        const Eigen::Matrix3d& R_base_rig) {
+  constexpr double kSpan_s = 2;
+  Eigen::Vector3d displacement_base_m = Eigen::Vector3d::Zero();
+  double passed_s = 0;
+  for (std::size_t i = frames.size() - 1; i-- > 0 && passed_s < kSpan_s;) {
+    displacement_base_m += R_base_rig * frames[i].R_map_rig.transpose() *
+                           (frames[i + 1].position_map - frames[i].position_map);
+    passed_s = static_cast<double>(frames.back().stamp_ns - frames[i].stamp_ns) * 1e-9;
+  }
+  return passed_s > 0 ? Eigen::Vector3d(displacement_base_m / passed_s) : Eigen::Vector3d::Zero();
+}
+
 }  // namespace ardrone_vslam

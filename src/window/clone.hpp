@@ -25,4 +25,10 @@ struct Clone {
 /// Place of the pose of this id among them; nothing when there is none. O(poses).
 std::optional<std::size_t> indexOf(const std::vector<Clone>& poses, std::uint32_t id);
 
+/// Of base, over the last two seconds of the window's frames, axes of base at the newest; zero of
+/// one frame. The odometry's own velocity would jitter, and its bias, which counts as across the
+/// way or along it, would seem to be seen. O(frames).
+Eigen::Vector3d recentVelocity_base_m_s(const std::vector<Clone>& frames,
+                                        const Eigen::Matrix3d& R_base_rig);
+
 }  // namespace ardrone_vslam

@@ -18,24 +18,8 @@ constexpr int kExtrinsics = WindowState::kExtrinsics;
 constexpr int kGlobals = WindowState::kGlobals;
 constexpr int kFrame = WindowState::kFrame;
 
-constexpr double kStartSigma_m = 0.001;  // where the first frame is, map begins
 // Above this speed an error along the way counts as one of scale, which one camera cannot see.
 constexpr double kSlowSpeed_m_s = 0.1;
-constexpr double kVelocitySpan_s = 2;
-
-// Of the corrected poses: the odometry's noise would make the velocity jitter, and the bias, which
-// counts as across the way or along it, would seem to be seen.
-Eigen::Vector3d recentVelocity_base_m_s(const WindowState& state) {
-  const std::vector<Clone>& frames = state.frames();
-  Eigen::Vector3d displacement_base_m = Eigen::Vector3d::Zero();
-  double passed_s = 0;
-  for (std::size_t i = frames.size() - 1; i-- > 0 && passed_s < kVelocitySpan_s;) {
-    displacement_base_m += state.R_base_rig() * frames[i].R_map_rig.transpose() *
-                           (frames[i + 1].position_map - frames[i].position_map);
-    passed_s = static_cast<double>(frames.back().stamp_ns - frames[i].stamp_ns) * 1e-9;
-  }
-  return passed_s > 0 ? Eigen::Vector3d(displacement_base_m / passed_s) : Eigen::Vector3d::Zero();
-}
 
 }  // namespace
 
@@ -57,24 +41,7 @@ void Propagator::start(const OdometryState& odometry, WindowState& state) {
       1, {next_id_++, odometry.stamp_ns, odometry.T_odom_base.translation(),
           odometry.T_odom_base.linear(), Eigen::Vector3d::Zero(), odometry.height_m, 1});
   state.covariance_.reset(kGlobals + kFrame);
-  auto P = state.covariance_.all();
-  P.diagonal().segment<3>(kBias).setConstant(squared(config_.velocity_bias_m_s));
-  P(kScale, kScale) = squared(config_.scale_sigma);
-  // Yaw is zero by definition; roll and pitch may be off from the start.
-  const Eigen::Matrix3d tilt =
-      squared(radians(config_.tilt_sigma_deg)) * acrossOf(odometry.T_odom_base.linear().col(2));
-  const int attitude = kGlobals + 3;
-  P.block<3, 3>(kAttitude, kAttitude) = tilt;
-  P.block<3, 3>(attitude, kAttitude) = tilt;
-  P.block<3, 3>(kAttitude, attitude) = tilt;
-  P.block<3, 3>(attitude, attitude) = tilt;
-  P.diagonal().segment<3>(kExtrinsics).setConstant(squared(radians(config_.extrinsics_sigma_deg)));
-  P.block<3, 3>(attitude, kExtrinsics) =
-      odometry.T_odom_base.linear() * P.block<3, 3>(kExtrinsics, kExtrinsics);
-  P.block<3, 3>(kExtrinsics, attitude) = P.block<3, 3>(attitude, kExtrinsics).transpose();
-  P.diagonal().segment<3>(attitude).array() +=
-      squared(radians(config_.attitude_noise_deg)) + squared(radians(config_.extrinsics_sigma_deg));
-  P.diagonal().segment<3>(kGlobals).setConstant(squared(kStartSigma_m));
+  setStart(config_, odometry.T_odom_base.linear(), state.covariance_.all());
 }
 
 void Propagator::returnTo(const Eigen::Isometry3d& T_map_odom, WindowState& state) {
@@ -145,7 +112,8 @@ void Propagator::propagate(const OdometryState& odometry, const std::optional<Od
 
 void Propagator::addPosition(const OdometryState& odometry, const Increment& increment, Clone& next,
                              WindowState& state) const {
-  const Eigen::Vector3d velocity_base_m_s = recentVelocity_base_m_s(state);
+  const Eigen::Vector3d velocity_base_m_s =
+      recentVelocity_base_m_s(state.frames(), state.R_base_rig());
   next.stretch_by_bias_s_m =
       velocity_base_m_s / (velocity_base_m_s.squaredNorm() + squared(kSlowSpeed_m_s));
   const Eigen::Vector3d step =
