@@ -23,6 +23,7 @@
 #include "run/run_odometry.hpp"
 #include "sequences/faulty_sequence.hpp"
 #include "sequences/kitti_folder.hpp"
+#include "sequences/similar_sequence.hpp"
 #include "trajectory/text_file.hpp"
 #ifdef ARDRONE_VSLAM_WITH_ROS
 #include "bags/bag_options.hpp"
@@ -47,6 +48,7 @@ struct Options {
   std::string frames;
   bool ping_pong = false;
   bool whole_pixels = false;
+  Similarity similarity;
   std::string setup_fault;
   bool report = false;
   int threads = 2;
@@ -93,6 +95,12 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
   app.add_flag("--whole-pixels", o.whole_pixels,
                "tracks are not aligned between pixels, as the thesis has them");
+  app.add_option("--world-scale", o.similarity.scale,
+                 "a scene and flight so many times as large, at the same speed: the truth's "
+                 "positions and all stamps are multiplied (default 1)")
+      ->check(CLI::Range(0.001, 1000.0));
+  app.add_flag("--mirror-world", o.similarity.is_mirrored,
+               "images, camera and truth, left to right: as true as before");
   app.add_option("--setup-fault", o.setup_fault,
                  "make the set-up wrong, to see what becomes of it: mirrored, late=SECONDS, "
                  "focal=FACTOR, roll=, pitch= or yaw=DEGREES (of the camera)");
@@ -264,6 +272,8 @@ int run(const Options& o) {
   const FrameSelection selection =
       asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
   auto sequence = select(openInput(o, config), selection);
+  if (o.similarity.scale != 1 || o.similarity.is_mirrored)
+    sequence = withSimilarity(std::move(sequence), o.similarity);
   if (!o.setup_fault.empty())
     sequence = asUsage([&] { return withFault(std::move(sequence), o.setup_fault); });
   checkHeights(*sequence, config.mapper.height_input);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "sequences/sequence_view.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -50,18 +51,16 @@ Fault parseFault(const std::string& text) {
   return fault;
 }
 
-class FaultySequence : public Sequence {
+class FaultySequence : public SequenceView {
  public:
   FaultySequence(std::unique_ptr<Sequence> sequence, const Fault& fault)
-      : sequence_(std::move(sequence)), fault_(fault), first_(cameraAt(0)) {}
+      : SequenceView(std::move(sequence)), fault_(fault), first_(cameraAt(cameraOf(0))) {}
 
-  std::string name() const override { return sequence_->name(); }
-  std::size_t size() const override { return sequence_->size(); }
   std::int64_t stamp_ns(std::size_t index) const override {
-    return sequence_->stamp_ns(index) + fault_.late_ns;
+    return sequence().stamp_ns(index) + fault_.late_ns;
   }
   cv::Mat image(std::size_t index) override {
-    const cv::Mat image = sequence_->image(index);
+    const cv::Mat image = sequence().image(index);
     if (!fault_.is_mirrored) return image;
     cv::Mat mirrored;
     cv::flip(image, mirrored, 1);
@@ -69,24 +68,15 @@ class FaultySequence : public Sequence {
   }
   const CameraIntrinsics& camera() const override { return first_.intrinsics; }
   Eigen::Isometry3d T_base_cam() const override { return first_.T_base_cam; }
-  std::size_t cameraOf(std::size_t index) const override { return sequence_->cameraOf(index); }
   SequenceCamera cameraAt(std::size_t which) const override {
-    SequenceCamera camera = sequence_->cameraAt(which);
+    SequenceCamera camera = sequence().cameraAt(which);
     camera.intrinsics.fx_px *= fault_.focal_factor;
     camera.intrinsics.fy_px *= fault_.focal_factor;
     camera.T_base_cam.linear() = camera.T_base_cam.linear() * fault_.turn;
     return camera;
   }
-  const Trajectory& truth() const override { return sequence_->truth(); }
-  const std::vector<OdometryState>& odometry() const override { return sequence_->odometry(); }
-  OdometryFaultCounts odometryInputFaults() const override {
-    return sequence_->odometryInputFaults();
-  }
-  std::vector<RangeReading> ranges() const override { return sequence_->ranges(); }
-  OdometryNote odometryNote() const override { return sequence_->odometryNote(); }
 
  private:
-  std::unique_ptr<Sequence> sequence_;
   Fault fault_;
   SequenceCamera first_;
 };

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sequences/sequence.hpp"
+#include "sequences/sequence_view.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -65,13 +65,13 @@ Trajectory cut(const Trajectory& truth, std::int64_t first_ns, std::int64_t last
   return result;
 }
 
-class SelectedSequence : public Sequence {
+class SelectedSequence : public SequenceView {
  public:
   SelectedSequence(std::unique_ptr<Sequence> sequence, const std::vector<std::size_t>& frames,
                    bool ping_pong)
-      : sequence_(std::move(sequence)),
+      : SequenceView(std::move(sequence)),
         order_(ping_pong ? pingPong(frames) : frames),
-        camera_(sequence_->cameraAt(sequence_->cameraOf(order_.front()))) {
+        camera_(cameraAt(cameraOf(0))) {
     if (ping_pong) {
       restamp(frames);
     } else {
@@ -79,53 +79,46 @@ class SelectedSequence : public Sequence {
     }
   }
 
-  std::string name() const override { return sequence_->name(); }
   std::size_t size() const override { return order_.size(); }
   std::int64_t stamp_ns(std::size_t index) const override { return stamps_ns_.at(index); }
-  cv::Mat image(std::size_t index) override { return sequence_->image(order_.at(index)); }
+  cv::Mat image(std::size_t index) override { return sequence().image(order_.at(index)); }
   const CameraIntrinsics& camera() const override { return camera_.intrinsics; }
   Eigen::Isometry3d T_base_cam() const override { return camera_.T_base_cam; }
   std::size_t cameraOf(std::size_t index) const override {
-    return sequence_->cameraOf(order_.at(index));
+    return sequence().cameraOf(order_.at(index));
   }
-  SequenceCamera cameraAt(std::size_t which) const override { return sequence_->cameraAt(which); }
   const Trajectory& truth() const override { return truth_; }
   const std::vector<OdometryState>& odometry() const override { return odometry_; }
   std::vector<RangeReading> ranges() const override { return ranges_; }
-  OdometryNote odometryNote() const override { return sequence_->odometryNote(); }
-  OdometryFaultCounts odometryInputFaults() const override {
-    return sequence_->odometryInputFaults();
-  }
 
  private:
   void restamp(const std::vector<std::size_t>& frames) {
-    const std::int64_t start_ns = sequence_->stamp_ns(frames.front());
-    const std::int64_t interval_ns = medianInterval_ns(*sequence_, frames);
+    const std::int64_t start_ns = sequence().stamp_ns(frames.front());
+    const std::int64_t interval_ns = medianInterval_ns(sequence(), frames);
     for (std::size_t i = 0; i < order_.size(); ++i) {
       stamps_ns_.push_back(start_ns + static_cast<std::int64_t>(i) * interval_ns);
-      if (!sequence_->truth().empty()) {
-        truth_.append({stamps_ns_.back(), sequence_->truth().at(sequence_->stamp_ns(order_[i]))});
+      if (!sequence().truth().empty()) {
+        truth_.append({stamps_ns_.back(), sequence().truth().at(sequence().stamp_ns(order_[i]))});
       }
     }
   }
 
   void keepStamps() {
-    for (const std::size_t frame : order_) stamps_ns_.push_back(sequence_->stamp_ns(frame));
-    truth_ = cut(sequence_->truth(), stamps_ns_.front(), stamps_ns_.back());
+    for (const std::size_t frame : order_) stamps_ns_.push_back(sequence().stamp_ns(frame));
+    truth_ = cut(sequence().truth(), stamps_ns_.front(), stamps_ns_.back());
     const auto isCovered = [this](std::int64_t stamp_ns) {
       return stamp_ns >= stamps_ns_.front() - kOdometryMargin_ns &&
              stamp_ns <= stamps_ns_.back() + kOdometryMargin_ns;
     };
-    for (const OdometryState& state : sequence_->odometry()) {
+    for (const OdometryState& state : sequence().odometry()) {
       if (isCovered(state.stamp_ns)) odometry_.push_back(state);
     }
-    for (const RangeReading& reading : sequence_->ranges()) {
+    for (const RangeReading& reading : sequence().ranges()) {
       if (isCovered(reading.stamp_ns)) ranges_.push_back(reading);
     }
   }
 
-  std::unique_ptr<Sequence> sequence_;
-  std::vector<std::size_t> order_;  // frames of sequence_
+  std::vector<std::size_t> order_;  // frames of the whole sequence
   SequenceCamera camera_;           // of the first image
   std::vector<std::int64_t> stamps_ns_;
   Trajectory truth_;
