@@ -47,7 +47,7 @@ def parser_of(source):
     parser.add_argument("--sweep", action="append", metavar="NAME=V1,V2", help="instead: runs with this parameter at these values, and at what it is "
                         "else, into WORK/sweep.md and sweep.png; may be repeated, one at a time is varied")
     parser.add_argument("--tuning", action="store_true", help="instead: all parameters of docs/tuning_sweep.json; with --update into docs/tuning.md")
-    parser.add_argument("--honesty", action="store_true", help="instead: flights whose set-up is made wrong, whether that is found, and what "
+    parser.add_argument("--honesty", action="store_true", help="instead: flights whose set-up is wrong, and larger, mirrored or thinned ones, and what "
                         "becomes of the pose; with --update into docs/honesty.md")
     parser.add_argument("--list", action="store_true", help="only say what would run")
     parser.add_argument("--jobs", default=str(os.cpu_count()), metavar="N", help="at a time on each machine; default: its cores")

@@ -37,7 +37,7 @@ class Job:
     estimator: str
     seeds: str
     settings: tuple = ()  # name=value over the configuration
-    fault: str = ""  # of the set-up, for replay
+    options: tuple = ()  # of replay, beside the sequence's
 
     def name(self):
         return " ".join((self.sequence.name, self.profile, self.estimator, *self.extras()))
@@ -47,7 +47,7 @@ class Job:
         return self.sequence.name, self.profile, ",".join((self.estimator, *self.extras()))
 
     def extras(self):
-        return (*self.settings, self.fault) if self.fault else self.settings
+        return (*self.settings, " ".join(self.options)) if self.options else self.settings
 
 
 def rendered(flight, *profiles, seconds=None):
@@ -66,7 +66,8 @@ WHOLE_FLIGHTS = (rendered("laps", "drone", "harsh"), rendered("laps_then_hover",
 
 def real_sequences(data):
     """Of ARDRONE_VSLAM_DATA, those that are there."""
-    known = (Sequence("kitti_02_turn", ("wheel",), folder="kitti_02_turn"), Sequence("kitti_03", ("wheel",), folder="kitti_03"),
+    known = (Sequence("kitti_00_clip", ("wheel",), folder="kitti_00_clip"), Sequence("kitti_02_turn", ("wheel",), folder="kitti_02_turn"),
+             Sequence("kitti_03", ("wheel",), folder="kitti_03"),
              Sequence("kitti_03_and_back", ("wheel",), folder="kitti_03", replay=("--ping-pong",)),
              Sequence("kitti_05_clip", ("wheel",), folder="kitti_05_clip"),
              Sequence("seven_scenes_kitchen", ("drone",), folder="seven_scenes_kitchen"))

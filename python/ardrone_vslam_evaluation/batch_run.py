@@ -107,9 +107,8 @@ def task_of_sequence(sequence, programs, work):
 
 def task_of_job(job, sequence_folder, sequence_key, programs, runs):
     folder = os.path.join(runs, *job.parts())
-    options = ["--odometry-profile", job.profile, "--estimator", job.estimator, "--seeds", job.seeds, *job.sequence.replay]
+    options = ["--odometry-profile", job.profile, "--estimator", job.estimator, "--seeds", job.seeds, *job.sequence.replay, *job.options]
     options += [word for setting in job.settings for word in ("--set", setting)]
-    options += ["--setup-fault", job.fault] if job.fault else []
     command = [programs.replay, job.sequence.output_in(sequence_folder), *options, "--threads", "1", "--out", folder]
     # The many runs of a sweep would fill the disk.
     clear = f"find {shlex.quote(folder)} -mindepth 1 ! -path {shlex.quote(folder)}/summary.json -delete" if job.settings else ""
