@@ -60,6 +60,21 @@ struct Options {
 #endif
 };
 
+/// What is made of the input.
+void addSequenceOptions(CLI::App& app, Options& o) {
+  app.add_option("--frames", o.frames, "A:B:STEP, frames A up to but without B");
+  app.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
+  app.add_option("--world-scale", o.similarity.scale,
+                 "a scene and flight so many times as large, at the same speed: the truth's "
+                 "positions and all stamps are multiplied (default 1)")
+      ->check(CLI::Range(0.001, 1000.0));
+  app.add_flag("--mirror-world", o.similarity.is_mirrored,
+               "images, camera and truth, left to right: as true as before");
+  app.add_option("--setup-fault", o.setup_fault,
+                 "make the set-up wrong, to see what becomes of it: mirrored, late=SECONDS, "
+                 "focal=FACTOR, roll=, pitch= or yaw=DEGREES (of the camera)");
+}
+
 void addOptions(CLI::App& app, Options& o) {
   app.set_version_flag("--version", std::string("replay (ardrone_vslam) " ARDRONE_VSLAM_VERSION));
   app.add_flag_callback(
@@ -91,19 +106,9 @@ void addOptions(CLI::App& app, Options& o) {
   o.seed_option = addSeed(app, "--seed", o.seed, "of the odometry's noise");
   app.add_option("--seeds", o.seeds, "A:B, runs the seeds A to B and prints median and worst")
       ->excludes(o.seed_option);
-  app.add_option("--frames", o.frames, "A:B:STEP, frames A up to but without B");
-  app.add_flag("--ping-pong", o.ping_pong, "even frames forward, then odd frames backward");
+  addSequenceOptions(app, o);
   app.add_flag("--whole-pixels", o.whole_pixels,
                "tracks are not aligned between pixels, as the thesis has them");
-  app.add_option("--world-scale", o.similarity.scale,
-                 "a scene and flight so many times as large, at the same speed: the truth's "
-                 "positions and all stamps are multiplied (default 1)")
-      ->check(CLI::Range(0.001, 1000.0));
-  app.add_flag("--mirror-world", o.similarity.is_mirrored,
-               "images, camera and truth, left to right: as true as before");
-  app.add_option("--setup-fault", o.setup_fault,
-                 "make the set-up wrong, to see what becomes of it: mirrored, late=SECONDS, "
-                 "focal=FACTOR, roll=, pitch= or yaw=DEGREES (of the camera)");
   app.add_flag("--report", o.report,
                "also report.html, a page with tables and plots (docs/evaluate.md)");
   o.budget_option =
