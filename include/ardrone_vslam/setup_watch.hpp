@@ -67,8 +67,8 @@ class SetupWatch {
   /// @param image_time_offset_s  the parameter
   explicit SetupWatch(const Eigen::Isometry3d& T_base_cam, double image_time_offset_s = 0);
   ~SetupWatch();
-  SetupWatch(SetupWatch&& other) noexcept;
-  SetupWatch& operator=(SetupWatch&& other) noexcept;
+  SetupWatch(SetupWatch&& other) noexcept;             ///< takes what the images said along
+  SetupWatch& operator=(SetupWatch&& other) noexcept;  ///< likewise
 
   /// One image. Stamps that go back: the images before are forgotten.
   /// @param odometry  must keep at least a second, and reach to the image; more is waited for
