@@ -61,10 +61,7 @@ class FaultySequence : public SequenceView {
   }
   cv::Mat image(std::size_t index) override {
     const cv::Mat image = sequence().image(index);
-    if (!fault_.is_mirrored) return image;
-    cv::Mat mirrored;
-    cv::flip(image, mirrored, 1);
-    return mirrored;
+    return fault_.is_mirrored ? mirroredImage(image) : image;
   }
   const CameraIntrinsics& camera() const override { return first_.intrinsics; }
   Eigen::Isometry3d T_base_cam() const override { return first_.T_base_cam; }

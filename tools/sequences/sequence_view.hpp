@@ -2,11 +2,19 @@
 #pragma once
 
 #include <memory>
+#include <opencv2/core.hpp>
 #include <utility>
 
 #include "sequences/sequence.hpp"
 
 namespace ardrone_vslam {
+
+/// The image, left to right.
+inline cv::Mat mirroredImage(const cv::Mat& image) {
+  cv::Mat mirrored;
+  cv::flip(image, mirrored, 1);
+  return mirrored;
+}
 
 /// A sequence that is another one; what differs is overridden.
 class SequenceView : public Sequence {

@@ -33,10 +33,7 @@ class SimilarSequence : public SequenceView {
   }
   cv::Mat image(std::size_t index) override {
     const cv::Mat image = sequence().image(index);
-    if (!similarity_.is_mirrored) return image;
-    cv::Mat flipped_image;
-    cv::flip(image, flipped_image, 1);
-    return flipped_image;
+    return similarity_.is_mirrored ? mirroredImage(image) : image;
   }
   const CameraIntrinsics& camera() const override { return first_.intrinsics; }
   Eigen::Isometry3d T_base_cam() const override { return first_.T_base_cam; }
