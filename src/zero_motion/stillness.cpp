@@ -23,7 +23,7 @@ constexpr double kIndependentTracks = 20;
 std::vector<double> left_rad(const std::vector<BearingPair>& pairs, const Eigen::Matrix3d& R) {
   std::vector<double> left;
   left.reserve(pairs.size());
-  for (const BearingPair& pair : pairs) left.push_back((R * pair.now - pair.reference).norm());
+  for (const BearingPair& pair : pairs) left.push_back((R * pair.now - pair.then).norm());
   return left;
 }
 
@@ -49,7 +49,7 @@ Eigen::Matrix3d agreedTurn(const std::vector<BearingPair>& pairs, Eigen::Matrix3
       const double weight = 1 / ((1 + off * off) * (1 + off * off));
       const Eigen::Vector3d now = R * pairs[i].now;
       A += weight * (Eigen::Matrix3d::Identity() - now * now.transpose());
-      g += weight * now.cross(now - pairs[i].reference);
+      g += weight * now.cross(now - pairs[i].then);
     }
     R = rotationOf(-A.ldlt().solve(g)) * R;
   }
@@ -65,7 +65,7 @@ struct TurnAndShift {
   TurnAndShift(const std::vector<BearingPair>& pairs, const Eigen::Matrix3d& R, double jump_rad) {
     for (const BearingPair& pair : pairs) {
       const Eigen::Vector3d now = R * pair.now;
-      const Eigen::Vector3d left = now - pair.reference;
+      const Eigen::Vector3d left = now - pair.then;
       if (left.norm() > kInlierSigmas * jump_rad) continue;
       ++inliers;
       Eigen::Matrix<double, 3, 6> J;

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "odometry/image_rotation.hpp"
+
 namespace ardrone_vslam {
 
 /// How far a corner at rest jumps between two images, per axis: noise, and the corner's own pixel.
@@ -14,12 +16,6 @@ constexpr double kInlierSigmas = 3;
 constexpr double kTurnSigmas = 3.5;
 /// From fewer tracks nothing is told.
 constexpr std::size_t kFewestPairs = 15;
-
-/// Directions to one corner, axes of the camera, unit length.
-struct BearingPair {
-  Eigen::Vector3d reference;  ///< in the reference image
-  Eigen::Vector3d now;        ///< in the image beside it
-};
 
 /// An image beside the reference.
 struct Stillness {
