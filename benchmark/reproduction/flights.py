@@ -217,7 +217,7 @@ def hover(tools):
     section.table(["off after 15 s [m]", "median", "worst"], [[label, digits(np.median(errors)), digits(errors.max())] for label, errors in final.items()] +
                   [["thesis, one flight without vision", str(thesis.HOVER_DRIFT_M), "-"]])
     section.text(f"A rendered flight that holds its place as well as a drone does, {seeds} seeds of the profile `hover` (velocity bias of 0.13 m/s per axis), whose drift is that of "
-                 "the thesis's flight in size. `msckf` is held by what the image shows ([how](msckf.md#hovering)), in a scene that is taken to be 10 m away (`zero_motion_depth_m`).")
+                 "the thesis's flight in size. `msckf` is held by what the image shows ([how](msckf.md#hovering)).")
     section.claim("drift of the observer after 15 s, median [m]", float(np.median(final["observer alone"])), 1, 4)
     section.claim("`msckf` over the observer, medians", float(np.median(final["`msckf`"]) / np.median(final["observer alone"])), high=0.15)
     section.claim("`thesis` over the observer, medians", float(np.median(final["`thesis`"]) / np.median(final["observer alone"])), high=0.7)

@@ -35,7 +35,6 @@ struct MsckfConfig {
   OdometryNoiseConfig odometry;
   double track_sigma_px = 1;
   double track_common_px = 0.7;
-  double zero_motion_depth_m = 10;
   int max_clones = 12;
   int max_anchors = 32;
   double fix_min_age_s = 3;
@@ -57,12 +56,6 @@ void visitParameters(MsckfConfig& c, Visitor&& visit) {
                       "rolling shutter, calibration. A street needs more than a room",
                       turnFirst(16)},
         c.track_common_px);
-  visit(ParameterInfo{"zero_motion_depth_m", "m", 0.1, 1e6,
-                      "how far away the scene is taken to be while no landmark says it: the "
-                      "further, the more motion an image that is still may hide. Outdoors the "
-                      "distance to what is seen",
-                      turnFirst(18)},
-        c.zero_motion_depth_m);
   visit(ParameterInfo{"track_sigma_px", "px", 0.01, 100,
                       "standard deviation of a corner: of a landmark's match, and in a track while "
                       "it is not aligned. More with a rolling shutter or blur"},

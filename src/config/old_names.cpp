@@ -12,6 +12,7 @@ using Kind = OldName::Kind;
 constexpr const char* kNoGain = "no recording gained by another value";
 constexpr const char* kExperiments = "the thesis's experiments alone vary it";
 constexpr const char* kDescriptor = "it is a property of the descriptor, not of a robot";
+constexpr const char* kSceneDepth = "the scene's depth is learned";
 constexpr const char* kSensor = "the drone's sensors were measured";
 constexpr const char* kAsPrinted = "as_printed: true switches it off";
 constexpr const char* kRates = "nobody needs another rate or length";
@@ -49,12 +50,13 @@ constexpr OldName kTable[] = {
     renamed("mapper", "mounting_deviation_deg", "extrinsics_sigma_deg"),
     renamed("mapper", "track_deviation_px", "track_sigma_px"),
     renamed("mapper", "window_frames", "max_clones"),
-    renamed("mapper", "rest_depth_m", "zero_motion_depth_m"),
     renamed("mapper", "height_deviation_m", "height_sigma_m"),
     // Of the mapper, now constants.
     constant("mapper", "observer_max_gap_s"),
     constant("mapper", "range_max_gap_s", "a sensor with larger holes is too slow"),
     constant("mapper", "range_max_tilt_deg"),
+    constant("mapper", "rest_depth_m", kSceneDepth),
+    constant("mapper", "zero_motion_depth_m", kSceneDepth),
     constant("mapper", "search_radius_px"),
     constant("mapper", "widening_s"),
     constant("mapper", "max_view_angle_deg", kDescriptor),

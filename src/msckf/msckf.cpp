@@ -101,11 +101,9 @@ void Msckf::useStillness(const ImageFeatures& features) {
     return;
   }
   const bool is_located = map_update_.isLocated();
-  const double seen_m = track_update_.pointDistance_m();
-  zero_motion_.apply(features, T_rig_cam_, is_located,
-                     seen_m > 0 ? seen_m : config_.zero_motion_depth_m, state_);
+  zero_motion_.apply(features, T_rig_cam_, propagator_.odometry_map_m(), is_located, state_);
   if (is_located || motion() == CameraMotion::kResting) return;
-  limitByScene(features, order_, tracks_, T_rig_cam_.linear().col(2), config_.zero_motion_depth_m,
+  limitByScene(features, order_, T_rig_cam_.translation(), zero_motion_.sceneDepth(), tracks_,
                state_);
 }
 

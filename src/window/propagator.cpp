@@ -96,6 +96,7 @@ void Propagator::propagate(const OdometryState& odometry, const std::optional<Od
   next.height_m = odometry.height_m;
   addPosition(odometry, increment, next, state);
   odometry_way_m_ += increment.displacement_m;
+  odometry_map_m_ += state.R_map_odom_ * increment.way_odom_m;
   if (step) {
     // Nothing but where the drone is now is in doubt: odometry that had stood still may catch up.
     const int to = state.frameCoordinate(state.frames_.size());

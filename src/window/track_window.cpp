@@ -29,26 +29,37 @@ const TrackWindow::Observation* TrackWindow::Tracks::viewOf(const Track& track,
   return nullptr;
 }
 
-TrackWindow::Motion TrackWindow::motionSince(const Clone& frame, const Clone& present,
-                                             const ImageFeatures& features,
-                                             const TrackOrder& order) {
-  const Eigen::Matrix3d R_frame_cam = frame.R_map_rig.transpose() * present.R_map_rig * R_rig_cam_;
-  moved_px_.clear();
-  Motion motion;
+TrackWindow::Common TrackWindow::commonWith(std::uint32_t frame_id, const ImageFeatures& features,
+                                            const TrackOrder& order) {
+  pairs_.clear();
+  int lost = 0;
   const TrackedFeature* seen = order.begin();
   for (const Track& track : now_.tracks) {
-    const Observation* then = now_.viewOf(track, frame.id);
+    const Observation* then = now_.viewOf(track, frame_id);
     if (then == nullptr) continue;
     while (seen != order.end() && seen->track_id < track.id) ++seen;
     if (seen == order.end() || seen->track_id != track.id) {
-      ++motion.lost;
+      ++lost;
       continue;
     }
-    const Eigen::Vector3d now = R_frame_cam * features.bearing_cam[seen->feature].cast<double>();
-    moved_px_.push_back((now - then->bearing_rig).norm() * features.focal_length_px);
+    pairs_.push_back(
+        {then->bearing_rig, R_rig_cam_ * features.bearing_cam[seen->feature].cast<double>()});
   }
-  motion.common = static_cast<int>(moved_px_.size());
-  if (moved_px_.empty()) return motion;
+  return {pairs_, lost};
+}
+
+TrackWindow::Motion TrackWindow::motionSince(const Clone& frame, const Clone& present,
+                                             const ImageFeatures& features,
+                                             const TrackOrder& order) {
+  const Common common = commonWith(frame.id, features, order);
+  Motion motion;
+  motion.lost = common.lost;
+  motion.common = static_cast<int>(common.pairs.size());
+  if (common.pairs.empty()) return motion;
+  const Eigen::Matrix3d R_then_now = frame.R_map_rig.transpose() * present.R_map_rig;
+  moved_px_.clear();
+  for (const BearingPair& pair : common.pairs)
+    moved_px_.push_back((R_then_now * pair.now - pair.then).norm() * features.focal_length_px);
   const auto middle = moved_px_.begin() + static_cast<std::ptrdiff_t>(moved_px_.size() / 2);
   std::nth_element(moved_px_.begin(), middle, moved_px_.end());
   motion.median_px = *middle;

@@ -7,6 +7,7 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "matching/track_order.hpp"
+#include "odometry/image_rotation.hpp"
 #include "window/clone.hpp"
 #include "window/track_views.hpp"
 
@@ -33,11 +34,19 @@ class TrackWindow {
   /// Of the features from now on. None of them may have the track of an earlier one.
   void changeCamera(const Eigen::Matrix3d& R_rig_cam) { R_rig_cam_ = R_rig_cam; }
 
+  /// The tracks of a frame of the window that go on, and those that do not.
+  struct Common {
+    const std::vector<BearingPair>& pairs;  ///< axes of the rig; until the next call
+    int lost = 0;                           ///< of all that the window still has
+  };
+  /// @param order  of these features
+  Common commonWith(std::uint32_t frame_id, const ImageFeatures& features, const TrackOrder& order);
+
   /// How far the image has moved since a frame of the window, once its turning is taken out.
   struct Motion {
     double median_px = 0;  ///< of the common tracks
     int common = 0;        ///< tracks of that frame that go on
-    int lost = 0;          ///< and those that do not, of all that the window still has
+    int lost = 0;          ///< and those that do not
   };
   /// @param order  of these features
   Motion motionSince(const Clone& frame, const Clone& present, const ImageFeatures& features,
@@ -98,6 +107,7 @@ class TrackWindow {
   Tracks next_;  // add() builds it and changes it for the other
   std::vector<FinishedTrack> finished_;
   std::vector<TrackView> finished_views_;
+  std::vector<BearingPair> pairs_;
   std::vector<double> moved_px_;
 };
 

@@ -1,58 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "zero_motion/scene_limit.hpp"
 
-#include <algorithm>
+#include <Eigen/LU>
 #include <cmath>
 
+#include "linear/scalars.hpp"
+#include "zero_motion/seen_motion.hpp"
 #include "zero_motion/zero_motion_update.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr int kFewestTracks = 15;
-// Faster odometry is believed: then the scene is further away than it is taken to be.
-constexpr double kFastest_m_s = 0.5;
-constexpr double kAttitudeSigmas = 2;
-// A motion along the view moves the median corner by so many times less than one across.
-constexpr double kAlongView = 3;
+constexpr double kCornerSigma_px = 1;
+constexpr double kAttitudeNoise_rad = 1e-4;
+// Way over depth: further, parallax tells the way.
+constexpr double kFarthest = 0.02;
+// Within less the odometry knows the way better than an image does.
+constexpr double kShortest_s = 1;
+// The scene is between these quantiles of its depth.
+constexpr double kNear = 0.1;
+constexpr double kFar = 0.9;
+// What is seen of the way, over its length, differs from track to track as their depths do.
+constexpr double kUneven = 0.4;
 
-/// The displacement since a frame of the window is not longer than this across the view.
-void limitDisplacement(std::size_t frame, double across_m, const Eigen::Vector3d& view_map,
-                       WindowState& state) {
-  const Eigen::Vector3d displacement_m =
-      state.newest().position_map - state.frames()[frame].position_map;
-  const Eigen::Matrix3d along = view_map * view_map.transpose();
-  const Eigen::Matrix3d weight =
-      (Eigen::Matrix3d::Identity() - along + along / (kAlongView * kAlongView)) /
-      (across_m * across_m);
-  if (displacement_m.dot(weight * displacement_m) < 1) return;  // within the limit it says nothing
+/// The camera's displacement since a frame of the window is the way seen, times the depth.
+void limitDisplacement(std::size_t frame, const SeenMotion& seen, const SceneDepth& depth,
+                       const Eigen::Vector3d& camera_rig, WindowState& state) {
+  const Clone& then = state.frames()[frame];
+  const Clone& newest = state.newest();
+  const double near_m = depth.quantile_m(kNear);
+  const double far_m = depth.quantile_m(kFar);
+  const Eigen::Vector3d way_map = then.R_map_rig * seen.way;
+  const Eigen::Vector3d off_m = newest.position_map - then.position_map +
+                                (newest.R_map_rig - then.R_map_rig) * camera_rig -
+                                0.5 * (near_m + far_m) * way_map;
+  Eigen::Matrix3d variance_m2 =
+      squared(far_m) * then.R_map_rig * seen.covariance * then.R_map_rig.transpose() +
+      squared(0.5 * (far_m - near_m)) * way_map * way_map.transpose();
+  variance_m2.diagonal().array() += squared(kUneven * far_m) * way_map.squaredNorm();
+  const Eigen::Matrix3d weight = variance_m2.inverse();
+  const double passed_s = static_cast<double>(newest.stamp_ns - then.stamp_ns) * 1e-9;
+  if (passed_s < kShortest_s || !mayBeDrift(off_m.norm(), passed_s)) return;
+  if (off_m.dot(weight * off_m) < 1) return;  // it need not be drift
   const int from = state.frameCoordinate(frame);
   const int to = state.frameCoordinate(state.frames().size() - 1);
   Information information({from, from + 1, from + 2, to, to + 1, to + 2});
   information.matrix << weight, -weight, -weight, weight;
-  information.vector << weight * displacement_m, -weight * displacement_m;
+  information.vector << weight * off_m, -weight * off_m;
   state.update(information);
 }
 
 }  // namespace
 
-void limitByScene(const ImageFeatures& features, const TrackOrder& order, TrackWindow& tracks,
-                  const Eigen::Vector3d& view_rig, double depth_m, WindowState& state) {
-  const double least_rad = kCornerJump_px / features.focal_length_px;
-  const Clone& newest = state.newest();
+void limitByScene(const ImageFeatures& features, const TrackOrder& order,
+                  const Eigen::Vector3d& camera_rig, const SceneDepth& depth, TrackWindow& tracks,
+                  WindowState& state) {
   // The oldest frame that shows the same: since then most drift has added up.
   for (std::size_t frame = 0; frame + 1 < state.frames().size(); ++frame) {
     const Clone& then = state.frames()[frame];
-    const double displacement_m = (newest.position_map - then.position_map).norm();
-    const double passed_s = static_cast<double>(newest.stamp_ns - then.stamp_ns) * 1e-9;
-    if (displacement_m < depth_m * least_rad || displacement_m > kFastest_m_s * passed_s) continue;
-    const TrackWindow::Motion motion = tracks.motionSince(then, newest, features, order);
-    if (motion.common < kFewestTracks || motion.lost > motion.common) continue;
-    // Half of what is seen is no further away; an attitude that is off may hide as much.
-    const double seen_rad = std::max(motion.median_px / features.focal_length_px, least_rad);
-    const double hidden_rad = kAttitudeSigmas * rotationSigma_rad(state, frame);
-    limitDisplacement(frame, depth_m * std::hypot(seen_rad, hidden_rad),
-                      newest.R_map_rig * view_rig, state);
+    const TrackWindow::Common common = tracks.commonWith(then.id, features, order);
+    const auto pairs = static_cast<int>(common.pairs.size());
+    if (pairs < kFewestTracks || common.lost > pairs) continue;
+    const auto seen =
+        seenMotion(common.pairs, then.R_map_rig.transpose() * state.newest().R_map_rig,
+                   rotationSigma_rad(state, frame) + kAttitudeNoise_rad,
+                   kCornerSigma_px / features.focal_length_px);
+    if (seen && seen->way.norm() < kFarthest)
+      limitDisplacement(frame, *seen, depth, camera_rig, state);
     return;
   }
 }

@@ -7,16 +7,18 @@
 #include "matching/track_order.hpp"
 #include "window/track_window.hpp"
 #include "window/window_state.hpp"
+#include "zero_motion/scene_depth.hpp"
 
 namespace ardrone_vslam {
 
-/// Where nothing else tells the drift: the camera has moved by no more than the image shows in a
-/// scene so far away, so a hovering drone stays though its odometry drifts. O(frames x tracks).
+/// Where nothing else tells the drift: the camera has moved by what the image shows in a scene as
+/// far away as is known, so a hovering drone stays though its odometry drifts. Only what is surely
+/// drift is taken back. O(frames x tracks).
 /// @param order  of the newest frame's features
+/// @param camera_rig  the camera's position in the rig
 /// @param tracks  of the window
-/// @param view_rig  the camera's optical axis, axes of the rig
-/// @param depth_m  not the landmarks' distance: what drift made is as much too far away
-void limitByScene(const ImageFeatures& features, const TrackOrder& order, TrackWindow& tracks,
-                  const Eigen::Vector3d& view_rig, double depth_m, WindowState& state);
+void limitByScene(const ImageFeatures& features, const TrackOrder& order,
+                  const Eigen::Vector3d& camera_rig, const SceneDepth& depth, TrackWindow& tracks,
+                  WindowState& state);
 
 }  // namespace ardrone_vslam

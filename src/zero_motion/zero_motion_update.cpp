@@ -3,7 +3,14 @@
 
 #include <cmath>
 
+#include "linear/scalars.hpp"
+
 namespace ardrone_vslam {
+
+bool mayBeDrift(double error_m, double passed_s) {
+  constexpr double kFastest_m_s = 0.5;
+  return error_m <= kFastest_m_s * passed_s;
+}
 
 double rotationSigma_rad(const WindowState& state, std::size_t frame) {
   const Matrix6d relative = state.relativeCovariance(
@@ -12,7 +19,11 @@ double rotationSigma_rad(const WindowState& state, std::size_t frame) {
 }
 
 void ZeroMotionUpdate::apply(const ImageFeatures& features, const Eigen::Isometry3d& T_rig_cam,
-                             bool is_located, double depth_m, WindowState& state) {
+                             const Eigen::Vector3d& odometry_map_m, bool is_located,
+                             WindowState& state) {
+  const Eigen::Matrix3d& R_map_rig = state.newest().R_map_rig;
+  scene_depth_.see(features, R_map_rig * T_rig_cam.linear(),
+                   odometry_map_m + R_map_rig * T_rig_cam.translation());
   const auto reference = indexOf(state.frames(), reference_id_);
   OdometryTurn turn;
   if (!reference) detector_ = ZeroMotionDetector();
@@ -24,7 +35,7 @@ void ZeroMotionUpdate::apply(const ImageFeatures& features, const Eigen::Isometr
   }
   motion_ = detector_.see(features, turn);
   const bool is_still = motion_ == CameraMotion::kResting || motion_ == CameraMotion::kRotating;
-  if (is_still && reference && !is_located && !holdStill(*reference, T_rig_cam, depth_m, state))
+  if (is_still && reference && !is_located && !holdStill(*reference, T_rig_cam, state))
     motion_ = CameraMotion::kMoving;
   if (!is_still) odometry_displacement_.setZero();
   if (!detector_.isReference()) return;
@@ -34,21 +45,21 @@ void ZeroMotionUpdate::apply(const ImageFeatures& features, const Eigen::Isometr
 }
 
 bool ZeroMotionUpdate::holdStill(std::size_t reference, const Eigen::Isometry3d& T_rig_cam,
-                                 double depth_m, WindowState& state) {
-  // Odometry does not err by so much: the image stands still for another reason (a frozen stream).
-  constexpr double kFastest_m_s = 0.5;
-  constexpr double kSlack_m = 0.1;
+                                 WindowState& state) {
+  // The scene may be further away than what is known of it says, and the image hide more motion.
+  constexpr double kNearerSurely = 0.97;
   const Eigen::Vector3d camera_rig = T_rig_cam.translation();
   const Clone& then = state.frames()[reference];
   const Clone& now = state.newest();
   odometry_displacement_ += now.position_map + now.R_map_rig * camera_rig - then.position_map -
                             then.R_map_rig * camera_rig;
-  if (odometry_displacement_.norm() > kFastest_m_s * detector_.still_s() + kSlack_m) return false;
+  constexpr double kJitter_m = 0.1;  // of odometry, in the first moments
+  if (!mayBeDrift(odometry_displacement_.norm() - kJitter_m, detector_.still_s())) return false;
   const Eigen::Matrix3d R_rig_cam = T_rig_cam.linear();
   const Eigen::Matrix3d R_map_cam = then.R_map_rig * R_rig_cam;
-  state.holdNewest(
-      reference, camera_rig,
-      depth_m * depth_m * R_map_cam * detector_.stillness().hidden * R_map_cam.transpose());
+  state.holdNewest(reference, camera_rig,
+                   squared(scene_depth_.quantile_m(kNearerSurely)) * R_map_cam *
+                       detector_.stillness().hidden * R_map_cam.transpose());
   return true;
 }
 
@@ -65,6 +76,7 @@ void ZeroMotionUpdate::changeCamera(WindowState& state) {
 
 void ZeroMotionUpdate::reset() {
   detector_ = ZeroMotionDetector();
+  scene_depth_ = SceneDepth();
   reference_id_ = 0;
   reference_is_keyframe_ = false;
   odometry_displacement_.setZero();

@@ -6,9 +6,14 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "window/window_state.hpp"
+#include "zero_motion/scene_depth.hpp"
 #include "zero_motion/zero_motion_detector.hpp"
 
 namespace ardrone_vslam {
+
+/// Whether odometry may err by so much meanwhile. Otherwise the image stands still beside it for
+/// another reason (a frozen stream).
+bool mayBeDrift(double error_m, double passed_s);
 
 /// How well the rotation from a frame of the window to the newest one is known, per axis.
 double rotationSigma_rad(const WindowState& state, std::size_t frame);
@@ -18,14 +23,16 @@ double rotationSigma_rad(const WindowState& state, std::size_t frame);
 class ZeroMotionUpdate {
  public:
   /// Looks at the newest frame, and holds its position when the camera rests or turns on the spot.
+  /// @param odometry_map_m  where odometry alone would have put base, axes of map
   /// @param is_located  landmarks say where the camera is, so that nothing is held
-  /// @param depth_m  of the scene: how far a motion that the image hides may have gone
-  void apply(const ImageFeatures& features, const Eigen::Isometry3d& T_rig_cam, bool is_located,
-             double depth_m, WindowState& state);
+  void apply(const ImageFeatures& features, const Eigen::Isometry3d& T_rig_cam,
+             const Eigen::Vector3d& odometry_map_m, bool is_located, WindowState& state);
   /// The newest frame's image is not looked at.
   void skip() { motion_ = CameraMotion::kUnknown; }
   /// The image says this of the newest frame; moving where the odometry contradicts it.
   CameraMotion motion() const { return motion_; }
+  /// How far away the scene is, as learned from the images given to apply().
+  const SceneDepth& sceneDepth() const { return scene_depth_; }
 
   /// A frame of this id has become a keyframe.
   void noteKeyframe(std::uint32_t id) { reference_is_keyframe_ |= reference_id_ == id; }
@@ -45,11 +52,11 @@ class ZeroMotionUpdate {
   void reset();
 
  private:
-  bool holdStill(std::size_t reference, const Eigen::Isometry3d& T_rig_cam, double depth_m,
-                 WindowState& state);
+  bool holdStill(std::size_t reference, const Eigen::Isometry3d& T_rig_cam, WindowState& state);
   void dropReference(WindowState& state) const;
 
   ZeroMotionDetector detector_;
+  SceneDepth scene_depth_;
   CameraMotion motion_ = CameraMotion::kUnknown;
   std::uint32_t reference_id_ = 0;  // 0: none
   bool reference_is_keyframe_ = false;

@@ -182,7 +182,7 @@ class PlanTest(unittest.TestCase):
     def test_without_data_the_synthetic_cases_are_left(self):
         plan = sweep.read_plan(PLAN, of_replay(parameters()), None, "1:3", CONFIG)
         self.assertEqual(plan.left_out, ("kitchen", "street", "thesis_street"))
-        self.assertEqual({job.sequence.name for job in sweep.jobs_of(plan.groups)}, {"room", "dim", "rest", "hover", "floor"}, "what is alike is rendered once")
+        self.assertEqual({job.sequence.name for job in sweep.jobs_of(plan.groups)}, {"room", "dim", "floor"}, "what is alike is rendered once")
 
 
 class WholeTest(unittest.TestCase):

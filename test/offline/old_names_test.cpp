@@ -147,10 +147,10 @@ TEST(OldNames, AConfigurationWithOneIsRefusedWithTheNewOne) {
 
 TEST(OldNames, ASingleValueIsRefusedAlike) {
   try {
-    loadConfig("", {"rest_depth_m=3"});
+    loadConfig("", {"track_deviation_px=3"});
     FAIL() << "accepted";
   } catch (const ConfigError& e) {
-    EXPECT_TRUE(contains(e.what(), "rest_depth_m is called zero_motion_depth_m now")) << e.what();
+    EXPECT_TRUE(contains(e.what(), "track_deviation_px is called track_sigma_px now")) << e.what();
   }
 }
 

@@ -125,9 +125,9 @@ TEST(SettingsTest, EveryFaultIsNamed) {
 }
 
 TEST(SettingsTest, AnOldNameIsRefusedWithTheNewOne) {
-  EXPECT_NE(settingsFault({"mapper/rest_depth_m=3"})
-                .find("mapper/rest_depth_m is not a parameter; rest_depth_m is called "
-                      "zero_motion_depth_m now"),
+  EXPECT_NE(settingsFault({"mapper/track_deviation_px=3"})
+                .find("mapper/track_deviation_px is not a parameter; track_deviation_px is called "
+                      "track_sigma_px now"),
             std::string::npos);
   EXPECT_NE(settingsFault({"onboard/camera_y_m=1"}).find("is called camera_position_m now"),
             std::string::npos);

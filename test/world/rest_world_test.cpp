@@ -48,7 +48,8 @@ TEST(RestWorld, AStillImageHoldsThePosition) {
     EXPECT_GT(test::framesIn(run, SlamState::kResting), 200) << "seed " << seed;
     EXPECT_EQ(run.landmarks.size(), 0U) << "seed " << seed;
     const double variance_m2 = run.results.back().covariance.topLeftCorner<3, 3>().trace();
-    EXPECT_LT(variance_m2, 0.1 * 0.1) << "seed " << seed;
+    // Nothing tells how far away the scene is, and so how much motion its image may hide.
+    EXPECT_LT(variance_m2, 0.6 * 0.6) << "seed " << seed;
     EXPECT_GT(variance_m2, 0.005 * 0.005) << "seed " << seed;
   }
 }
@@ -99,9 +100,7 @@ TEST(RestWorld, ASlowFlightBeforeAFarSceneIsNotHeld) {
   const Flight flight = test::straightFlight(150, kRate_hz, 0.3);
   PointWorld world(1);
   world.addRoom({200, 200, 60}, 3000);
-  SlamConfig config = test::msckfConfig();
-  config.msckf.zero_motion_depth_m = 100;
-  const FlightRun run = test::fly(world, flight, test::observeExactly(flight), config);
+  const FlightRun run = test::fly(world, flight, test::observeExactly(flight), test::msckfConfig());
   EXPECT_LT(lastError_m(flight, run), 0.05);
 }
 
