@@ -8,7 +8,8 @@ from .faults import InputFault, reason
 KEY = ("sequence", "profile", "estimator", "seeds")
 # Row's key -> (its name, what of a difference is too small to count).
 WATCHED = {"fused_rmse_m": ("fused RMSE [m]", 0.005), "ratio": ("fused / odometry", 0.01),
-           "ratio_scale_removed": ("fused / odometry, scale removed", 0.01)}
+           "ratio_scale_removed": ("fused / odometry, scale removed", 0.01), "nees": ("NEES / 3", 0.3),
+           "outside_3_sigma": ("outside 3 sigma", 0.02)}
 MARGIN = 0.1
 
 

@@ -38,7 +38,8 @@ def seeds(text):
 def parser_of(source):
     parser = argparse.ArgumentParser(prog="evaluate_all", epilog=EPILOG, description=(
         "Builds the package, runs all sequences with all profiles, estimators and seeds, writes one table and tells what became worse."))
-    parser.add_argument("--quick", action="store_true", help="only three short synthetic flights; they are among the others, too")
+    parser.add_argument("--quick", action="store_true", help="only three short synthetic flights, with some changes of "
+                        "--honesty; they are among the others, too")
     parser.add_argument("--selection", metavar="FILE", help="sequences of your own instead (docs/evaluate.md)")
     parser.add_argument("--kitti", metavar="DIR", help="also KITTI's sequences in it")
     for name, what in (("sequences", "names"), ("profiles", "names"), ("estimators", " or ".join(batch_jobs.ESTIMATORS))):
@@ -111,7 +112,7 @@ def run(arguments, source):
     if arguments.tuning:
         return sweep_command.run_tuning(arguments, source, work)
     if arguments.sweep:
-        return sweep_command.run_sweep(arguments, jobs, source, work)
+        return sweep_command.run_sweep(arguments, [job for job in jobs if not job.options], source, work)
     programs = Programs(os.path.abspath(arguments.programs), os.path.join(source, "config"))
     if arguments.honesty:
         faults = honesty.run(arguments, programs, source, work)

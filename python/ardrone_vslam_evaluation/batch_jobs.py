@@ -22,6 +22,7 @@ class Sequence:
     folder: str = ""
     replay: tuple = ()  # further options
     bag: bool = False  # the flight is rendered into one: a folder holds no heights of the bottom camera
+    changes: tuple = ()  # replay's options for similar flights and wrong set-ups, each with the first profile and estimator
 
     def output_in(self, folder):
         """What make_world writes and replay reads."""
@@ -50,13 +51,16 @@ class Job:
         return (*self.settings, " ".join(self.options)) if self.options else self.settings
 
 
-def rendered(flight, *profiles, seconds=None):
+def rendered(flight, *profiles, seconds=None, changes=()):
     name = f"{flight}_{seconds}s" if seconds else flight
     length = ("--seconds", str(seconds)) if seconds else ()
-    return Sequence(name, profiles, flight=(flight, "--rate", RATE_HZ, *length))
+    return Sequence(name, profiles, flight=(flight, "--rate", RATE_HZ, *length), changes=changes)
 
 
-QUICK = (rendered("laps", "drone", seconds=30), rendered("hover", "drone", "hover", seconds=15), rendered("corridor", "drone", seconds=20))
+LARGER = ("--world-scale", "10")
+QUICK = (rendered("laps", "drone", seconds=30, changes=(LARGER, ("--setup-fault", "mirrored"), ("--setup-fault", "late=0.3"))),
+         rendered("hover", "drone", "hover", seconds=15, changes=(LARGER,)),
+         rendered("corridor", "drone", seconds=20, changes=(LARGER, ("--setup-fault", "yaw=90"))))
 # laps_then_hover: one lap, then the odometry of a drone that has no help from its motion.
 WHOLE_FLIGHTS = (rendered("laps", "drone", "harsh"), rendered("laps_then_hover", "drone,hover@21.5"), rendered("mapping_turn", "drone"),
                  rendered("hover", "drone", "hover"), rendered("corridor", "drone"), rendered("corridor_turn", "drone"),
@@ -130,5 +134,7 @@ def jobs_of(sequences, seeds=SEEDS, only_sequences=None, only_profiles=None, onl
     sequences = [s for s in sequences if s.name in names]
     profiles = chosen([profile for s in sequences for profile in s.profiles], only_profiles, "--profiles")
     estimators = chosen(ESTIMATORS, only_estimators, "--estimators")
-    return [Job(s, profile, estimator, seeds) for s in sequences for profile in s.profiles if profile in profiles
-            for estimator in estimators]
+    plain = [Job(s, profile, estimator, seeds) for s in sequences for profile in s.profiles if profile in profiles
+             for estimator in estimators]
+    return plain + [Job(s, s.profiles[0], ESTIMATORS[0], seeds, options=change) for s in sequences for change in s.changes
+                    if s.profiles[0] in profiles and ESTIMATORS[0] in estimators]

@@ -35,7 +35,7 @@ def of_seeds(runs, key, of_all):
 def row_of(job, folder):
     summary = read_summary(os.path.join(folder, "summary.json"))
     runs = summary.get("runs", [summary])
-    row = {"sequence": job.sequence.name, "frames": summary["frames"], "profile": job.profile, "estimator": job.estimator, "seeds": job.seeds}
+    row = {"sequence": " ".join((job.sequence.name, *job.options)), "frames": summary["frames"], "profile": job.profile, "estimator": job.estimator, "seeds": job.seeds}
     row.update({name: of_seeds(runs, key, of_all) for name, (key, of_all) in OF_SUMMARY.items()})
     row["nees"] = None if row["nees"] is None else row["nees"] / 3
     row.update({column.key: of_seeds(runs, column.key, np.median) for column in TIMES})

@@ -21,7 +21,7 @@ TINY = [{"name": "tiny", "make_world": ["laps", "--rate", "20", "--seconds", "1.
 
 def row(sequence="laps", **numbers):
     return {"sequence": sequence, "profile": "drone", "estimator": "msckf", "seeds": "1:3", "frames": 600, "fused_rmse_m": 0.2,
-            "ratio": 0.3, "ratio_scale_removed": 0.25, **numbers}
+            "ratio": 0.3, "ratio_scale_removed": 0.25, "nees": 1.0, "outside_3_sigma": 0.01, **numbers}
 
 
 def compare(now, before, margin=baseline.MARGIN):
@@ -56,6 +56,13 @@ class JobsTest(WithFolder):
                                  "b wheel thesis"])
         jobs = batch_jobs.jobs_of(sequences, "2:4", ["a"], ["hover"], ["thesis"])
         self.assertEqual([(job.name(), job.seeds) for job in jobs], [("a hover thesis", "2:4")])
+
+    def test_changes_are_run_with_the_first_profile_and_estimator(self):
+        sequences = [batch_jobs.Sequence("a", ("drone", "hover"), flight=("laps",), changes=(("--mirror-world",), ("--world-scale", "10")))]
+        names = [job.name() for job in batch_jobs.jobs_of(sequences) if job.options]
+        self.assertEqual(names, ["a drone msckf --mirror-world", "a drone msckf --world-scale 10"])
+        self.assertEqual([job.options for job in batch_jobs.jobs_of(sequences, only_profiles=["hover"])], [(), ()])
+        self.assertEqual([job.options for job in batch_jobs.jobs_of(sequences, only_estimators=["thesis"])], [(), ()])
 
     def test_what_is_not_there_is_named(self):
         sequences = [batch_jobs.Sequence("a", ("drone",), flight=("laps",))]
@@ -134,6 +141,8 @@ class BaselineTest(WithFolder):
         self.assertEqual(better, ["laps drone msckf: fused / odometry 0.300 -> 0.200"])
         self.assertEqual(len(compare([row(ratio=0.36)], [row()], margin=0.2)[0]), 0)
         self.assertEqual(len(compare([row(ratio=0.38)], [row()], margin=0.2)[0]), 1)
+        self.assertEqual(compare([row(nees=1.5, outside_3_sigma=0.04)], [row()])[0],
+                         ["laps drone msckf: NEES / 3 1.000 -> 1.500", "laps drone msckf: outside 3 sigma 0.010 -> 0.040"])
 
     def test_lost_frames_and_numbers_are_worse(self):
         self.assertEqual(compare([row(frames=599)], [row()])[0], ["laps drone msckf: frames 600 -> 599"])
