@@ -265,7 +265,7 @@ void DroneObserver::State::bridge(const NavdataReading& packet, double flown_s) 
     const std::int64_t now_ns = last_->stamp_ns + std::llround((i + 0.5) * dt_s * 1e9);
     for (; next != commands_.end() && next->stamp_ns <= now_ns; ++next) command = *next;
     if (seconds(now_ns - command.stamp_ns) > kCommandHolds_s) command.tilt.setZero();
-    filter_.predict(commanded.step(command.tilt, filter_.state().segment<3>(DroneFilter::kVelocity),
+    filter_.predict(commanded.step(command.tilt, filter_.state().segment<3>(drone_model::kVelocity),
                                    yawOf(guessed.R_odom_base), dt_s),
                     dt_s, Known::kCommanded);
   }
@@ -273,7 +273,7 @@ void DroneObserver::State::bridge(const NavdataReading& packet, double flown_s) 
 
 void DroneObserver::State::useHeight(const NavdataReading& packet, double dt_s) {
   const double height_m = packet.measured.height_m;
-  const double z_m = filter_.state()[DroneFilter::kPosition + 2];
+  const double z_m = filter_.state()[drone_model::kPosition + 2];
   switch (floor_.see(seconds(packet.stamp_ns - first_ns_), filter_.heightInnovation_m(height_m),
                      filter_.heightSigma_m(), z_m - height_m)) {
     case FloorWatch::Answer::kSame:
