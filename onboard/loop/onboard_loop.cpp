@@ -136,11 +136,11 @@ void OnboardLoop::readObserver() {
     if (read == ObserverSource::Read::kNone) return;
     if (read == ObserverSource::Read::kEnd) {
       is_odometry_over_ = true;
-      pipeline_.endObserver();
+      pipeline_.observer().end();
       return;
     }
     const auto state = observer_input_.read(record, size, now_ns());
-    if (state && !pipeline_.addOdometry(*state)) observer_input_.countRefused();
+    if (state && !pipeline_.observer().add(*state)) observer_input_.countRefused();
     if (!observer_source_.isLive()) return;  // a file's states only as they are needed
   }
 }
