@@ -44,7 +44,6 @@ class OdometryAdapter {
   OdometryBuffer::Push adapt(const OdometryState& message, std::vector<OdometryState>& ready);
   bool follows(const OdometryState& message);
   Eigen::Vector3d wayByTwist_m(const OdometryState& message) const;
-  void watchTwist(const OdometryState& message, const Eigen::Vector3d& raw_way_m);
   double heightByTwist_m(const OdometryState& state, double climb_m) const;
   void moveByTwist(const Eigen::Vector3d& way_m, OdometryState& state);
 
@@ -58,6 +57,7 @@ class OdometryAdapter {
   OdometryAdapterConfig config_;
   OdometryFaultCounts faults_{};
   WholeMetresWatch whole_metres_;
+  MissingTwistWatch missing_twist_;
   HeightJumpDetector height_jumps_;  // odometry_mode twist with the pose's height
 
   // Messages of one stamp, of which there may be more; there from the first burst on.
@@ -67,8 +67,7 @@ class OdometryAdapter {
   std::optional<OdometryState> candidate_;  // message that jumped, until one agrees with it
   Eigen::Vector3d position_odom_m_ = Eigen::Vector3d::Zero();  // last answer
   Eigen::Vector3d offset_odom_m_ = Eigen::Vector3d::Zero();    // of the answers from the messages
-  Gap gap_;                     // before last_, should it be the first of a burst
-  double without_twist_m_ = 0;  // way of the poses while the twist is zero
+  Gap gap_;  // before last_, should it be the first of a burst
 };
 
 }  // namespace ardrone_vslam

@@ -60,4 +60,15 @@ class WholeMetresWatch {
   bool is_whole_ = false;
 };
 
+/// Tells poses that move on although the twist is zero.
+class MissingTwistWatch {
+ public:
+  /// One message, in order. @param way_m  since the one before, by the poses
+  /// @return whether a metre (again) was moved without a twist
+  bool see(bool is_twist_zero, double way_m);
+
+ private:
+  double without_twist_m_ = 0;  // way of the poses since the twist has been zero
+};
+
 }  // namespace ardrone_vslam

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "odometry_fusion/odometry_fusion_nodelet.hpp"
 
-#include <nav_msgs/Path.h>
-
 #include <pluginlib/class_list_macros.hpp>
 
-#include "conversions/frame_names.hpp"
 #include "from_ros/params.hpp"
 #include "inputs/frame_matcher.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::uint32_t kOdometryQueue = 2000;  // 10 s at 200 Hz, in and out
+constexpr std::uint32_t kOdometryQueue = 2000;  // 10 s at 200 Hz
 constexpr std::uint32_t kCorrectionQueue = 100;
 
 }  // namespace
@@ -20,9 +17,7 @@ constexpr std::uint32_t kCorrectionQueue = 100;
 void OdometryFusionNodelet::onInit() {
   readParameters();
   ros::NodeHandle& nh = getNodeHandle();
-  frames_.map = withTfPrefix(tf_prefix_, node_config_.map_frame);
-  live_pub_ = nh.advertise<nav_msgs::Odometry>("odometry_live", kOdometryQueue);
-  repropagated_pub_ = nh.advertise<nav_msgs::Path>("repropagated", 10);
+  outputs_.advertise(nh);
   odometry_topic_ = nh.resolveName("odometry");
   corrections_ = std::make_unique<CorrectionQueue>(
       *fusion_, odometry_topic_,
@@ -41,9 +36,10 @@ void OdometryFusionNodelet::onInit() {
 }
 
 void OdometryFusionNodelet::readParameters() {
+  OdometryFusionNodeConfig node_config;
   DelayedFusionConfig config;
   ParamReader reader(getPrivateNodeHandle());
-  reader.read(node_config_);
+  reader.read(node_config);
   reader.read(config);
   for (const auto& sentence : reader.unknownKeys()) NODELET_WARN_STREAM(sentence);
   try {
@@ -54,10 +50,10 @@ void OdometryFusionNodelet::readParameters() {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;
   }
-  tf_prefix_ = tfPrefixOf(getPrivateNodeHandle());
+  const std::string tf_prefix = tfPrefixOf(getPrivateNodeHandle());
+  frames_ = FusionFrames(node_config, tf_prefix);
   NODELET_INFO_STREAM("ardrone_vslam " ARDRONE_VSLAM_VERSION " odometry_fusion: "
-                      << reader.summary()
-                      << (tf_prefix_.empty() ? "" : " tf_prefix=" + tf_prefix_));
+                      << reader.summary() << (tf_prefix.empty() ? "" : " tf_prefix=" + tf_prefix));
 }
 
 void OdometryFusionNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
@@ -74,8 +70,7 @@ void OdometryFusionNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometr
     fusion_->clear();
     corrections_->clear();
   }
-  const std::string& base = node_config_.base_frame;
-  frames_.base = withTfPrefix(tf_prefix_, base.empty() ? odometry->child_frame_id : base);
+  frames_.see(odometry->child_frame_id);
   ready_.clear();
   const std::string fault = explain(adapter_->push(message, ready_), message);
   if (!fault.empty()) status_->refuseOdometry(fault);
@@ -86,45 +81,18 @@ void OdometryFusionNodelet::take(const OdometryState& state) {
   const std::string fault = explain(fusion_->push(state), state);
   if (!fault.empty()) return status_->refuseOdometry(fault);
   const bool is_corrected = corrections_->use();
-  if (const auto live = fusion_->newest()) live_pub_.publish(toOdometryMessage(*live, frames_));
-  if (is_corrected) publishRepropagated();
+  outputs_.publishLive(*fusion_, frames_.frames());
+  if (is_corrected) outputs_.publishRepropagated(*fusion_, frames_.frames());
 }
 
 void OdometryFusionNodelet::onCorrection(const PoseCorrectionConstPtr& message) {
   status_->hearCorrection();
   const auto checked = toLateCorrection(*message);
   if (!checked.value) return status_->refuseCorrection(checked.fault);
-  const std::string fault = frameFault(*message);
+  const std::string fault = frames_.faultOf(*message);
   if (!fault.empty()) return status_->refuseCorrection(fault);
   corrections_->add(*checked.value);
-  if (corrections_->use()) publishRepropagated();
-}
-
-std::string OdometryFusionNodelet::frameFault(const PoseCorrection& correction) const {
-  if (correction.header.frame_id != frames_.map) {
-    return text("it is in the frame '", correction.header.frame_id, "', not in '", frames_.map,
-                "'; set map_frame and tf_prefix as the mapper's");
-  }
-  if (!frames_.base.empty() && correction.child_frame_id != frames_.base) {
-    return text("it is of '", correction.child_frame_id, "', the odometry of '", frames_.base,
-                "'; remap odometry to the mapper's topic, or set base_frame as the mapper's");
-  }
-  return {};
-}
-
-void OdometryFusionNodelet::publishRepropagated() {
-  if (repropagated_pub_.getNumSubscribers() == 0) return;
-  nav_msgs::Path path;
-  for (const MapState& state : fusion_->sinceCorrection()) {
-    geometry_msgs::PoseStamped pose;
-    pose.header.stamp = toRosTime(state.stamp_ns);
-    pose.header.frame_id = frames_.map;
-    pose.pose = toPose(state.T_map_base);
-    path.poses.push_back(pose);
-  }
-  path.header.stamp = toRosTime(fusion_->correctionStamp_ns());
-  path.header.frame_id = frames_.map;
-  repropagated_pub_.publish(path);
+  if (corrections_->use()) outputs_.publishRepropagated(*fusion_, frames_.frames());
 }
 
 }  // namespace ardrone_vslam

@@ -9,9 +9,9 @@
 
 #include "ardrone_vslam/delayed_fusion.hpp"
 #include "ardrone_vslam/odometry_adapter.hpp"
-#include "configs/node_config.hpp"
-#include "conversions/conversions.hpp"
 #include "odometry_fusion/correction_queue.hpp"
+#include "odometry_fusion/fusion_frames.hpp"
+#include "odometry_fusion/fusion_outputs.hpp"
 #include "odometry_fusion/fusion_status.hpp"
 #include "timing/stamp_guard.hpp"
 #include "timing/timers.hpp"
@@ -32,19 +32,12 @@ class OdometryFusionNodelet : public nodelet::Nodelet {
 
   /// One state from the adapter: into the buffer, and out as seen from map.
   void take(const OdometryState& state);
-  /// What is wrong with the frames of a correction, and what helps; empty when nothing is.
-  std::string frameFault(const PoseCorrection& correction) const;
-  void publishRepropagated();
 
-  OdometryFusionNodeConfig node_config_;
-  std::string tf_prefix_;
-  Frames frames_;  // base is empty until the first odometry; odom is not used
+  FusionFrames frames_;
+  FusionOutputs outputs_;
   Warnings warnings_{[this](const std::string& sentence) { NODELET_WARN_STREAM(sentence); }};
 
   std::string odometry_topic_;
-  ros::Publisher live_pub_;
-  ros::Publisher repropagated_pub_;
-
   std::unique_ptr<OdometryAdapter> adapter_;
   std::vector<OdometryState> ready_;  // from the adapter; kept for its memory
   std::unique_ptr<DelayedFusion> fusion_;

@@ -66,7 +66,7 @@ bool OnboardLoop::step() {
 
 /// Without the map there is memory again.
 void OnboardLoop::startOver() {
-  ++out_of_memory_;
+  ++images_.out_of_memory;
   pipeline_.startOver();
   share_.end(cpu_ns());
   output_.sendState(VSLAM_OUT_OF_MEMORY, pipeline_.features().stamp_ns, counters());
@@ -77,7 +77,7 @@ void OnboardLoop::startOver() {
 bool OnboardLoop::waitForInput() {
   const std::int64_t now = now_ns();
   const bool wants_observer =
-      !is_odometry_over_ && (observer_source_.isLive() || pipeline_.isWaiting());
+      !pipeline_.observer().isOver() && (observer_source_.isLive() || pipeline_.isWaiting());
   const auto entry = [](int fd, bool is_wanted) { return pollfd{is_wanted ? fd : -1, POLLIN, 0}; };
   std::array<pollfd, 3> entries{entry(stop_fd_, true),
                                 entry(observer_source_.descriptor(), wants_observer),
@@ -97,7 +97,7 @@ int OnboardLoop::timeout_ms(std::int64_t now) const {
   if (pipeline_.isWaiting()) {
     // The answer's last moment; a file's end needs no waiting.
     const auto wait_ns = static_cast<std::int64_t>(settings_.odometry_wait_s * 1e9);
-    until_ns = is_odometry_over_ ? now : std::min(until_ns, frame_ns_ + wait_ns);
+    until_ns = pipeline_.observer().isOver() ? now : std::min(until_ns, frame_ns_ + wait_ns);
   } else if (share_.next_ns() > now) {
     until_ns = std::min(until_ns, share_.next_ns());
   }
@@ -116,7 +116,7 @@ bool OnboardLoop::readFrame() {
   if (pipeline_.track(frame)) {
     answer();
   } else {
-    ++stamps_refused_;
+    ++images_.stamps_refused;
   }
   share_.end(cpu_ns());
   return true;
@@ -135,12 +135,11 @@ void OnboardLoop::readObserver() {
     const ObserverSource::Read read = observer_source_.read(record, size);
     if (read == ObserverSource::Read::kNone) return;
     if (read == ObserverSource::Read::kEnd) {
-      is_odometry_over_ = true;
-      pipeline_.endObserver();
+      pipeline_.observer().end();
       return;
     }
     const auto state = observer_input_.read(record, size, now_ns());
-    if (state && !pipeline_.addOdometry(*state)) observer_input_.countRefused();
+    if (state && !pipeline_.observer().add(*state)) observer_input_.countRefused();
     if (!observer_source_.isLive()) return;  // a file's states only as they are needed
   }
 }
@@ -149,7 +148,7 @@ void OnboardLoop::readObserver() {
 void OnboardLoop::answer() {
   PosePipeline::Answer answer = pipeline_.localise();
   while (answer == PosePipeline::Answer::kNotYet && !observer_source_.isLive() &&
-         !is_odometry_over_ && observer_source_.hasMore()) {
+         !pipeline_.observer().isOver() && observer_source_.hasMore()) {
     readObserver();
     answer = pipeline_.localise();
   }
@@ -159,10 +158,7 @@ void OnboardLoop::answer() {
     return giveUp(idleState(now));
   }
   if (answer == PosePipeline::Answer::kNever) return giveUp(idleState(now));
-  const std::int64_t cost_ns = share_.end(cpu_ns());
-  all_cost_ns_ += cost_ns;
-  most_cost_ns_ = std::max(most_cost_ns_, cost_ns);
-  ++answered_;
+  images_.answer(share_.end(cpu_ns()));
   said_ns_ = now;
   const FrameResult& result = pipeline_.result();
   if (isFinite(result)) {
@@ -176,7 +172,7 @@ void OnboardLoop::answer() {
 
 void OnboardLoop::giveUp(std::uint32_t state) {
   pipeline_.forgetFrame();
-  ++without_odometry_;
+  ++images_.without_odometry;
   output_.sendState(state, pipeline_.features().stamp_ns, counters());
   said_ns_ = now_ns();
 }
@@ -200,8 +196,7 @@ void OnboardLoop::sayState(std::int64_t now) {
 }
 
 AnswerOutput::Counters OnboardLoop::counters() const {
-  return {frames_.dropped() + stamps_refused_ + without_odometry_ + out_of_memory_,
-          observer_input_.counts().dropped(),
+  return {frames_.dropped() + images_.lost(), observer_input_.counts().dropped(),
           static_cast<std::uint32_t>(pipeline_.landmarks().size())};
 }
 
@@ -211,15 +206,15 @@ void OnboardLoop::printSummary() const {
       stderr,
       "vslam_onboard: %u images answered, %u without observer, %u with bad stamps, %u made "
       "way for newer ones, %u times out of memory; %u records, dropped: %u of a wrong size, %u of "
-      "a wrong kind, %u "
-      "corrupted, %u old, %u refused; %zu landmarks, %d restarts\n",
-      answered_, without_odometry_, stamps_refused_, frames_.dropped(), out_of_memory_,
-      records.accepted, records.wrong_size, records.wrong_kind, records.corrupted, records.old,
-      records.refused, pipeline_.landmarks().size(), pipeline_.restarts());
-  if (answered_ == 0) return;
+      "a wrong kind, %u corrupted, %u old, %u refused; %zu landmarks, %d restarts\n",
+      images_.answered, images_.without_odometry, images_.stamps_refused, frames_.dropped(),
+      images_.out_of_memory, records.accepted, records.wrong_size, records.wrong_kind,
+      records.corrupted, records.old, records.refused, pipeline_.landmarks().size(),
+      pipeline_.restarts());
+  if (images_.answered == 0) return;
   std::fprintf(stderr, "vslam_onboard: %.2f ms of processor time an image, at most %.2f\n",
-               static_cast<double>(all_cost_ns_) / 1e6 / answered_,
-               static_cast<double>(most_cost_ns_) / 1e6);
+               static_cast<double>(images_.all_cost_ns) / 1e6 / images_.answered,
+               static_cast<double>(images_.most_cost_ns) / 1e6);
 }
 
 }  // namespace ardrone_vslam

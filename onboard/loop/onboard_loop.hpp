@@ -8,6 +8,7 @@
 #include "input/observer_source.hpp"
 #include "loop/answer_output.hpp"
 #include "loop/cpu_share.hpp"
+#include "loop/image_counts.hpp"
 #include "loop/pose_pipeline.hpp"
 #include "protocol/udp.hpp"
 #include "settings/settings.hpp"
@@ -32,7 +33,7 @@ class OnboardLoop {
   /// UDP; for one that was given as 0.
   int observerPort() const { return portOf(observer_source_.descriptor()); }
   const std::vector<Landmark>& landmarks() const { return pipeline_.landmarks(); }
-  std::uint32_t answered() const { return answered_; }
+  std::uint32_t answered() const { return images_.answered; }
   /// What was answered, lost and dropped, and what it cost: a line each.
   void printSummary() const;
 
@@ -59,16 +60,10 @@ class OnboardLoop {
   AnswerOutput output_;
   FrameInput frames_;
   CpuShare share_;
-  bool is_odometry_over_ = false;
   std::int64_t began_ns_;
   std::int64_t frame_ns_ = 0;  // when the newest image came; 0: none has
   std::int64_t said_ns_ = began_ns_;
-  std::uint32_t answered_ = 0;
-  std::int64_t all_cost_ns_ = 0;  // processor time of the images answered
-  std::int64_t most_cost_ns_ = 0;
-  std::uint32_t stamps_refused_ = 0;
-  std::uint32_t without_odometry_ = 0;
-  std::uint32_t out_of_memory_ = 0;
+  ImageCounts images_;
 };
 
 }  // namespace ardrone_vslam

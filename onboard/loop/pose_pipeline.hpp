@@ -3,16 +3,13 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "ardrone_vslam/height_input.hpp"
-#include "ardrone_vslam/odometry_adapter.hpp"
-#include "ardrone_vslam/odometry_buffer.hpp"
 #include "ardrone_vslam/setup_watch.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/tracker.hpp"
 #include "input/frame_source.hpp"
+#include "loop/observer_states.hpp"
 
 namespace ardrone_vslam {
 
@@ -33,10 +30,9 @@ class PosePipeline {
   /// Gives map, waiting frame and observer states up, and begins anew.
   void startOver();
 
-  /// @return whether it, and those that burst with it, are used
-  bool addOdometry(const OdometryState& message);
-  /// No further state will come.
-  void endObserver();
+  /// What the images are localised with.
+  ObserverStates& observer() { return observer_; }
+  const ObserverStates& observer() const { return observer_; }
 
   enum class Answer {
     kPose,
@@ -55,23 +51,17 @@ class PosePipeline {
 
  private:
   void beginAnew();
-  bool take(OdometryBuffer::Push answer);
 
   SlamConfig config_;
   Eigen::Isometry3d T_base_cam_;
-  std::int64_t image_time_offset_ns_;
   Tracker tracker_;
   std::optional<Slam> slam_;
-  OdometryAdapter adapter_;
-  OdometryBuffer buffer_;
+  ObserverStates observer_;
   SetupWatch setup_;
-  HeightInput heights_;
-  std::vector<OdometryState> ready_;
   ImageFeatures features_;
   const FrameResult* result_ = nullptr;
   std::int64_t newest_ns_ = 0;  // of the frames
   bool is_waiting_ = false;
-  bool is_odometry_over_ = false;
   int restarts_ = 0;
 };
 

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
-#include "ardrone_vslam/drone_observer.hpp"
+#include "ardrone/drone_model.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
 
 namespace ardrone_vslam {
@@ -31,47 +30,17 @@ struct DroneErrors {
   double height_noise_m = 0.02;         ///< of the height, of each of the sonar's echoes
 };
 
-/// Extended Kalman filter of the drone's motion. Thrust is along base's z, so its tilt tells the
-/// acceleration, and what the accelerometer feels across it is the air's drag, which tells the
-/// velocity: Martin and Salaun, The true role of accelerometer feedback in quadrotor control, 2010.
-/// odom has z up; its x axis is that of the reported yaw's zero.
+/// Extended Kalman filter of the drone's motion, by drone_model.
 class DroneFilter {
  public:
-  /// Where in the state: position [m] and velocity [m/s] of base, the latter turned by the yaw's
-  /// error; what is to be put right of the reported tilt (rotation vector, axes of base) [rad];
-  /// errors of the flow, of the accelerometer; drag [1/s]; height of the floor below [m]; the
-  /// reported yaw's error [rad], always estimated as zero.
-  enum Index {
-    kPosition = 0,
-    kVelocity = 3,
-    kTilt = 6,
-    kFlowBias = 8,
-    kFlowScale = 10,
-    kForceBias = 11,
-    kDrag = 14,
-    kFloor = 15,
-    kYaw = 16,
-    kSize = 17
-  };
   /// Where attitude and force of a time come from: of a hole they are guessed.
   enum class Known {
     kMeasured,     ///< a packet's
     kCommanded,    ///< what cmd_vel told the drone to do
     kInterpolated  ///< between the packets around the hole
   };
-  /// Means, placed by Index.
-  using State = Eigen::Matrix<double, kSize, 1>;
-  /// Of the State's errors, placed by Index.
-  using Covariance = Eigen::Matrix<double, kSize, kSize>;
-  /// Derivative of two quantities by the State.
-  using Rows2 = Eigen::Matrix<double, 2, kSize>;
-
-  /// What a measurement should be, and its derivative by the state.
-  struct Foreseen {
-    Eigen::Vector2d value =
-        Eigen::Vector2d::Zero();     ///< forward and left, in the measurement's unit
-    Rows2 jacobian = Rows2::Zero();  ///< of value by the State
-  };
+  using State = drone_model::State;            ///< means
+  using Covariance = drone_model::Covariance;  ///< of their errors
 
   explicit DroneFilter(const DroneErrors& errors = {}) : errors_(errors) {}
 
@@ -104,18 +73,10 @@ class DroneFilter {
   /// Pose with covariance, velocity with covariance; no stamp, no turn rate.
   OdometryState observed(const Eigen::Matrix3d& R_reported) const;
 
-  /// The equations, for predict and update: the state after dt_s and its derivative by the state.
-  static State motion(const State& x, const DroneMeasurement& measured, double dt_s);
-  /// Derivative of motion() by x.
-  static Covariance motionJacobian(const State& x, const DroneMeasurement& measured, double dt_s);
-  /// What the optical flow should report: base's velocity, forward and left [m/s].
-  static Foreseen flow(const State& x, const Eigen::Matrix3d& R_reported);
-  /// What the accelerometer should feel across the thrust, forward and left [m/s^2].
-  static Foreseen drag(const State& x, const Eigen::Matrix3d& R_reported);
-
  private:
   void addNoise(double dt_s, double acceleration_noise);
-  void update(double innovation, const Eigen::Matrix<double, 1, kSize>& H, double variance);
+  void update(double innovation, const Eigen::Matrix<double, 1, drone_model::kSize>& H,
+              double variance);
 
   DroneErrors errors_;
   State x_ = State::Zero();

@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "map/triangulation.hpp"
-
 namespace ardrone_vslam {
 namespace {
 
-constexpr int kNobody = -1;
 /// So many landmarks tell how far away the map is.
 constexpr std::size_t kDistanceSample = 1000;
 /// So many searches ahead a landmark's descriptor is asked for.
@@ -32,31 +29,10 @@ double mismatchThreshold_rad(const AssociationConfig& config, const FrameView& v
 }
 
 Associator::Associator(const AssociationConfig& config)
-    : config_(config), global_matcher_(config.matcher, config.index_probes) {
+    : config_(config),
+      global_matcher_(config.matcher, config.index_probes),
+      search_(config.matcher) {
   validate(config);
-}
-
-void Associator::begin(const FrameView& view, std::size_t target_count) {
-  best_of_target_.assign(target_count, BestTwo{});
-  feature_taken_.assign(view.size(), false);
-  targets_in_view_.clear();
-  tracks_.reset(view.features());
-}
-
-int Associator::featureOfTrack(std::uint32_t track_id) const {
-  // Most landmarks of a large map were seen last before the oldest of the frame's tracks began.
-  if (tracks_.begin() == tracks_.end() || track_id < tracks_.begin()->track_id) return kNobody;
-  const TrackedFeature* entry = tracks_.find(track_id);
-  return entry == nullptr ? kNobody : static_cast<int>(entry->feature);
-}
-
-int Associator::bestFeature(int target) const {
-  const BestTwo& best = best_of_target_[static_cast<std::size_t>(target)];
-  if (!accept(best, config_.matcher)) return kNobody;
-  const auto feature = static_cast<std::size_t>(best.index);
-  if (feature_taken_[feature]) return kNobody;  // by a target before, if there is no cross check
-  if (config_.matcher.cross_check && windows_.nearestQuery(best.index) != target) return kNobody;
-  return best.index;
 }
 
 bool Associator::decideLandmark(const FrameView& view, const LandmarkMap& map,
@@ -68,7 +44,7 @@ bool Associator::decideLandmark(const FrameView& view, const LandmarkMap& map,
     return false;
   }
   result.matches.push_back(candidate);
-  feature_taken_[static_cast<std::size_t>(candidate.feature)] = true;
+  search_.take(candidate.feature);
   return true;
 }
 
@@ -78,7 +54,7 @@ void Associator::matchLandmarks(const FrameView& view, LandmarkMap& map,
   const LandmarkColumns& columns = map.columns(view.origin_map());
   columns.project(view, {config_.max_view_angle_deg, config_.max_distance_ratio}, visible_);
   result.in_view = static_cast<int>(visible_.count);
-  begin(view, visible_.count);
+  search_.begin(view, visible_.count);
   result.method = chooseMethod(view, map, columns);
   if (result.method == MatchMethod::kGuided) {
     matchGuided(view, map, columns, result);
@@ -123,15 +99,16 @@ MatchMethod Associator::chooseMethod(const FrameView& view, LandmarkMap& map,
 
 void Associator::matchGuided(const FrameView& view, const LandmarkMap& map,
                              const LandmarkColumns& columns, AssociationResult& result) {
+  targets_in_view_.clear();
   // Tracks first: they need no search, and their features are not offered to other landmarks.
   for (std::size_t k = 0; k < visible_.count; ++k) {
     const int landmark = visible_.index[k];
-    const int feature = featureOfTrack(columns.trackId(static_cast<std::size_t>(landmark)));
-    const bool free = feature != kNobody && !feature_taken_[static_cast<std::size_t>(feature)];
+    const int feature = search_.featureOfTrack(columns.trackId(static_cast<std::size_t>(landmark)));
+    const bool free = feature != TargetSearch::kNobody && !search_.isTaken(feature);
     if (free && decideLandmark(view, map, {landmark, feature}, result)) continue;
     targets_in_view_.push_back(static_cast<int>(k));
   }
-  windows_.build(view.idealPixels(), view.features().descriptor, feature_taken_);
+  search_.openWindows(view);
   const auto descriptorOf = [&](int target) -> const Descriptor& {
     const int landmark = visible_.index[static_cast<std::size_t>(target)];
     return map.all()[static_cast<std::size_t>(landmark)].descriptor;
@@ -142,13 +119,12 @@ void Associator::matchGuided(const FrameView& view, const LandmarkMap& map,
       __builtin_prefetch(&descriptorOf(targets_in_view_[t + kPrefetched]));
     const int target = targets_in_view_[t];
     const auto k = static_cast<std::size_t>(target);
-    best_of_target_[k] =
-        windows_.search(descriptorOf(target), visible_.pixel_px(k), radius_px_[k], target);
+    search_.search(target, descriptorOf(target), visible_.pixel_px(k), radius_px_[k]);
   }
   for (const int target : targets_in_view_) {
     const int landmark = visible_.index[static_cast<std::size_t>(target)];
-    const int feature = bestFeature(target);
-    if (feature == kNobody || !decideLandmark(view, map, {landmark, feature}, result))
+    const int feature = search_.bestFeature(target);
+    if (feature == TargetSearch::kNobody || !decideLandmark(view, map, {landmark, feature}, result))
       result.missed.push_back(landmark);
   }
 }
@@ -158,16 +134,15 @@ void Associator::matchGlobally(const FrameView& view, LandmarkMap& map,
   landmark_taken_.assign(columns.size(), false);
   const auto decide = [&](const Association& candidate) {
     const auto landmark = static_cast<std::size_t>(candidate.target);
-    if (landmark_taken_[landmark] || feature_taken_[static_cast<std::size_t>(candidate.feature)])
-      return;
+    if (landmark_taken_[landmark] || search_.isTaken(candidate.feature)) return;
     landmark_taken_[landmark] = decideLandmark(view, map, candidate, result);
   };
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const int feature = featureOfTrack(columns.trackId(i));
-    if (feature != kNobody) decide({static_cast<int>(i), feature});
+    const int feature = search_.featureOfTrack(columns.trackId(i));
+    if (feature != TargetSearch::kNobody) decide({static_cast<int>(i), feature});
   }
   for (const DescriptorMatch& match :
-       global_matcher_.match(view.features(), feature_taken_, map, result.method)) {
+       global_matcher_.match(view.features(), search_.taken(), map, result.method)) {
     decide({match.train, match.query});
   }
 }
@@ -180,68 +155,6 @@ bool Associator::isLandmarkMismatch(const FrameView& view, const Landmark& landm
   const Eigen::Vector3d predicted = offset / distance_m;
   const double angle = mismatchThreshold_rad(config_, view, landmark, distance_m);
   return !(predicted.dot(ray.direction_map) > std::cos(angle));  // (5.36)
-}
-
-void Associator::matchMapFeatures(const FrameView& view, const FeatureMap& map,
-                                  const std::vector<bool>& taken, AssociationResult& result) {
-  result = {};
-  begin(view, map.size());
-  std::copy(taken.begin(), taken.end(), feature_taken_.begin());
-  for (std::size_t f = 0; f < view.size(); ++f) {
-    if (feature_taken_[f]) continue;
-    const int target = map.indexOfTrack(view.features().track_id[f]);
-    if (target != kNobody) decideMapFeature(view, map, {target, static_cast<int>(f)}, result);
-  }
-  searchMapFeatures(view, map, result);
-  for (const int target : targets_in_view_) {
-    const int feature = bestFeature(target);
-    if (feature != kNobody) decideMapFeature(view, map, {target, feature}, result);
-  }
-}
-
-void Associator::decideMapFeature(const FrameView& view, const FeatureMap& map,
-                                  const Association& candidate, AssociationResult& result) {
-  ++result.candidates;
-  feature_taken_[static_cast<std::size_t>(candidate.feature)] = true;
-  const MapFeature& first = map.all()[static_cast<std::size_t>(candidate.target)];
-  if (isEpipolarMismatch(view, first, candidate.feature)) {
-    ++result.mismatches;
-  } else {
-    result.matches.push_back(candidate);
-  }
-}
-
-/// Entries whose track has ended are looked for by descriptor. A near point moves away from where
-/// rotation alone puts it, hence the window.
-void Associator::searchMapFeatures(const FrameView& view, const FeatureMap& map,
-                                   AssociationResult& result) {
-  windows_.build(view.idealPixels(), view.features().descriptor, feature_taken_);
-  const auto radius_px = static_cast<float>(config_.search_radius_px);
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    const MapFeature& entry = map.all()[i];
-    if (map.isRemoved(i) || featureOfTrack(entry.track_id) != kNobody) continue;
-    Eigen::Vector2f centre_px;
-    if (!view.idealPixel(entry.ray.direction_map, entry.elevation, centre_px)) continue;
-    ++result.in_view;
-    targets_in_view_.push_back(static_cast<int>(i));
-    best_of_target_[i] =
-        windows_.search(entry.descriptor, centre_px, radius_px, static_cast<int>(i));
-  }
-}
-
-bool Associator::isEpipolarMismatch(const FrameView& view, const MapFeature& first,
-                                    int feature) const {
-  const Ray present = view.ray(static_cast<std::size_t>(feature));
-  const auto offset = epipolarOffset(first.ray, present);
-  if (!offset) return false;  // no baseline yet: nothing to test, and nothing to triangulate either
-  // An uncertain baseline turns the epipolar plane about the first ray, and the parallax with it.
-  const double baseline_m = (present.origin_map - first.ray.origin_map).norm();
-  const double rotation_rad =
-      config_.threshold_sigmas * view.deviationSince_m(first.position_variance_m2) / baseline_m;
-  const double pixels_rad = config_.epipolar_threshold_px / view.focalLength_px();
-  const double threshold = pixels_rad + rotation_rad * std::hypot(offset->along, offset->across);
-  return offset->across > threshold || offset->along < -threshold ||
-         offset->ahead < -(pixels_rad + rotation_rad);
 }
 
 }  // namespace ardrone_vslam

@@ -5,13 +5,10 @@
 
 #include "ardrone_vslam/slam_config.hpp"
 #include "association/global_matcher.hpp"
+#include "association/target_search.hpp"
 #include "map/association.hpp"
-#include "map/feature_map.hpp"
 #include "map/landmark_map.hpp"
-#include "matching/descriptor_matcher.hpp"
 #include "matching/frame_view.hpp"
-#include "matching/track_order.hpp"
-#include "matching/window_search.hpp"
 
 namespace ardrone_vslam {
 
@@ -19,7 +16,7 @@ namespace ardrone_vslam {
 double mismatchThreshold_rad(const AssociationConfig& config, const FrameView& view,
                              const Landmark& landmark, double distance_m);
 
-/// Finds the landmarks and map features that a frame shows, and removes mismatches (thesis 5.3).
+/// Finds the landmarks that a frame shows, and removes mismatches (thesis 5.3).
 class Associator {
  public:
   /// @throws ConfigError listing every parameter out of its range
@@ -35,16 +32,7 @@ class Associator {
   /// O(landmarks + pairs inside windows), or as matchExact or DescriptorIndex::search.
   void matchLandmarks(const FrameView& view, LandmarkMap& map, AssociationResult& result);
 
-  /// Map features seen again by those of the frame's features that `taken` does not mark: by track,
-  /// else by descriptor around where rotation alone would put them; matches off the epipolar plane
-  /// are mismatches (5.37-5.44).
-  void matchMapFeatures(const FrameView& view, const FeatureMap& map,
-                        const std::vector<bool>& taken, AssociationResult& result);
-
  private:
-  void begin(const FrameView& view, std::size_t target_count);
-  int featureOfTrack(std::uint32_t track_id) const;
-  int bestFeature(int target) const;
   bool windowsAreWide(const FrameView& view, const LandmarkColumns& columns);
   MatchMethod chooseMethod(const FrameView& view, LandmarkMap& map, const LandmarkColumns& columns);
   void matchGuided(const FrameView& view, const LandmarkMap& map, const LandmarkColumns& columns,
@@ -53,24 +41,16 @@ class Associator {
                      AssociationResult& result);
   bool decideLandmark(const FrameView& view, const LandmarkMap& map, const Association& candidate,
                       AssociationResult& result);
-  void decideMapFeature(const FrameView& view, const FeatureMap& map, const Association& candidate,
-                        AssociationResult& result);
-  void searchMapFeatures(const FrameView& view, const FeatureMap& map, AssociationResult& result);
   bool isLandmarkMismatch(const FrameView& view, const Landmark& landmark, int feature) const;
-  bool isEpipolarMismatch(const FrameView& view, const MapFeature& first, int feature) const;
 
   AssociationConfig config_;
   GlobalMatcher global_matcher_;
   VisibleLandmarks visible_;
   std::vector<float> radius_px_;  // window of each visible landmark
   std::vector<float> sorted_radii_px_;
-  // Targets are numbered as they are visited: visible landmarks, or the map's features.
-  WindowSearch windows_;  // of the features not taken by tracks
-  std::vector<BestTwo> best_of_target_;
-  std::vector<bool> feature_taken_;
+  TargetSearch search_;               // its targets: visible_
+  std::vector<int> targets_in_view_;  // that no track leads to
   std::vector<bool> landmark_taken_;
-  std::vector<int> targets_in_view_;
-  TrackOrder tracks_;  // of the frame's features
 };
 
 }  // namespace ardrone_vslam

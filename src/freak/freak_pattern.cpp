@@ -5,6 +5,8 @@
 #include <cfloat>
 #include <cmath>
 
+#include "freak/freak_pairs.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -14,9 +16,6 @@ constexpr int kOctaves = 4;
 constexpr float kSmallestSize_px = 7.F;
 
 constexpr int kRings = 8;
-constexpr int kPointsPerRing = 6;  // the last ring has one
-constexpr int kOuterRings = 4;     // these vote for the orientation by 9 pairs each
-constexpr int kVotingRings = 7;    // the others of these by 3
 
 // Bit-exactness rests on the order of the floating-point operations here and in field(): do not
 // simplify.
@@ -93,20 +92,24 @@ FreakPattern::FreakPattern() {
   for (int orientation = 0; orientation < kFreakOrientations; ++orientation) {
     const double theta = orientation * 2 * kPi / kFreakOrientations;
     auto& directions = directions_[static_cast<std::size_t>(orientation)];
-    for (int k = 0; k < 2 * kPointsPerRing; ++k) {
-      const double half_step = k < kPointsPerRing ? 0.0 : kPi / kPointsPerRing;
-      const double alpha = (k % kPointsPerRing) * 2 * kPi / kPointsPerRing + half_step + theta;
+    for (int k = 0; k < 2 * kFreakPointsPerRing; ++k) {
+      const double half_step = k < kFreakPointsPerRing ? 0.0 : kPi / kFreakPointsPerRing;
+      const double alpha =
+          (k % kFreakPointsPerRing) * 2 * kPi / kFreakPointsPerRing + half_step + theta;
       directions[static_cast<std::size_t>(k)] = {std::cos(alpha), std::sin(alpha)};
     }
     computeBoxes(orientation);
   }
-  computeOrientationPairs();
-  computeComparisons();
+  std::array<FreakField, kernels::kFreakFields> fields;
+  for (int index = 0; index < kernels::kFreakFields; ++index)
+    fields[static_cast<std::size_t>(index)] = field(0, 0, index);
+  orientation_pairs_ = orientationPairsOf(fields.data());
+  comparisons_ = selectedComparisons();
 }
 
 FreakField FreakPattern::field(int scale, int orientation, int index) const {
-  const int ring = index / kPointsPerRing;
-  const int point = index % kPointsPerRing + kPointsPerRing * (ring % 2);
+  const int ring = index / kFreakPointsPerRing;
+  const int point = index % kFreakPointsPerRing + kFreakPointsPerRing * (ring % 2);
   const Direction& direction =
       directions_[static_cast<std::size_t>(orientation)][static_cast<std::size_t>(point)];
   const double radius = kRadius[static_cast<std::size_t>(ring)];
@@ -163,50 +166,6 @@ FreakPattern::Row FreakPattern::rowOf(int orientation, int x_px, int y_px) const
   }
   std::fill(row.begin() + kernels::kFreakFields, row.end(), row[kernels::kFreakFields - 1]);
   return row;
-}
-
-void FreakPattern::computeOrientationPairs() {
-  using Pair = std::array<int, 2>;
-  // Points of one ring. The inner rings vote with the opposite ones only, which come first.
-  constexpr std::array<Pair, 9> kRingPairs{Pair{0, 3}, Pair{1, 4}, Pair{2, 5},
-                                           Pair{0, 2}, Pair{1, 3}, Pair{2, 4},
-                                           Pair{3, 5}, Pair{4, 0}, Pair{5, 1}};
-  int count = 0;
-  for (int ring = 0; ring < kVotingRings; ++ring) {
-    const std::size_t pairs_of_ring = ring < kOuterRings ? 9 : 3;
-    for (std::size_t k = 0; k < pairs_of_ring; ++k) {
-      const int i = kPointsPerRing * ring + kRingPairs[k][0];
-      const int j = kPointsPerRing * ring + kRingPairs[k][1];
-      const FreakField field_i = field(0, 0, i);
-      const FreakField field_j = field(0, 0, j);
-      const float dx = field_i.x_px - field_j.x_px;
-      const float dy = field_i.y_px - field_j.y_px;
-      const float norm_squared = dx * dx + dy * dy;
-      const auto weight = [norm_squared](float d) {
-        return static_cast<std::int16_t>(std::lround(d / norm_squared * 4096.0));
-      };
-      orientation_pairs_.i.set(count, i);
-      orientation_pairs_.j.set(count, j);
-      orientation_pairs_.weight_x[count] = weight(dx);
-      orientation_pairs_.weight_y[count] = weight(dy);
-      ++count;
-    }
-  }
-}
-
-void FreakPattern::computeComparisons() {
-  std::vector<std::array<int, 2>> all_pairs;
-  for (int i = 1; i < kernels::kFreakFields; ++i) {
-    for (int j = 0; j < i; ++j) all_pairs.push_back({i, j});
-  }
-  for (int bit = 0; bit < 8; ++bit) {
-    for (int byte = 0; byte < kFreakBits / 8; ++byte) {
-      // Within 16 bytes the published order runs from the last byte to the first.
-      const int selected = 128 * (byte / 16) + 16 * bit + 15 - byte % 16;
-      const auto& pair = all_pairs[kFreakSelectedPairs[static_cast<std::size_t>(selected)]];
-      comparisons_.set(bit, byte, pair[0], pair[1]);
-    }
-  }
 }
 
 }  // namespace ardrone_vslam

@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "freak/freak_selected_pairs.hpp"
 #include "kernels/freak/freak_kernels.hpp"
 
 namespace ardrone_vslam {
 
 constexpr int kFreakOrientations = 256;
 constexpr int kFreakScales = 64;
+constexpr int kFreakPointsPerRing = 6;  // the last ring has one
 
 /// Centre and half side of a field in px, relative to the keypoint. Floats, as the published
 /// descriptor rounds here.
@@ -87,8 +87,6 @@ class FreakPattern {
   void computeBoxes(int orientation);
   bool findExceptions(const FreakField& field);
   Row rowOf(int orientation, int x_px, int y_px) const;
-  void computeOrientationPairs();
-  void computeComparisons();
 
   std::array<double, kFreakScales> enlargement_{};
   std::array<int, kFreakScales> border_px_{};

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <unordered_map>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "matching/match_acceptance.hpp"
+#include "matching/list_search.hpp"
 
 namespace ardrone_vslam {
 
@@ -65,13 +64,11 @@ class DescriptorIndex {
   /// @param best  as long as `queries`; nothing offered (-1) where the lists probed are empty
   /// Cost: listCount() + probes x entries a list distances for each query. Queries are sorted by
   /// list, so that each list is read once for all of them: give them together.
-  void search(const std::vector<Descriptor>& queries, int probes, std::vector<BestTwo>& best);
+  void search(const std::vector<Descriptor>& queries, int probes, std::vector<BestTwo>& best) {
+    search_.search(centres_, lists_, queries, probes, best);
+  }
 
  private:
-  struct List {
-    std::vector<Descriptor> descriptors;
-    std::vector<int> ids;
-  };
   struct Place {
     int list = 0;
     int position = 0;
@@ -79,23 +76,13 @@ class DescriptorIndex {
 
   bool isSizeOutOfRange(std::size_t entries) const;
   void rebuildIfNeeded();
-  int nearestList(const Descriptor& descriptor);
   void append(int list, int id, const Descriptor& descriptor);
-  void chooseLists(const Descriptor& query, std::size_t probes, int* chosen);
-  void sortByList(std::size_t query_count, std::size_t probes);
-  void searchList(const List& list, const std::vector<Descriptor>& queries, std::size_t begin,
-                  std::size_t end, std::vector<BestTwo>& best);
 
   std::vector<Descriptor> centres_;
-  std::vector<List> lists_;
+  std::vector<DescriptorList> lists_;
   std::unordered_map<int, Place> place_of_id_;
   bool is_rebuilt_by_itself_ = true;
-  // Working memory, kept from call to call.
-  std::vector<std::uint16_t> distances_bits_;
-  std::vector<int> chosen_lists_;           // of each query, `probes` of them
-  std::vector<std::size_t> first_of_list_;  // into query_of_pair_
-  std::vector<std::size_t> fill_of_list_;
-  std::vector<int> query_of_pair_;
+  ListSearch search_;
 };
 
 }  // namespace ardrone_vslam

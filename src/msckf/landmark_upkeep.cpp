@@ -124,10 +124,12 @@ std::vector<int> takeFailed(const AssociationResult& matches,
   return failed;
 }
 
-int dropNewerThan(std::uint32_t last_id, LandmarkMap& map) {
+int UnconfirmedLandmarks::judge(LandmarkMap& map) {
+  if (setup_.is_confirmed) confirmed_id_ = newest_id_;
+  if (setup_.fault == SetupFault::kNone) return 0;
   const std::size_t before = map.size();
   for (std::size_t i = before; i-- > 0;)
-    if (map.all()[i].id > last_id) map.remove(map.all()[i].id);
+    if (map.all()[i].id > confirmed_id_) map.remove(map.all()[i].id);
   return static_cast<int>(before - map.size());
 }
 

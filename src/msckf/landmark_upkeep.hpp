@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "ardrone_vslam/landmark.hpp"
 #include "ardrone_vslam/msckf_config.hpp"
+#include "ardrone_vslam/setup_watch.hpp"
 #include "map/association.hpp"
 #include "map/landmark_map.hpp"
 #include "map_update/map_update.hpp"
@@ -40,9 +42,20 @@ std::vector<int> takeFailed(const AssociationResult& matches,
                             const std::vector<ObservationVerdict>& verdicts, bool is_relocated,
                             LandmarkMap& map);
 
-/// What was made of images that a wrong set-up explains is wrong as well.
-/// @param last_id  of the landmarks that stay
-/// @return how many went
-int dropNewerThan(std::uint32_t last_id, LandmarkMap& map);
+/// Takes landmarks back: what was made of images that a wrong set-up explains is wrong as well.
+class UnconfirmedLandmarks {
+ public:
+  /// What is known of the set-up at the next frame.
+  void heed(const SetupFinding& finding) { setup_ = finding; }
+  /// While the set-up has a fault, drops those since it was last confirmed. @return how many went
+  int judge(LandmarkMap& map);
+  /// A new landmark.
+  void add(std::uint32_t id) { newest_id_ = id; }
+
+ private:
+  SetupFinding setup_;
+  std::uint32_t newest_id_ = 0;
+  std::uint32_t confirmed_id_ = 0;  // the newest when the set-up was last confirmed
+};
 
 }  // namespace ardrone_vslam

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "association/associator.hpp"
-#include "msckf/landmark_upkeep.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -27,7 +26,7 @@ bool MsckfEstimator::canChangeCamera() const {
 }
 
 void MsckfEstimator::heed(const SetupFinding& finding) {
-  setup_ = finding;
+  unconfirmed_.heed(finding);
   filter_.heed(finding);
 }
 
@@ -119,9 +118,7 @@ void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& 
 MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView& view,
                                      LandmarkMap& map) {
   MapChanges changes;
-  if (setup_.is_confirmed) confirmed_landmark_ = newest_landmark_;
-  if (setup_.fault != SetupFault::kNone)
-    changes.removed_landmarks = dropNewerThan(confirmed_landmark_, map);
+  changes.removed_landmarks = unconfirmed_.judge(map);
   const std::vector<UsedTrack>& used_tracks = filter_.track(view.features());
   // Landmarks decided on the state, be it that they were rejected: the image's rest stays unsaid.
   const bool is_located = state_ == SlamState::kLocalised || state_ == SlamState::kRelocated ||
@@ -145,8 +142,9 @@ MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView
     if (const Landmark* landmark = map.find(one.track.landmark_id)) {
       renew(one, view, config_.msckf, *landmark, map);
     } else if (isWellKnown(one, view)) {
-      newest_landmark_ = map.add(landmarkOf(one, view));
-      filter_.assignLandmark(one.track.track_id, newest_landmark_);
+      const std::uint32_t id = map.add(landmarkOf(one, view));
+      unconfirmed_.add(id);
+      filter_.assignLandmark(one.track.track_id, id);
       ++changes.new_landmarks;
     }
   }

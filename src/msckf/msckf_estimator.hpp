@@ -6,6 +6,7 @@
 #include "estimator/estimator.hpp"
 #include "map/mapper.hpp"
 #include "map_update/time_since_fix.hpp"
+#include "msckf/landmark_upkeep.hpp"
 #include "msckf/msckf.hpp"
 
 namespace ardrone_vslam {
@@ -41,10 +42,8 @@ class MsckfEstimator final : public Estimator {
   bool started_ = false;
   Eigen::Isometry3d T_odom_base_ = Eigen::Isometry3d::Identity();
   SlamState state_ = SlamState::kBuildingMap;  // of the newest frame, by landmarks
-  SetupFinding setup_;
-  std::uint32_t newest_landmark_ = 0;     // id
-  std::uint32_t confirmed_landmark_ = 0;  // the newest when the set-up was last confirmed
-  std::vector<Association> trusted_;      // the newest frame's matches that may be right
+  UnconfirmedLandmarks unconfirmed_;
+  std::vector<Association> trusted_;  // the newest frame's matches that may be right
 };
 
 }  // namespace ardrone_vslam

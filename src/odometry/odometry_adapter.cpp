@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "odometry/message_pair.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -13,44 +15,12 @@ using Push = OdometryBuffer::Push;
 constexpr std::int64_t kRestart_ns = 1'000'000'000;   // stamps further back are a new run
 constexpr std::int64_t kLongestGap_ns = 100'000'000;  // that a burst is spread over
 constexpr double kLongestWay_s = 1;                   // across which the twist tells the way
-constexpr double kJump_m = 1e4;
 /// The epoch in seconds at the fastest speed: beyond this lie no jumps, only nonsense.
 constexpr double kFarthestJump_m = 2e9 * kFastestOdometry;
-constexpr double kResetFrom_m = 1;  // a position nearer to the origin than this need not be reset
-constexpr double kResetTo_m = 0.1;
-constexpr double kResetSpeed_m_s = 100;                // no drone and no car
 constexpr double kWholeMetreVariance_m2 = 1.0 / 12.0;  // of a metre cut off
 // At which a whole metre corrects what the twist has climbed: not faster than a twist is wrong, or
 // the camera contradicts it.
 constexpr double kHeightRate_m_s = 0.03;
-constexpr double kMostWithoutTwist_m = 1;
-
-double seconds(std::int64_t nanoseconds) {
-  return static_cast<double>(nanoseconds) * 1e-9;
-}
-
-double secondsBetween(const OdometryState& a, const OdometryState& b) {
-  return seconds(b.stamp_ns - a.stamp_ns);
-}
-
-Eigen::Vector3d velocity_odom_m_s(const OdometryState& state) {
-  return state.T_odom_base.linear() * state.twist_base.head<3>();
-}
-
-Eigen::Vector3d wayBetween_m(const OdometryState& a, const OdometryState& b) {
-  return b.T_odom_base.translation() - a.T_odom_base.translation();
-}
-
-bool isJump(const OdometryState& a, const OdometryState& b) {
-  const double displacement_m = wayBetween_m(a, b).norm();
-  return displacement_m > kJump_m && displacement_m > kFastestOdometry * secondsBetween(a, b);
-}
-
-bool isReset(const OdometryState& a, const OdometryState& b) {
-  return a.T_odom_base.translation().head<2>().norm() > kResetFrom_m &&
-         b.T_odom_base.translation().head<2>().norm() < kResetTo_m &&
-         wayBetween_m(a, b).head<2>().norm() > kResetSpeed_m_s * secondsBetween(a, b);
-}
 
 double farthest_m(const OdometryState& state) {
   return state.T_odom_base.translation().cwiseAbs().maxCoeff();
@@ -58,10 +28,6 @@ double farthest_m(const OdometryState& state) {
 
 bool isFinite(const OdometryState& state) {
   return state.T_odom_base.matrix().allFinite() && state.twist_base.allFinite();
-}
-
-bool isRepeated(const OdometryState& a, const OdometryState& b) {
-  return a.T_odom_base.matrix() == b.T_odom_base.matrix() && a.twist_base == b.twist_base;
 }
 
 }  // namespace
@@ -83,7 +49,7 @@ void OdometryAdapter::beginAnew() {
   candidate_.reset();
   position_odom_m_.setZero();
   offset_odom_m_.setZero();
-  without_twist_m_ = 0;
+  missing_twist_ = {};
 }
 
 Push OdometryAdapter::push(const OdometryState& message, std::vector<OdometryState>& ready) {
@@ -194,17 +160,6 @@ Eigen::Vector3d OdometryAdapter::wayByTwist_m(const OdometryState& message) cons
   return 0.5 * dt_s * (velocity_odom_m_s(*last_) + velocity_odom_m_s(message));
 }
 
-void OdometryAdapter::watchTwist(const OdometryState& message, const Eigen::Vector3d& raw_way_m) {
-  if (!message.twist_base.head<3>().isZero(0)) {
-    without_twist_m_ = 0;
-  } else if (raw_way_m.norm() < kJump_m) {
-    without_twist_m_ += raw_way_m.norm();
-  }
-  if (without_twist_m_ < kMostWithoutTwist_m) return;
-  count(OdometryFault::kNoTwist);
-  without_twist_m_ = 0;
-}
-
 /// By the twist, but within the metre that was cut off from the state's height.
 double OdometryAdapter::heightByTwist_m(const OdometryState& state, double climb_m) const {
   const double foreseen_m = position_odom_m_.z() + climb_m;
@@ -242,7 +197,9 @@ Push OdometryAdapter::adapt(const OdometryState& message, std::vector<OdometrySt
   if (!offset_odom_m_.isZero(0)) state.T_odom_base.translation() += offset_odom_m_;
   if (config_.mode == OdometryMode::kTwist && last_) {
     if (secondsBetween(*last_, message) > kLongestWay_s) count(OdometryFault::kHole);
-    if (!is_repaired) watchTwist(message, wayBetween_m(*last_, message));
+    const bool is_twist_zero = message.twist_base.head<3>().isZero(0);
+    if (!is_repaired && missing_twist_.see(is_twist_zero, wayBetween_m(*last_, message).norm()))
+      count(OdometryFault::kNoTwist);
     moveByTwist(way_m, state);
   }
   if (whole_metres_.isWhole() && positionVariance_m2(state)) {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "odometry/message_pair.hpp"
+
 namespace ardrone_vslam {
 
 void add(const OdometryFaultCounts& counts, OdometryFaultCounts& sum) {
@@ -59,6 +61,18 @@ bool WholeMetresWatch::see(double height_m, double climb_m) {
   // At 0 it stands on the floor, whatever its twist says.
   if (is_step || (height_m != 0 && std::abs(climbed_m_) > kClimb_m)) is_whole_ = true;
   return is_step;
+}
+
+bool MissingTwistWatch::see(bool is_twist_zero, double way_m) {
+  constexpr double kMost_m = 1;
+  if (!is_twist_zero) {
+    without_twist_m_ = 0;
+  } else if (way_m < kJump_m) {
+    without_twist_m_ += way_m;
+  }
+  if (without_twist_m_ < kMost_m) return false;
+  without_twist_m_ = 0;
+  return true;
 }
 
 }  // namespace ardrone_vslam

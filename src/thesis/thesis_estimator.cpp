@@ -69,7 +69,7 @@ MapChanges ThesisEstimator::updateMap(const AssociationResult& matches, FrameVie
   // An image that shows nothing (dark, lens covered) says nothing about the landmarks either.
   if (view.size() > 0) changes.removed_landmarks = mapper_.countMissed(matches.missed, map);
 
-  associator_.matchMapFeatures(view, feature_map_, used_, feature_matches_);
+  associator_.match(view, feature_map_, used_, feature_matches_);
   changes.new_landmarks =
       mapper_.triangulateMatches(view, feature_matches_.matches, feature_map_, map, used_);
   mapper_.storeRest(view, used_, feature_map_);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "association/associator.hpp"
+#include "association/map_feature_associator.hpp"
 #include "estimator/estimator.hpp"
 #include "map/feature_map.hpp"
 #include "map/mapper.hpp"
@@ -37,7 +37,7 @@ class ThesisEstimator : public Estimator {
   ThesisFilter filter_;
   LandmarkLocator locator_;
   Mapper mapper_;
-  Associator associator_;  // of features without depth
+  MapFeatureAssociator associator_;
   FeatureMap feature_map_;
   AssociationResult feature_matches_;
   std::vector<bool> used_;  // the frame's features that need not be stored

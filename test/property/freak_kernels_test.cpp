@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "freak/freak_pattern.hpp"
+#include "freak/freak_selected_pairs.hpp"
 #include "kernels/kernels.hpp"
 #include "support/generated_image.hpp"
 

@@ -90,8 +90,9 @@ class Drone:
     """Publishes images, calibration, odometry and mounting; records what the nodelets answer."""
 
     def __init__(self, vslam="/vslam", camera="/camera", odometry="/odometry", prefix="", seed=1,
-                 direction=1, compressed=False, queue_size=10):
-        """queue_size: of images and camera_info; None: sending blocks, so nothing is lost here"""
+                 direction=1, compressed=False, queue_size=10, mountings=None):
+        """queue_size: of images and camera_info; None: sending blocks, so nothing is lost here
+        mountings: a list that all drones of a node share, as its latched topic keeps the last message only"""
         self.prefix = prefix
         self.direction = direction
         self.steps = 0
@@ -104,7 +105,7 @@ class Drone:
             CompressedImage if compressed else Image, queue_size=queue_size)
         self._infos = rospy.Publisher(camera + "/camera_info", CameraInfo, queue_size=queue_size)
         self._odometry = rospy.Publisher(odometry, Odometry, queue_size=100)
-        self._mountings = []
+        self._mountings = [] if mountings is None else mountings
         self._tf = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
         self.pose = Recorder(vslam + "/pose", PoseWithCovarianceStamped)
         self.status = Recorder(vslam + "/status", Status)
@@ -132,7 +133,7 @@ class Drone:
         rotation.x, rotation.y, rotation.z, rotation.w = -0.5, 0.5, -0.5, 0.5
         mounting.transform.translation.x = forward_m
         mounting.transform.translation.y = left_px * WALL_M / FOCAL_PX
-        self._mountings.append(mounting)  # a latched topic keeps its last message only
+        self._mountings.append(mounting)
         self._tf.publish(TFMessage(self._mountings))
 
     def position_m(self):

@@ -75,13 +75,14 @@ class FakeDriver(unittest.TestCase):
         before = self.pose()
         self.commands.publish(twist(forward=0.5))
         self.await_state(FLYING)
-        time.sleep(1)
+
+        def way_m(pose):
+            return (np.linalg.inv(before) @ matrix(pose.position, pose.orientation))[:3, 3]
+
+        self.assertIsNotNone(self.truth.wait(lambda m: way_m(m.pose)[0] > 0.3), "it does not fly forward")
         self.commands.publish(twist())
         self.await_state(HOVERING)
-        time.sleep(2)
-        way = (np.linalg.inv(before) @ self.pose())[:3, 3]
-        self.assertGreater(way[0], 0.3)
-        self.assertLess(abs(way[1]), 0.1)
+        self.assertLess(abs(way_m(self.truth.all()[-1].pose)[1]), 0.1)
         self.commands.publish(twist(forward=1.0, left=float("nan")))
         self.logged("not finite")
         self.await_state(HOVERING)

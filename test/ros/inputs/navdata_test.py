@@ -111,8 +111,9 @@ class NavdataTest(unittest.TestCase):
                                   and s.odometry_fault_count[s.odometry_fault.index("table_step")] == 1
                                   and s.odometry_refused == 2)
         self.assertIsNotNone(status, "the status counts neither the table nor what was refused")
-        # That the driver's tf has another odom is meant so. The mapper looks at it every second.
-        time.sleep(1.5)
+        # That the driver's tf has another odom is meant so. The mapper looks at it each second, before its status.
+        seen = len(self.status.all())
+        self.assertIsNotNone(self.status.wait(lambda s: len(self.status.all()) > seen + 1))
         self.assertFalse([m.msg for m in self.log.all() if "beside tf's tree" in m.msg])
 
 

@@ -4,7 +4,6 @@
 has a tree of each. The left one's images are raw, the right one's compressed."""
 import os
 import sys
-import time
 import unittest
 
 import rospy
@@ -21,15 +20,15 @@ class TwoDrones(unittest.TestCase):
     def test_side_by_side(self):
         rospy.init_node("two_drones_test")
         tf = Recorder("/tf", TFMessage)
+        mountings = []
         drones = [Drone("/" + name, "/" + name + "/camera", "/" + name + "/odometry", name, seed,
-                        direction, compressed)
+                        direction, compressed, mountings=mountings)
                   for name, seed, direction, compressed in [("left", 1, 1, False),
                                                             ("right", 2, -1, True)]]
         for drone in drones:
             drone.connect()
         for drone in drones:
             drone.mount_camera()
-            time.sleep(0.5)  # a latched topic of one node holds one message only
         for _ in range(IMAGES):
             for drone in drones:
                 self.assertIsNotNone(drone.fly(1)[0])

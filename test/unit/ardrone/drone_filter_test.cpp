@@ -20,9 +20,9 @@ class DroneFilterTest : public ::testing::Test {
  protected:
   State anyState() {
     State x;
-    for (int i = 0; i < DroneFilter::kSize; ++i) x[i] = 0.2 * normal_(random_);
-    x.segment<3>(DroneFilter::kVelocity) *= 5;
-    x.segment<2>(DroneFilter::kTilt) *= 0.2;
+    for (int i = 0; i < drone_model::kSize; ++i) x[i] = 0.2 * normal_(random_);
+    x.segment<3>(drone_model::kVelocity) *= 5;
+    x.segment<2>(drone_model::kTilt) *= 0.2;
     return x;
   }
   DroneMeasurement anyMeasurement() {
@@ -55,24 +55,24 @@ TEST_F(DroneFilterTest, JacobiansAreTheDerivatives) {
     const State x = anyState();
     const DroneMeasurement m = anyMeasurement();
     const double dt_s = 0.02;
-    EXPECT_TRUE(DroneFilter::motionJacobian(x, m, dt_s)
+    EXPECT_TRUE(drone_model::motionJacobian(x, m, dt_s)
                     .isApprox(differences(x,
                                           [&](const State& s) -> Eigen::VectorXd {
-                                            return DroneFilter::motion(s, m, dt_s);
+                                            return drone_model::motion(s, m, dt_s);
                                           }),
                               1e-7));
     EXPECT_TRUE(
-        DroneFilter::flow(x, m.R_odom_base)
+        drone_model::flow(x, m.R_odom_base)
             .jacobian.isApprox(differences(x,
                                            [&](const State& s) -> Eigen::VectorXd {
-                                             return DroneFilter::flow(s, m.R_odom_base).value;
+                                             return drone_model::flow(s, m.R_odom_base).value;
                                            }),
                                1e-7));
     EXPECT_TRUE(
-        DroneFilter::drag(x, m.R_odom_base)
+        drone_model::drag(x, m.R_odom_base)
             .jacobian.isApprox(differences(x,
                                            [&](const State& s) -> Eigen::VectorXd {
-                                             return DroneFilter::drag(s, m.R_odom_base).value;
+                                             return drone_model::drag(s, m.R_odom_base).value;
                                            }),
                                1e-7));
   }
@@ -116,8 +116,8 @@ TEST_F(DroneFilterTest, TheAccelerometerTellsTheSpeedByTheDrag) {
     filter.predict(m, 0.005);
     filter.updateVelocity(m, 0.005);
   }
-  EXPECT_NEAR(filter.state()[DroneFilter::kVelocity], kSpeed_m_s, 0.05);
-  EXPECT_NEAR(filter.state()[DroneFilter::kVelocity + 1], 0, 0.05);
+  EXPECT_NEAR(filter.state()[drone_model::kVelocity], kSpeed_m_s, 0.05);
+  EXPECT_NEAR(filter.state()[drone_model::kVelocity + 1], 0, 0.05);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "association/map_feature_associator.hpp"
 #include "support/view_builder.hpp"
 
 namespace ardrone_vslam {
@@ -41,7 +42,7 @@ class AssociatorTest : public ::testing::Test {
     AssociationResult result;
     std::vector<bool> marks = taken;
     marks.resize(builder_.features().size(), false);
-    Associator(config_).matchMapFeatures(builder_.view(), map_features_, marks, result);
+    MapFeatureAssociator(config_).match(builder_.view(), map_features_, marks, result);
     return result;
   }
   void storeRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& point, std::uint32_t track_id,

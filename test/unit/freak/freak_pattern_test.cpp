@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "freak/freak.hpp"
+#include "freak/freak_selected_pairs.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ardrone_vslam/height_input.hpp"
+#include "ardrone_vslam/odometry_adapter.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/slam_config.hpp"
+
+namespace ardrone_vslam {
+
+/// The observer's states and heights, kept until images ask for those of their exposure.
+class ObserverStates {
+ public:
+  /// As the nodelets' StampGuard: a stamp so far back is a clock that was set.
+  static constexpr std::int64_t kRestart_ns = 1'000'000'000;
+
+  /// @throws ConfigError
+  explicit ObserverStates(const SlamConfig& config);
+
+  /// @return whether it, and those that burst with it, are used
+  bool add(const OdometryState& message);
+  /// No further state will come.
+  void end();
+  bool isOver() const { return is_over_; }
+  void clear();
+
+  /// @param state  at the exposure of an image with this stamp, which it has as well
+  OdometryBuffer::Lookup at(std::int64_t image_ns, OdometryState& state);
+  const OdometryBuffer& buffer() const { return buffer_; }
+
+ private:
+  bool take(OdometryBuffer::Push answer);
+
+  std::int64_t image_time_offset_ns_;
+  OdometryAdapter adapter_;
+  OdometryBuffer buffer_;
+  HeightInput heights_;
+  std::vector<OdometryState> ready_;
+  bool is_over_ = false;
+};
+
+}  // namespace ardrone_vslam

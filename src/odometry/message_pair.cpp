@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "odometry/message_pair.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr double kResetFrom_m = 1;  // a position nearer to the origin than this need not be reset
+constexpr double kResetTo_m = 0.1;
+constexpr double kResetSpeed_m_s = 100;  // no drone and no car
+
+}  // namespace
+
+double secondsBetween(const OdometryState& a, const OdometryState& b) {
+  return static_cast<double>(b.stamp_ns - a.stamp_ns) * 1e-9;
+}
+
+Eigen::Vector3d velocity_odom_m_s(const OdometryState& state) {
+  return state.T_odom_base.linear() * state.twist_base.head<3>();
+}
+
+Eigen::Vector3d wayBetween_m(const OdometryState& a, const OdometryState& b) {
+  return b.T_odom_base.translation() - a.T_odom_base.translation();
+}
+
+bool isJump(const OdometryState& a, const OdometryState& b) {
+  const double displacement_m = wayBetween_m(a, b).norm();
+  return displacement_m > kJump_m && displacement_m > kFastestOdometry * secondsBetween(a, b);
+}
+
+bool isReset(const OdometryState& a, const OdometryState& b) {
+  return a.T_odom_base.translation().head<2>().norm() > kResetFrom_m &&
+         b.T_odom_base.translation().head<2>().norm() < kResetTo_m &&
+         wayBetween_m(a, b).head<2>().norm() > kResetSpeed_m_s * secondsBetween(a, b);
+}
+
+bool isRepeated(const OdometryState& a, const OdometryState& b) {
+  return a.T_odom_base.matrix() == b.T_odom_base.matrix() && a.twist_base == b.twist_base;
+}
+
+}  // namespace ardrone_vslam
