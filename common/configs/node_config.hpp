@@ -37,12 +37,12 @@ template <class Visitor>
 void visitParameters(TrackerNodeConfig& c, Visitor&& visit) {
   visit(
       ParameterInfo{"image_transport", "choice", 0, 0,
-                    "raw: the topic `image`. compressed: `image`/compressed (JPEG)", turnFirst(21)},
+                    "raw: the topic `image`. compressed: `image`/compressed (JPEG)", turnFirst(20)},
       c.image_transport);
   visit(ParameterInfo{"rectified", "switch", 0, 0,
                       "the images are rectified: use camera_info's P, no distortion. Also read by "
                       "the offline tools, for bags",
-                      turnFirst(22)},
+                      turnFirst(21)},
         c.rectified);
   visit(ParameterInfo{"rescale_calibration", "switch", 0, 0,
                       "camera_info's K may be of another size than the images (half, double), as "
@@ -80,10 +80,10 @@ struct MapperNodeConfig {
 
 template <class Visitor>
 void visitParameters(MapperNodeConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"map_frame", "name", 0, 0, effects::kMapFrame, turnFirst(23)}, c.map_frame);
-  visit(ParameterInfo{"odom_frame", "name", 0, 0, effects::kOdomFrame, turnFirst(24)},
+  visit(ParameterInfo{"map_frame", "name", 0, 0, effects::kMapFrame, turnFirst(22)}, c.map_frame);
+  visit(ParameterInfo{"odom_frame", "name", 0, 0, effects::kOdomFrame, turnFirst(23)},
         c.odom_frame);
-  visit(ParameterInfo{"base_frame", "name", 0, 0, effects::kBaseFrame, turnFirst(25)},
+  visit(ParameterInfo{"base_frame", "name", 0, 0, effects::kBaseFrame, turnFirst(24)},
         c.base_frame);
   visit(
       ParameterInfo{"odometry_wait_s", "s", 0.0, 60.0,
@@ -100,8 +100,8 @@ struct OdometryFusionNodeConfig {
 
 template <class Visitor>
 void visitParameters(OdometryFusionNodeConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"map_frame", "name", 0, 0, effects::kMapFrame, turnFirst(23)}, c.map_frame);
-  visit(ParameterInfo{"base_frame", "name", 0, 0, effects::kBaseFrame, turnFirst(25)},
+  visit(ParameterInfo{"map_frame", "name", 0, 0, effects::kMapFrame, turnFirst(22)}, c.map_frame);
+  visit(ParameterInfo{"base_frame", "name", 0, 0, effects::kBaseFrame, turnFirst(24)},
         c.base_frame);
 }
 
@@ -133,10 +133,10 @@ void visitParameters(OnboardBridgeConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"camera", "name", 0, 0, kCalibrationFile}, c.camera);
   visit(ParameterInfo{"camera_frame", "name", 0, 0, "the camera's optical frame, of `features`"},
         c.camera_frame);
-  visit(ParameterInfo{"map_frame", "name", 0, 0, effects::kMapFrame, turnFirst(23)}, c.map_frame);
-  visit(ParameterInfo{"odom_frame", "name", 0, 0, effects::kOdomFrame, turnFirst(24)},
+  visit(ParameterInfo{"map_frame", "name", 0, 0, effects::kMapFrame, turnFirst(22)}, c.map_frame);
+  visit(ParameterInfo{"odom_frame", "name", 0, 0, effects::kOdomFrame, turnFirst(23)},
         c.odom_frame);
-  visit(ParameterInfo{"base_frame", "name", 0, 0, effects::kBaseFrame, turnFirst(25)},
+  visit(ParameterInfo{"base_frame", "name", 0, 0, effects::kBaseFrame, turnFirst(24)},
         c.base_frame);
   visit(ParameterInfo{"publish_odom_tf", "switch", 0, 0,
                       "send tf odom -> base, the estimate that the answer started from; off where "

@@ -161,7 +161,7 @@ template <class Visitor>
 void visitParameters(LandmarkMapConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"max_landmarks", "landmarks", 10, 10000000,
                       "cap of the map; landmarks that were not seen for longest go first",
-                      turnFirst(20)},
+                      turnFirst(19)},
         c.max_landmarks);
 }
 

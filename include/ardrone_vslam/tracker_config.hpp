@@ -44,7 +44,7 @@ void visitParameters(CornerDetectorConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"features_per_frame", "corners", 1, 20000,
                       "most corners taken of one image, spread over its cells. More: better "
                       "matches, slower",
-                      turnFirst(19)},
+                      turnFirst(18)},
         c.features_per_frame);
   visit(ParameterInfo{"cell_size_px", "px", 16, 4096,
                       "side of the cells that share the corners and adapt their threshold; smaller "
