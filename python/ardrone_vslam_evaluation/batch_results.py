@@ -51,8 +51,8 @@ def markdown(rows, columns, names=("sequence", "frames", "profile", "estimator",
 def harm(rows):
     """In words."""
     harmed = [row for row in rows if row["ratio_scale_removed_worst"] is not None and row["ratio_scale_removed_worst"] > HARM]
-    names = "; ".join(f"{row['sequence']} {row['profile']} {row['estimator']} ({row['ratio_scale_removed_worst']:.3f})" for row in harmed)
-    return (f"Worse than the odometry by more than {HARM - 1:.0%} in a seed, scale removed, which is a defect: {names}.\n" if harmed else
+    names = "".join(f"- {row['sequence']} {row['profile']} {row['estimator']} ({row['ratio_scale_removed_worst']:.3f})\n" for row in harmed)
+    return (f"Worse than the odometry by more than {HARM - 1:.0%} in a seed, scale removed, which is a defect:\n{names}" if harmed else
             f"No seed of any row is worse than the odometry by more than {HARM - 1:.0%}, scale removed.\n")
 
 

@@ -164,7 +164,7 @@ class BaselineTest(WithFolder):
     def test_harm_to_the_odometry_is_named(self):
         rows = [row(ratio_scale_removed_worst=1.049), row("hover", ratio_scale_removed_worst=None)]
         self.assertIn("No seed of any row", harm(rows))
-        self.assertIn("which is a defect: street drone msckf (1.117).", harm(rows + [row("street", ratio_scale_removed_worst=1.117)]))
+        self.assertIn("which is a defect:\n- street drone msckf (1.117)\n", harm(rows + [row("street", ratio_scale_removed_worst=1.117)]))
 
     def test_a_number_that_one_seed_lacks_is_not_shown(self):
         self.assertEqual(of_seeds([{"ratio": 1.0}, {"ratio": 3.0}], "ratio", max), 3)
