@@ -101,7 +101,7 @@ void Msckf::useStillness(const ImageFeatures& features) {
     return;
   }
   const bool is_located = map_update_.isLocated();
-  zero_motion_.apply(features, T_rig_cam_, propagator_.odometry_map_m(), is_located, state_);
+  zero_motion_.apply(features, T_rig_cam_, propagator_.T_odom_base(), is_located, state_);
   if (is_located || motion() == CameraMotion::kResting) return;
   limitByScene(features, order_, T_rig_cam_.translation(), zero_motion_.sceneDepth(), tracks_,
                state_);

@@ -75,6 +75,12 @@ Eigen::Isometry3d Propagator::T_map_odom(const WindowState& state) const {
   return T_map_odom;
 }
 
+Eigen::Isometry3d Propagator::T_odom_base() const {
+  Eigen::Isometry3d T_odom_base = odometry_.T_odom_base;
+  T_odom_base.translation() = position_odom_m_;
+  return T_odom_base;
+}
+
 double Propagator::biasSigmas(const WindowState& state) const {
   return config_.velocity_bias_m_s > 0 ? state.velocity_bias_m_s_.norm() / config_.velocity_bias_m_s
                                        : 0;
@@ -96,7 +102,7 @@ void Propagator::propagate(const OdometryState& odometry, const std::optional<Od
   next.height_m = odometry.height_m;
   addPosition(odometry, increment, next, state);
   odometry_way_m_ += increment.displacement_m;
-  odometry_map_m_ += state.R_map_odom_ * increment.way_odom_m;
+  position_odom_m_ += increment.way_odom_m;
   if (step) {
     // Nothing but where the drone is now is in doubt: odometry that had stood still may catch up.
     const int to = state.frameCoordinate(state.frames_.size());

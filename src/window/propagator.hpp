@@ -35,8 +35,8 @@ class Propagator {
 
   /// Takes the odometry's newest pose to the newest frame's.
   Eigen::Isometry3d T_map_odom(const WindowState& state) const;
-  /// Where odometry alone would have put base since it began, jumps left out; axes of map.
-  const Eigen::Vector3d& odometry_map_m() const { return odometry_map_m_; }
+  /// What the odometry says of base since it began, jumps of its position left out.
+  Eigen::Isometry3d T_odom_base() const;
   /// The odometry's velocity bias over what is configured.
   double biasSigmas(const WindowState& state) const;
 
@@ -58,8 +58,8 @@ class Propagator {
   OdometryState odometry_;  // of the newest frame
   std::uint32_t next_id_ = 1;
   double inflation_ = 1;
-  double odometry_way_m_ = 0;  // since it began
-  Eigen::Vector3d odometry_map_m_ = Eigen::Vector3d::Zero();
+  double odometry_way_m_ = 0;                                  // since it began
+  Eigen::Vector3d position_odom_m_ = Eigen::Vector3d::Zero();  // jumps left out
 };
 
 }  // namespace ardrone_vslam

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "zero_motion/scene_depth.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -26,7 +25,7 @@ constexpr double kLeastProbability = 1e-12;
 // When images are compared.
 constexpr double kBetweenLooks_s = 0.35;
 constexpr double kLongest_s = 4;    // the bias changes meanwhile
-constexpr double kFarthest = 0.05;  // way over depth: further the tracks' depths differ too much
+constexpr double kFarthest = 0.05;  // way over depth: it tells enough
 constexpr std::size_t kMostPairs = 120;
 constexpr std::size_t kFewestPairs = 15;
 constexpr double kCornerSigma_px = 0.7;
@@ -59,22 +58,20 @@ SceneDepth::SceneDepth() : hypotheses_(kDepths) {
   }
 }
 
-void SceneDepth::see(const ImageFeatures& features, const Eigen::Matrix3d& R_map_cam,
-                     const Eigen::Vector3d& camera_odometry_map_m) {
+void SceneDepth::see(const ImageFeatures& features, const Eigen::Isometry3d& T_odom_cam) {
   const bool is_first = reference_.rays.rays.empty();
   if (!is_first &&
       static_cast<double>(features.stamp_ns - now_.rays.stamp_ns) * 1e-9 < kBetweenLooks_s)
     return;
   now_.rays.take(features, order_);
-  now_.R_map_cam = R_map_cam;
-  now_.odometry_map_m = camera_odometry_map_m;
+  now_.T_odom_cam = T_odom_cam;
   findPairs(reference_.rays, now_.rays, kMostPairs, pairs_);
 
   Motion motion;
   motion.passed_s = passedSince(reference_.rays, now_.rays);
-  motion.odometry_m = now_.odometry_map_m - reference_.odometry_map_m;
-  const Eigen::Matrix3d& R_map_then = reference_.R_map_cam;
-  const Eigen::Matrix3d R_then_now = R_map_then.transpose() * R_map_cam;
+  motion.odometry_m = T_odom_cam.translation() - reference_.T_odom_cam.translation();
+  const Eigen::Matrix3d R_odom_then = reference_.T_odom_cam.linear();
+  const Eigen::Matrix3d R_then_now = R_odom_then.transpose() * T_odom_cam.linear();
   std::optional<SeenMotion> seen;
   if (pairs_.size() >= kFewestPairs)
     seen =
@@ -84,8 +81,8 @@ void SceneDepth::see(const ImageFeatures& features, const Eigen::Matrix3d& R_map
       is_fading || motion.passed_s > kLongest_s || (seen && seen->way.norm() > kFarthest);
   if (seen && !is_long) return;  // the longer, the more it tells
   if (seen) {
-    motion.seen.way = R_map_then * seen->way;
-    motion.seen.covariance = R_map_then * seen->covariance * R_map_then.transpose();
+    motion.seen.way = R_odom_then * seen->way;
+    motion.seen.covariance = R_odom_then * seen->covariance * R_odom_then.transpose();
     judge(motion);
     spread(motion.passed_s, Eigen::AngleAxisd(R_then_now).angle());
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -24,9 +24,8 @@ class SceneDepth {
   SceneDepth();
 
   /// The next image. Three times a second it is compared. O(features log features).
-  /// @param camera_odometry_map_m  where odometry alone would have put the camera
-  void see(const ImageFeatures& features, const Eigen::Matrix3d& R_map_cam,
-           const Eigen::Vector3d& camera_odometry_map_m);
+  /// @param T_odom_cam  by the odometry alone: what corrects the estimate is no motion
+  void see(const ImageFeatures& features, const Eigen::Isometry3d& T_odom_cam);
   /// The depth that the scene is nearer than with this probability. O(depths).
   double quantile_m(double probability) const;
 
@@ -38,7 +37,7 @@ class SceneDepth {
     Eigen::Vector3d bias_m_s = Eigen::Vector3d::Zero();
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the bias
   };
-  /// Between two images, axes of map.
+  /// Between two images, axes of odom.
   struct Motion {
     double passed_s = 0;
     Eigen::Vector3d odometry_m = Eigen::Vector3d::Zero();
@@ -47,8 +46,7 @@ class SceneDepth {
   /// The image that others are compared with.
   struct Reference {
     ImageRays rays;
-    Eigen::Matrix3d R_map_cam = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d odometry_map_m = Eigen::Vector3d::Zero();
+    Eigen::Isometry3d T_odom_cam = Eigen::Isometry3d::Identity();
   };
 
   static double explain(const Motion& motion, Hypothesis& hypothesis);

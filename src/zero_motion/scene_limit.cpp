@@ -24,6 +24,10 @@ constexpr double kFar = 0.9;
 // What is seen of the way, over its length, differs from track to track as their depths do.
 constexpr double kUneven = 0.4;
 
+double secondsBetween(const Clone& then, const Clone& now) {
+  return static_cast<double>(now.stamp_ns - then.stamp_ns) * 1e-9;
+}
+
 /// The camera's displacement since a frame of the window is the way seen, times the depth.
 void limitDisplacement(std::size_t frame, const SeenMotion& seen, const SceneDepth& depth,
                        const Eigen::Vector3d& camera_rig, WindowState& state) {
@@ -40,8 +44,7 @@ void limitDisplacement(std::size_t frame, const SeenMotion& seen, const SceneDep
       squared(0.5 * (far_m - near_m)) * way_map * way_map.transpose();
   variance_m2.diagonal().array() += squared(kUneven * far_m) * way_map.squaredNorm();
   const Eigen::Matrix3d weight = variance_m2.inverse();
-  const double passed_s = static_cast<double>(newest.stamp_ns - then.stamp_ns) * 1e-9;
-  if (passed_s < kShortest_s || !mayBeDrift(off_m.norm(), passed_s)) return;
+  if (!mayBeDrift(off_m.norm(), secondsBetween(then, newest))) return;
   if (off_m.dot(weight * off_m) < 1) return;  // it need not be drift
   const int from = state.frameCoordinate(frame);
   const int to = state.frameCoordinate(state.frames().size() - 1);
@@ -59,6 +62,7 @@ void limitByScene(const ImageFeatures& features, const TrackOrder& order,
   // The oldest frame that shows the same: since then most drift has added up.
   for (std::size_t frame = 0; frame + 1 < state.frames().size(); ++frame) {
     const Clone& then = state.frames()[frame];
+    if (secondsBetween(then, state.newest()) < kShortest_s) return;
     const TrackWindow::Common common = tracks.commonWith(then.id, features, order);
     const auto pairs = static_cast<int>(common.pairs.size());
     if (pairs < kFewestTracks || common.lost > pairs) continue;

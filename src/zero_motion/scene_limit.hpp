@@ -12,8 +12,8 @@
 namespace ardrone_vslam {
 
 /// Where nothing else tells the drift: the camera has moved by what the image shows in a scene as
-/// far away as is known, so a hovering drone stays though its odometry drifts. Only what is surely
-/// drift is taken back. O(frames x tracks).
+/// far away as is known, so a hovering drone stays though its odometry drifts. What is within a
+/// sigma of that is left to the odometry. O(frames x tracks).
 /// @param order  of the newest frame's features
 /// @param camera_rig  the camera's position in the rig
 /// @param tracks  of the window

@@ -19,11 +19,9 @@ double rotationSigma_rad(const WindowState& state, std::size_t frame) {
 }
 
 void ZeroMotionUpdate::apply(const ImageFeatures& features, const Eigen::Isometry3d& T_rig_cam,
-                             const Eigen::Vector3d& odometry_map_m, bool is_located,
+                             const Eigen::Isometry3d& T_odom_base, bool is_located,
                              WindowState& state) {
-  const Eigen::Matrix3d& R_map_rig = state.newest().R_map_rig;
-  scene_depth_.see(features, R_map_rig * T_rig_cam.linear(),
-                   odometry_map_m + R_map_rig * T_rig_cam.translation());
+  scene_depth_.see(features, T_odom_base * T_rig_cam);
   const auto reference = indexOf(state.frames(), reference_id_);
   OdometryTurn turn;
   if (!reference) detector_ = ZeroMotionDetector();

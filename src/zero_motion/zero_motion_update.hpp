@@ -23,10 +23,10 @@ double rotationSigma_rad(const WindowState& state, std::size_t frame);
 class ZeroMotionUpdate {
  public:
   /// Looks at the newest frame, and holds its position when the camera rests or turns on the spot.
-  /// @param odometry_map_m  where odometry alone would have put base, axes of map
+  /// @param T_odom_base  by the odometry alone, jumps left out
   /// @param is_located  landmarks say where the camera is, so that nothing is held
   void apply(const ImageFeatures& features, const Eigen::Isometry3d& T_rig_cam,
-             const Eigen::Vector3d& odometry_map_m, bool is_located, WindowState& state);
+             const Eigen::Isometry3d& T_odom_base, bool is_located, WindowState& state);
   /// The newest frame's image is not looked at.
   void skip() { motion_ = CameraMotion::kUnknown; }
   /// The image says this of the newest frame; moving where the odometry contradicts it.
