@@ -6,7 +6,8 @@ import json
 import sys
 from pathlib import Path
 
-STAGES = ["detect", "describe", "track", "associate", "localise", "map"]  # as ardrone_vslam/stages.hpp
+# Numbers as in ardrone_vslam/stages.hpp, and flight_poses' own.
+STAGES = {"detect": 0, "describe": 1, "track": 2, "set-up": 7, "associate": 3, "localise": 4, "map": 5}
 CAMERAS = {"laps": "640x360, 200 features", "bottom": "320x240, 150 features"}
 # What costs more than a cycle on a Cortex-A8.
 SLOW = {"scalar": "scalar VFP", "divide": "divides and roots", "move": "moves between VFP or NEON and the core"}
@@ -24,7 +25,7 @@ def counts_of(path):
 def row_of(folder, name):
     frames = len((folder / f"{name}.poses").read_text().splitlines())
     counts = counts_of(folder / f"{name}.counts")
-    by_stage = [{kind: count / frames for kind, count in counts[number].items()} for number in range(len(STAGES))]
+    by_stage = [{kind: count / frames for kind, count in counts[number].items()} for number in STAGES.values()]
     frame = {kind: round(sum(stage[kind] for stage in by_stage), 1) for kind in by_stage[0]}
     frame["instructions"] = round(sum(frame.values()), 1)
     return {
@@ -80,7 +81,7 @@ def main():
             "# Instructions a frame on the drone\n\n"
             "Made by `scripts/drone_cost --page`; do not edit. Millions of executed instructions a frame, mean of "
             f"the first {frames} frames of `laps`, counted by an emulated Cortex-A8: equal from run to run. A frame of a long flight "
-            "costs more, about twice as much over ten minutes ([why](../docs/onboard.md#what-a-frame-costs-and-what-makes-it-cheaper)). "
+            "costs more, within a minute twice as much ([why](../docs/onboard.md#what-a-frame-costs-and-what-makes-it-cheaper)). "
             "Instructions are not cycles: on the Cortex-A8 one of scalar VFP takes about ten, a move from NEON to the core about "
             "twenty. Reading the image from its file is not counted.\n\n" + text + "\n")
     for fault in faults:

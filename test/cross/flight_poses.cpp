@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// flight_poses FLIGHT [mark_stages] [NAME=VALUE...]: tracker and Slam over a packed flight
-// (pack_flight), a line for each image on standard output: stamp, fused pose, state, features,
-// landmarks. Nothing but the core, so that it runs cross-compiled; the parameters are those of
-// docs/parameters.md. With mark_stages the emulator's plugin (benchmark/drone) is told the stages.
+// flight_poses FLIGHT [mark_stages] [NAME=VALUE...]: tracker, set-up watch and Slam over a packed
+// flight (pack_flight), a line for each image on standard output: stamp, fused pose, state,
+// features, landmarks. Nothing but the core, so that it runs cross-compiled; the parameters are
+// those of docs/parameters.md. With mark_stages the emulator's plugin (benchmark/drone) is told the
+// stages.
 #include <unistd.h>
 
 #include <cinttypes>
@@ -16,6 +17,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "ardrone_vslam/setup_watch.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/slam_config.hpp"
 #include "ardrone_vslam/tracker.hpp"
@@ -23,6 +25,9 @@
 namespace {
 
 using namespace ardrone_vslam;
+
+/// After the core's own, and idleness: the set-up watch, which programs call between two of them.
+constexpr auto kSetup = static_cast<Stage>(kStageCount + 1);
 
 /// Sets the parameter of this name, if it is one of those visited.
 struct Setter {
@@ -128,6 +133,7 @@ void run(int argc, char** argv) {
   Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();  // base looks along its x
   T_base_cam.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   Tracker tracker(tracker_config, flight.camera());
+  SetupWatch setup(T_base_cam, slam_config.image_time_offset_s);
   Slam slam(slam_config, T_base_cam);
   ImageFeatures features;
   OdometryBuffer buffer(slam_config.odometry);
@@ -135,6 +141,9 @@ void run(int argc, char** argv) {
   for (std::int64_t stamp_ns; (stamp_ns = flight.next(buffer)) >= 0;) {
     if (buffer.at(stamp_ns, state) != OdometryBuffer::Lookup::kFound) continue;
     tracker.process(flight.image(), stamp_ns, features, hook);
+    if (hook) hook(kSetup);
+    setup.see(features, buffer);
+    slam.heed(setup.finding());
     const FrameResult& result = slam.process(features, state, hook);
     const Eigen::Vector3d p = result.T_map_base.translation();
     const Eigen::Quaterniond q(result.T_map_base.linear());

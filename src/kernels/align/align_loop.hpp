@@ -40,8 +40,9 @@ static inline AlignStep solveAlign(const AlignPatch& patch, const AlignSums& sum
   const float c[3] = {(m[0] * d[0] + m[1] * d[1]) + m[2] * d[2],
                       (m[1] * d[0] + m[3] * d[1]) + m[4] * d[2],
                       (m[2] * d[0] + m[4] * d[1]) + m[5] * d[2]};
-  const std::int64_t total =
-      std::int64_t{sums.square} * (kPatchSide * kPatchSide) - std::int64_t{sums.one} * sums.one;
+  // Exact: 37 bits. As an integer it would need a library to become a float on a 32 bit processor.
+  const auto all = static_cast<double>(sums.one);
+  const double total = kPatchSide * kPatchSide * static_cast<double>(sums.square) - all * all;
   AlignStep step;
   step.contrast = static_cast<float>(total) * (kScale * kScale / kPixels);
   step.rest = step.contrast - ((c[0] * d[0] + c[1] * d[1]) + c[2] * d[2]) * (kScale * kScale);
