@@ -130,7 +130,7 @@ class Cost(unittest.TestCase):
             folder = Path(name)
             self.assertEqual(self.report(folder, 100000, "--json", folder / "base.json").returncode, 0)
             frame = json.loads((folder / "base.json").read_text())["laps_thesis_neon"]["frame"]
-            self.assertEqual(frame["instructions"], 6 * (100000 + 900) / 10)  # six stages, ten frames
+            self.assertEqual(frame["instructions"], 7 * (100000 + 900) / 10)  # seven stages, ten frames
             self.assertEqual(self.report(folder, 104000, "--baseline", folder / "base.json").returncode, 0)
             worse = self.report(folder, 106000, "--baseline", folder / "base.json")
             self.assertEqual(worse.returncode, 1)
