@@ -28,10 +28,24 @@ double weightOf(double left, double scale) {
   return 1 / ((1 + off * off) * (1 + off * off));  // Geman and McClure
 }
 
+/// Weights are in squares of the corners' deviation.
 struct Prior {
   Eigen::Vector3d way_then = Eigen::Vector3d::UnitZ();
-  double weight = 0;  // in squares of the corners' deviation
+  double weight = 0;
+  Eigen::Matrix3d R_then_now = Eigen::Matrix3d::Identity();
+  double turn_weight = 0;
 };
+
+Prior priorOf(const DisplacementGuess& guess, double corner_sigma_rad) {
+  Prior prior;
+  const double displacement_m = guess.displacement_m.norm();
+  if (displacement_m > 0) prior.way_then = guess.displacement_m / displacement_m;
+  // Of the direction; a way much shorter than its deviation may point anywhere.
+  const double sigma_rad =
+      std::max(guess.sigma_m, 1e-3 * displacement_m) / std::max(displacement_m, 1e-9);
+  prior.weight = std::pow(corner_sigma_rad / std::min(sigma_rad, 1.0), 2);
+  return prior;
+}
 
 /// As if all points were equally far away: a turn, and a shift along the way, that most tracks
 /// agree on. What the shift leaves is parallax, so the weights are as wide as the mean of it.
@@ -95,7 +109,13 @@ PlaneFit planeFit(const std::vector<BearingPair>& pairs, const ImageMotion& moti
   const Eigen::Vector3d off = motion.way_then - prior.way_then;
   fit.A.bottomRightCorner<2, 2>() += prior.weight * Eigen::Matrix2d::Identity();
   fit.g.tail<2>() += prior.weight * across.transpose() * off;
-  fit.cost += prior.weight * off.squaredNorm() / (scale_rad * scale_rad);
+  const Eigen::Vector3d turned =
+      prior.turn_weight > 0 ? rotationVectorOf(motion.R_then_now * prior.R_then_now.transpose())
+                            : Eigen::Vector3d::Zero();
+  fit.A.topLeftCorner<3, 3>() += prior.turn_weight * Eigen::Matrix3d::Identity();
+  fit.g.head<3>() += prior.turn_weight * turned;
+  fit.cost += (prior.weight * off.squaredNorm() + prior.turn_weight * turned.squaredNorm()) /
+              (scale_rad * scale_rad);
   return fit;
 }
 
@@ -164,13 +184,7 @@ Eigen::Matrix<double, 3, 2> tangentsOf(const Eigen::Vector3d& direction) {
 std::optional<ImageMotion> fitMotion(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
                                      const DisplacementGuess& guess) {
   if (pairs.size() < kFewestTurnTracks) return std::nullopt;
-  Prior prior;
-  const double displacement_m = guess.displacement_m.norm();
-  if (displacement_m > 0) prior.way_then = guess.displacement_m / displacement_m;
-  // Of the direction; a way much shorter than its deviation may point anywhere.
-  const double sigma_rad =
-      std::max(guess.sigma_m, 1e-3 * displacement_m) / std::max(displacement_m, 1e-9);
-  prior.weight = std::pow(corner_sigma_rad / std::min(sigma_rad, 1.0), 2);
+  const Prior prior = priorOf(guess, corner_sigma_rad);
   ImageMotion motion;
   motion.way_then = prior.way_then;
   motion.R_then_now = commonTurn(pairs, corner_sigma_rad, prior.way_then);
@@ -186,6 +200,22 @@ std::optional<ImageMotion> fitMotion(const std::vector<BearingPair>& pairs, doub
   motion.cost = fit.cost;
   findSense(pairs, corner_sigma_rad, motion);
   return motion;
+}
+
+double squaresAgainst(const KnownMotion& known, const ImageMotion& fitted,
+                      const std::vector<BearingPair>& pairs, double corner_sigma_rad) {
+  Prior prior = priorOf(known.displacement, corner_sigma_rad);
+  prior.R_then_now = known.R_then_now;
+  prior.turn_weight = std::pow(corner_sigma_rad / known.turn_sigma_rad, 2);
+  ImageMotion motion;
+  motion.way_then = prior.way_then;
+  motion.R_then_now = known.R_then_now;
+  motion.cost = refine(pairs, corner_sigma_rad, prior, motion).cost;
+  findSense(pairs, corner_sigma_rad, motion);
+  const double share = std::min(1.0, kIndependentTracks / std::max(fitted.inliers, 1));
+  // At the scale a pair costs one half.
+  constexpr double kSquaresOfCost = 2 * kInlierSigmas * kInlierSigmas;
+  return kSquaresOfCost * share * std::max(0.0, motion.cost - fitted.cost);
 }
 
 std::optional<ImageRotation> fitTurn(const std::vector<BearingPair>& pairs, double corner_sigma_rad,

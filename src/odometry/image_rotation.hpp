@@ -55,6 +55,19 @@ constexpr std::size_t kFewestTurnTracks = 20;
 std::optional<ImageMotion> fitMotion(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
                                      const DisplacementGuess& guess);
 
+/// A camera's motion between two images as far as it is known without them.
+struct KnownMotion {
+  Eigen::Matrix3d R_then_now = Eigen::Matrix3d::Identity();
+  double turn_sigma_rad = 0;  ///< per axis
+  DisplacementGuess displacement;
+};
+
+/// By how many squared deviations the tracks and what is known together are worse explained by one
+/// motion than the tracks alone by the one fitted to them. Where a fit has come to rest far from
+/// what is known (over a plane a tilt is much like a way sideways) its information claims more.
+double squaresAgainst(const KnownMotion& known, const ImageMotion& fitted,
+                      const std::vector<BearingPair>& pairs, double corner_sigma_rad);
+
 /// Fits turn and direction of the way to the epipolar planes (5.37) of the tracks, robustly: up to
 /// a third of them may be wrong. Neither depths nor the length of the way matter. O(pairs).
 /// @param corner_sigma_rad  of a corner between two images, per axis

@@ -19,6 +19,7 @@ constexpr double kDirection_rad = 0.1;   // of a way: many tracks of a street er
 constexpr double kVelocity_m_s = 0.4;    // of the odometry: three times that of a bad one
 constexpr double kSlowest_m_s = 0.6;     // below it the odometry tells no direction
 constexpr double kNoDirection_rad = 10;
+constexpr double kUsual = 3;           // squares below this speak against nothing
 constexpr double kAgrees = 12;         // squares above this are looked into
 constexpr double kMostOutliers = 0.4;  // share of the tracks, or the motion is not known
 constexpr double kFewOutliers = 0.25;  // share below which the first fit will do
@@ -28,6 +29,12 @@ constexpr double kAnywhere_m = 10;     // deviation of a way that is not known
 double directionSigma_rad(const ToldMotion& told, double span_s) {
   const double way_m = told.way_then_m.norm();
   return way_m < kSlowest_m_s * span_s ? kNoDirection_rad : kVelocity_m_s * span_s / way_m;
+}
+
+double turnSigma_rad(const ImageMotion& seen, const ToldMotion& told) {
+  const double turned_rad =
+      std::max(rotationVectorOf(told.R_then_now).norm(), rotationVectorOf(seen.R_then_now).norm());
+  return kAttitude_rad + kOfTurn * turned_rad;
 }
 
 DisplacementGuess guessFrom(const ToldMotion& told, double span_s) {
@@ -54,9 +61,7 @@ void addFitsFromAllSides(const std::vector<BearingPair>& pairs, double corner_si
 }  // namespace
 
 double squaresBetween(const ImageMotion& seen, const ToldMotion& told, double span_s) {
-  const double turned_rad =
-      std::max(rotationVectorOf(told.R_then_now).norm(), rotationVectorOf(seen.R_then_now).norm());
-  const double turn_sigma_rad = kAttitude_rad + kOfTurn * turned_rad;
+  const double turn_sigma_rad = turnSigma_rad(seen, told);
   const double direction_sigma_rad = directionSigma_rad(told, span_s);
   Vector5d variance;
   variance.head<3>().setConstant(turn_sigma_rad * turn_sigma_rad);
@@ -99,6 +104,21 @@ std::optional<ImageMotion> motionSeen(const std::vector<BearingPair>& pairs,
     nearest_squares = squares;
   }
   return nearest;
+}
+
+double squaresTold(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
+                   const ImageMotion& seen, const ToldMotion& told, double span_s) {
+  const double squares = squaresBetween(seen, told, span_s);
+  const double direction_sigma_rad = directionSigma_rad(told, span_s);
+  // Of any way the tracks make one that turns the image as well.
+  if (squares <= kUsual || direction_sigma_rad >= kNoDirection_rad) return squares;
+  KnownMotion known;
+  known.R_then_now = told.R_then_now;
+  known.turn_sigma_rad = turnSigma_rad(seen, told);
+  const double way_m = told.way_then_m.norm();
+  known.displacement.displacement_m = told.way_then_m;
+  known.displacement.sigma_m = way_m * std::hypot(kDirection_rad, direction_sigma_rad);
+  return std::min(squares, squaresAgainst(known, seen, pairs, corner_sigma_rad));
 }
 
 std::optional<ImageMotion> motionAtFactor(std::vector<BearingPair>& pairs, double corner_sigma_rad,

@@ -27,6 +27,7 @@ constexpr std::array<double, 8> kFocalFactors{0.5, 0.6, 0.7, 0.8, 1.25, 1.5, 1.7
 struct ComparedMotion {
   double span_s = 0;
   ImageMotion seen;
+  double squares_told = 0;  ///< squaresBetween() it and what is told, as far as the tracks bear out
   /// As seen if the focal length were wrong by each factor; empty: was not looked at.
   std::array<std::optional<ImageMotion>, kFocalFactors.size()> seen_at_factor;
   double pairs = 0;  ///< tracks in both images
@@ -48,6 +49,11 @@ constexpr double kMostSquares = 30;
 std::optional<ImageMotion> motionSeen(const std::vector<BearingPair>& pairs,
                                       double corner_sigma_rad, const ToldMotion& told,
                                       double span_s);
+
+/// squaresBetween(), but no more than squaresAgainst() what is told: that it is wrong must be seen
+/// in the tracks, not only in what their fit claims.
+double squaresTold(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
+                   const ImageMotion& seen, const ToldMotion& told, double span_s);
 
 /// As motionSeen(), if the focal length were wrong by a factor; only near what is told.
 /// @param pairs  changed

@@ -94,6 +94,7 @@ double SetupHypotheses::squaresOf(const Hypothesis& h, const ComparedMotion& mot
     case SetupFault::kUnknown:
       break;
   }
+  if (h.fault == SetupFault::kNone && h.which == kMiddle) return motion.squares_told;
   return squaresBetween(motion.seen, motion.told_at_offset[h.which], motion.span_s);
 }
 
@@ -101,10 +102,9 @@ void SetupHypotheses::add(const ComparedMotion& motion) {
   static const double kKept = std::exp(-1 / kMemory);
   const bool has_factors = wantsFactors();
   motions_ = kKept * motions_ + 1;
-  const double told = squaresBetween(motion.seen, motion.told_at_offset[kMiddle], motion.span_s);
   for (Hypothesis& h : hypotheses_) {
     const bool is_unseen = h.fault == SetupFault::kFocalLength && !has_factors;
-    h.squares = kKept * h.squares + (is_unseen ? told : squaresOf(h, motion));
+    h.squares = kKept * h.squares + (is_unseen ? motion.squares_told : squaresOf(h, motion));
   }
   judge();
 }

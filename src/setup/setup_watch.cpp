@@ -131,6 +131,7 @@ void SetupWatch::State::compare(const ImageRays& then, const ImageRays& now,
   const auto seen = motionSeen(pairs_, sigma_rad, told, motion.span_s);
   if (!seen) return;
   motion.seen = *seen;
+  motion.squares_told = squaresTold(pairs_, sigma_rad, *seen, told, motion.span_s);
   if (hypotheses_.wantsFactors()) {
     double factor = 1;
     for (std::size_t i = 0; i < kFocalFactors.size(); ++i) {
