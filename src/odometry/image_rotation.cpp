@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "odometry/common_turn.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 
-constexpr int kCommonRounds = 4;
 constexpr int kPlaneRounds = 8;
 constexpr double kInlierSigmas = 3;
 constexpr double kInlierShare = 0.6;
@@ -22,11 +22,6 @@ constexpr double kNearestToWay = 0.15;
 /// Jumps of neighbouring corners are alike: more tracks than this say no more.
 constexpr double kIndependentTracks = 40;
 constexpr double kMostSense = 5;  // deviations of one corner, of the way's sense
-
-double weightOf(double left, double scale) {
-  const double off = left / scale;
-  return 1 / ((1 + off * off) * (1 + off * off));  // Geman and McClure
-}
 
 /// Weights are in squares of the corners' deviation.
 struct Prior {
@@ -45,38 +40,6 @@ Prior priorOf(const DisplacementGuess& guess, double corner_sigma_rad) {
       std::max(guess.sigma_m, 1e-3 * displacement_m) / std::max(displacement_m, 1e-9);
   prior.weight = std::pow(corner_sigma_rad / std::min(sigma_rad, 1.0), 2);
   return prior;
-}
-
-/// As if all points were equally far away: a turn, and a shift along the way, that most tracks
-/// agree on. What the shift leaves is parallax, so the weights are as wide as the mean of it.
-Eigen::Matrix3d commonTurn(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
-                           const Eigen::Vector3d& way_then) {
-  Eigen::Matrix3d R_then_now = Eigen::Matrix3d::Identity();
-  double shift = 0;
-  double scale_rad = 0;  // in the first round all count alike
-  for (int round = 0; round < kCommonRounds; ++round) {
-    Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d g = Eigen::Vector4d::Zero();
-    double sum = 0, sum_left = 0;
-    for (const BearingPair& pair : pairs) {
-      const Eigen::Vector3d now = R_then_now * pair.now;
-      const Eigen::Vector3d turned = now - pair.then;
-      const Eigen::Vector3d across = way_then - now.dot(way_then) * now;
-      const double left = (turned + shift * across).norm();
-      const double weight = scale_rad > 0 ? weightOf(left, scale_rad) : 1;
-      sum += weight;
-      sum_left += weight * left;
-      Eigen::Matrix<double, 3, 4> J;
-      J << -skew(now), across;
-      A += weight * J.transpose() * J;
-      g += weight * J.transpose() * turned;
-    }
-    scale_rad = std::max(2 * sum_left / sum, kInlierSigmas * corner_sigma_rad);
-    const Eigen::Vector4d step = -A.ldlt().solve(g);
-    R_then_now = rotationOf(step.head<3>()) * R_then_now;
-    shift = step.w();
-  }
-  return R_then_now;
 }
 
 /// Normal equations of the distances from the epipolar planes; turn, then the way across itself.
@@ -187,7 +150,7 @@ std::optional<ImageMotion> fitMotion(const std::vector<BearingPair>& pairs, doub
   const Prior prior = priorOf(guess, corner_sigma_rad);
   ImageMotion motion;
   motion.way_then = prior.way_then;
-  motion.R_then_now = commonTurn(pairs, corner_sigma_rad, prior.way_then);
+  motion.R_then_now = commonTurn(pairs, kInlierSigmas * corner_sigma_rad, prior.way_then);
   const PlaneFit fit = refine(pairs, corner_sigma_rad, prior, motion);
   const auto count = static_cast<double>(pairs.size());
   if (!motion.R_then_now.allFinite() || fit.inliers < kInlierShare * count) return std::nullopt;
