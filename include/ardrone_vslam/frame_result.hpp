@@ -65,6 +65,12 @@ struct FrameResult {
   double sigma_m = 0;    ///< of the fused position, per axis (6.12)
   /// MSCKF: Msckf::fixNis(); 0 with the others.
   double fix_nis = 0;
+  /// MSCKF: squared deviations of this frame's tracks over what the covariance says of them; 1 is
+  /// honest, 0 when none was used.
+  double track_nis = 0;
+  /// MSCKF: the odometry's slow velocity error as it is counted with, per axis: `velocity_bias_m_s`
+  /// and what was learned since; 0 with the others.
+  double velocity_bias_sigma_m_s = 0;
   /// MSCKF: of the odometry, which reports (1 + error) times the way; 0 with the
   /// others.
   double scale_error = 0;

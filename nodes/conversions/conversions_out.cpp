@@ -44,35 +44,6 @@ void fillTwist(const Vector6d& twist, const Matrix6d& covariance,
   toRowMajor(covariance, message.covariance);
 }
 
-std::uint8_t stateOf(SlamState state) {
-  switch (state) {
-    case SlamState::kBuildingMap:
-      return Status::BUILDING_MAP;
-    case SlamState::kLocalised:
-      return Status::LOCALISED;
-    case SlamState::kTooFewLandmarks:
-      return Status::TOO_FEW_LANDMARKS;
-    case SlamState::kFixRejected:
-      return Status::FIX_REJECTED;
-    case SlamState::kOdometryOnly:
-      return Status::OBSERVER_ONLY;
-    case SlamState::kNotFinite:
-      return Status::NOT_FINITE;
-    case SlamState::kTracking:
-      return Status::TRACKING;
-    case SlamState::kResting:
-      return Status::RESTING;
-    case SlamState::kRotating:
-      return Status::ROTATING;
-    case SlamState::kDistrusted:
-      return Status::DISTRUSTED;
-    case SlamState::kRelocated:
-      return Status::RELOCATED;
-  }
-  assert(false && "a SlamState that Status.msg does not know");
-  return Status::OBSERVER_ONLY;
-}
-
 /// Green over yellow to red, on a logarithmic scale.
 std_msgs::ColorRGBA colourOf(double sigma_m) {
   const double clamped = std::clamp(sigma_m, kGreenSigma_m, kRedSigma_m);
@@ -192,57 +163,6 @@ PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isome
                       result.state == SlamState::kTracking || result.state == SlamState::kResting ||
                       result.state == SlamState::kRotating || result.state == SlamState::kRelocated;
   return message;
-}
-
-void toStatus(SlamState state, Status& status) {
-  status.state = stateOf(state);
-  status.state_name = kSlamStateNames[static_cast<std::size_t>(state)];
-  status.reason = state == SlamState::kLocalised ? "" : explain(state);
-}
-
-void toStatus(const FrameResult& result, const std::string& map_frame, Status& status) {
-  const auto count = [](int number) { return static_cast<std::uint32_t>(number); };
-  status.header = headerOf(result.stamp_ns, map_frame);
-  toStatus(result.state, status);
-  if (result.features == 0) {
-    status.reason =
-        "the image has no corners: it is dark, over-exposed, blurred or without texture; " +
-        status.reason;
-  }
-  status.features = count(result.features);
-  status.match_method = nameOf(result.match_method);
-  status.landmarks_in_view = count(result.landmarks_in_view);
-  status.landmark_candidates = count(result.landmark_candidates);
-  status.landmark_matches = count(result.landmark_matches);
-  status.feature_candidates = count(result.feature_candidates);
-  status.feature_matches = count(result.feature_matches);
-  status.landmark_mismatches = count(result.landmark_candidates - result.landmark_matches);
-  status.feature_mismatches = count(result.feature_candidates - result.feature_matches);
-  status.landmarks = count(result.landmarks);
-  status.map_features = count(result.map_features);
-  status.fix_nis = std::isfinite(result.fix_nis) ? result.fix_nis : 0;
-  const bool has_scale = std::isfinite(result.scale_error + result.scale_sigma);
-  status.scale_error = has_scale ? result.scale_error : 0;
-  status.scale_deviation = has_scale ? result.scale_sigma : 0;
-  status.deviation = result.state == SlamState::kNotFinite ? 0 : result.sigma_m;
-}
-
-void toStatus(const OdometryFaultCounts& faults, Status& status) {
-  status.odometry_fault.assign(EnumNames<OdometryFault>::kNames.begin(),
-                               EnumNames<OdometryFault>::kNames.end());
-  status.odometry_fault_count.assign(faults.begin(), faults.end());
-}
-
-void toStatus(const TimeOffset& estimate, double used_s, Status& status) {
-  status.image_time_offset = used_s;
-  status.image_time_offset_estimate = estimate.offset_s;
-  status.image_time_offset_deviation = estimate.deviation_s;
-}
-
-bool isWell(std::uint8_t state) {
-  return state == Status::LOCALISED || state == Status::BUILDING_MAP || state == Status::TRACKING ||
-         state == Status::RESTING || state == Status::ROTATING || state == Status::RELOCATED ||
-         state == Status::OBSERVER_ONLY;
 }
 
 sensor_msgs::PointCloud2 toCloud(const std::vector<Landmark>& landmarks,

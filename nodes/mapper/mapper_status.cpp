@@ -129,6 +129,10 @@ void MapperStatus::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper
   wrapper.add("deviation [m]", latest_.deviation);
   if (latest_.fix_nis > 0)
     wrapper.add("squared deviations of fixes over expected", latest_.fix_nis);
+  if (latest_.track_nis > 0)
+    wrapper.add("squared deviations of tracks over expected", latest_.track_nis);
+  if (latest_.velocity_bias_deviation > 0)
+    wrapper.add("velocity bias of the odometry, learned [m/s]", latest_.velocity_bias_deviation);
 }
 
 void MapperStatus::diagnoseHeights(diagnostic_updater::DiagnosticStatusWrapper& wrapper) const {

@@ -4,7 +4,7 @@
 import numpy as np
 
 from .consistency import NEES_3_SIGMA, bounds_95, DEGREES, is_after_first_fix
-from .plot_style import LeftOut, RUNNING_MEAN_S, TRUTH, legend, logarithmic_y, looks, panels, running_mean
+from .plot_style import LeftOut, RUNNING_MEAN_S, TRUTH, legend, logarithmic_y, looks, panels, running_mean, runs_of
 
 SMALLEST_SHOWN_M = 1e-4  # both begin at the same pose, whose error of zero has no logarithm
 
@@ -89,4 +89,24 @@ def draw_nis(rows):
     axes.set_xlabel("time [s]")
     axes.set_ylabel("NIS of the fixes")
     legend(axes)
+    return figure
+
+
+def draw_odometry_noise(rows):
+    known = [row for row in runs_of(rows) if row.run.column("track_nis") is not None
+             and np.isfinite(row.run.column("track_nis")).any()]
+    if not known:
+        raise LeftOut("frames.csv has no track_nis (with estimator msckf alone)")
+    look = looks(rows)
+    figure, (nis, bias) = panels(2, 3.2)
+    nis.axhline(1, color=TRUTH, linewidth=1, linestyle="--", label="honest: 1")
+    for row in known:
+        seconds = (row.run.frames["stamp_ns"] - row.start_ns()) * 1e-9
+        nis.plot(seconds, running_mean(seconds, row.run.column("track_nis")), linewidth=1.2, **look[row.name])
+        bias.plot(seconds, row.run.column("velocity_bias_sigma_m_s"), linewidth=1.2, **look[row.name])
+    for axes, label in ((nis, "NIS of the tracks"), (bias, "velocity bias counted with [m/s]")):
+        axes.set_ylim(bottom=0)
+        axes.set_xlabel("time [s]")
+        axes.set_ylabel(label)
+    legend(nis)
     return figure

@@ -11,7 +11,7 @@ from typing import Callable
 import matplotlib.pyplot as plt
 
 from .faults import MachineFault, reason
-from .plot_errors import draw_error_over_length, draw_error_over_time, draw_nees, draw_nis
+from .plot_errors import draw_error_over_length, draw_error_over_time, draw_nees, draw_nis, draw_odometry_noise
 from .plot_frames import draw_error_against_matches, draw_histogram_of_matches, draw_matches_over_time, draw_stage_times
 from .plot_paths import draw_maps, draw_trajectories
 from .plot_rates import draw_error_against_rate, has_several_rates
@@ -47,6 +47,8 @@ def all_figures(rows):
                "Thick: mean over 5 s.", draw_nees),
         Figure("nis", "Consistency: NIS", "Squared deviations of the fixes over what is expected, a running mean of about ten fixes, from the "
                "first one on. frames.csv does not tell their number, so there are no bounds.", draw_nis),
+        Figure("odometry_noise", "Tracks, and what they say of the odometry", "Left: squared deviations of the tracks over what is expected, "
+               "mean over 5 s. Right: the odometry's slow velocity error, as learned so far.", draw_odometry_noise),
         Figure("stage_times", "Stage times", "Decoding of images is not in it.", draw_stage_times),
     ]
 

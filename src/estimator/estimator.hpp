@@ -30,6 +30,8 @@ struct Estimate {
   Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();  ///< REP-105
   Matrix6d covariance = Matrix6d::Zero();       ///< of T_map_base, see FrameResult::covariance
   double fix_nis = 0;                           ///< see FrameResult::fix_nis
+  double track_nis = 0;                         ///< see FrameResult::track_nis
+  double velocity_bias_sigma_m_s = 0;           ///< see FrameResult::velocity_bias_sigma_m_s
   double scale_error = 0;                       ///< see FrameResult::scale_error
   double scale_sigma = 0;                       ///< its standard deviation
   HeightOutcome height = HeightOutcome::kNone;  ///< what became of the frame's height

@@ -79,6 +79,10 @@ class Msckf {
   bool isKeyframe() const { return newest().id == tracks_.keyframeId(); }
   /// MapUpdate::nis().
   double fixNis() const { return map_update_.nis(); }
+  /// TrackUpdate::nis(), of the last frame.
+  double trackNis() const { return track_update_.nis(); }
+  /// Propagator::velocityBiasSigma_m_s().
+  double velocityBiasSigma_m_s() const { return propagator_.velocityBiasSigma_m_s(); }
   /// The camera contradicts the odometry: for now the pose is the odometry's.
   bool isDistrustful() const { return watchdog_.isDistrustful(newest().stamp_ns); }
   /// Of the last frame, by its image; moving where the odometry contradicts it.

@@ -159,6 +159,8 @@ Estimate MsckfEstimator::estimate() const {
   estimate.T_map_odom = estimate.T_map_base * T_odom_base_.inverse();
   estimate.covariance = filter_.covariance();
   estimate.fix_nis = filter_.fixNis();
+  estimate.track_nis = filter_.trackNis();
+  estimate.velocity_bias_sigma_m_s = filter_.velocityBiasSigma_m_s();
   estimate.scale_error = filter_.state().scaleError();
   estimate.scale_sigma = filter_.scaleSigma();
   estimate.height = filter_.heightOutcome();

@@ -127,6 +127,7 @@ void TrackUpdate::changeCamera(const Eigen::Vector3d& camera_rig) {
 void TrackUpdate::skip() {
   used_.clear();
   candidates_ = 0;
+  nis_ = 0;
 }
 
 void TrackUpdate::apply(const std::vector<FinishedTrack>& finished,
@@ -147,6 +148,8 @@ std::vector<TrackUpdate::Candidate> TrackUpdate::gate(const std::vector<Finished
                                                       const Eigen::Vector3d& camera_rig,
                                                       const WindowState& state) {
   std::vector<Candidate> candidates;
+  double distances = 0;
+  int degrees = 0;
   for (const FinishedTrack& track : finished) {
     const auto point = pointOf(track.views, camera_rig, state);
     if (!point) continue;
@@ -156,6 +159,8 @@ std::vector<TrackUpdate::Candidate> TrackUpdate::gate(const std::vector<Finished
     double distance = residual->distance(state);
     int dof = residual->degreesOfFreedom();
     if (!(distance < 2 * chiSquare95(dof))) continue;
+    distances += distance;
+    degrees += dof;
     if (const auto floor = floorOf(track.views, config_.height, state)) {
       auto on_floor = residualOf(state, camera_rig, track.views, *point, floor);
       const double with_floor = on_floor->distance(state);
@@ -169,6 +174,7 @@ std::vector<TrackUpdate::Candidate> TrackUpdate::gate(const std::vector<Finished
     candidates.push_back({&track, std::move(*residual), 1 / squared(1 + distance / dof),
                           1 / squared(point->ray_sigma_rad)});
   }
+  if (degrees > 0) nis_ = distances / degrees;
   return candidates;
 }
 

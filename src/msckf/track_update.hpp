@@ -53,6 +53,9 @@ class TrackUpdate {
   const std::vector<UsedTrack>& used() const { return used_; }
   /// Tracks that had enough parallax, likewise.
   int candidates() const { return candidates_; }
+  /// Squared deviations of those that passed the gate over what the covariance says of them before
+  /// the correction, likewise: 1 is honest; 0 when there was none.
+  double nis() const { return nis_; }
   /// Median distance of the points used last; 0: none yet, or another camera's.
   double pointDistance_m() const { return point_distance_m_; }
 
@@ -70,6 +73,7 @@ class TrackUpdate {
   std::optional<Eigen::Vector3d> earlier_camera_rig_;  // whose tracks are left in the window
   std::vector<UsedTrack> used_;
   int candidates_ = 0;
+  double nis_ = 0;
   double point_distance_m_ = 0;
 };
 

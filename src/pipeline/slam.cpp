@@ -29,6 +29,8 @@ FrameResult resultOf(const Estimate& estimate, const Correction& correction,
   result.covariance = estimate.covariance;
   result.sigma_m = std::sqrt(estimate.covariance.topLeftCorner<3, 3>().trace() / 3);
   result.fix_nis = estimate.fix_nis;
+  result.track_nis = estimate.track_nis;
+  result.velocity_bias_sigma_m_s = estimate.velocity_bias_sigma_m_s;
   result.scale_error = estimate.scale_error;
   result.scale_sigma = estimate.scale_sigma;
   result.height = estimate.height;

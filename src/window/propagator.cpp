@@ -23,7 +23,8 @@ constexpr double kSlowSpeed_m_s = 0.1;
 
 }  // namespace
 
-Propagator::Propagator(const OdometryNoiseConfig& config) : config_(config) {
+Propagator::Propagator(const OdometryNoiseConfig& config)
+    : config_(config), bias_level_(config.velocity_bias_m_s) {
   validate(config);
 }
 
@@ -32,6 +33,7 @@ void Propagator::start(const OdometryState& odometry, WindowState& state) {
   state.R_map_odom_.setIdentity();
   state.R_base_rig_.setIdentity();
   inflation_ = 1;
+  bias_level_.reset();
   state.velocity_bias_m_s_.setZero();
   odometry_way_m_ = odometry.T_odom_base.translation().norm();  // at least
   state.scale_error_ = 0;
@@ -56,11 +58,12 @@ void Propagator::returnTo(const Eigen::Isometry3d& T_map_odom, WindowState& stat
   state.R_map_odom_ = T_map_odom.linear();
   state.velocity_bias_m_s_.setZero();
   inflation_ = 1;
+  bias_level_.reset();
 
   auto P = state.covariance_.all();
   P.middleRows<3>(kBias).setZero();
   P.middleCols<3>(kBias).setZero();
-  P.diagonal().segment<3>(kBias).setConstant(squared(config_.velocity_bias_m_s));
+  P.diagonal().segment<3>(kBias).setConstant(bias_level_.variance());
   P.block<3, 3>(to, to) += jump_m * jump_m.transpose();
   const Eigen::Matrix3d turn_variance = rotation_rad * rotation_rad.transpose();
   for (const int a : {kAttitude, to + 3})
@@ -84,6 +87,10 @@ Eigen::Isometry3d Propagator::T_odom_base() const {
 double Propagator::biasSigmas(const WindowState& state) const {
   return config_.velocity_bias_m_s > 0 ? state.velocity_bias_m_s_.norm() / config_.velocity_bias_m_s
                                        : 0;
+}
+
+double Propagator::velocityBiasSigma_m_s() const {
+  return std::sqrt(inflation_ * bias_level_.variance());
 }
 
 void Propagator::propagate(const OdometryState& odometry, const std::optional<OdometryStep>& step,
@@ -111,6 +118,8 @@ void Propagator::propagate(const OdometryState& odometry, const std::optional<Od
     P.block<3, 3>(to, to) += jump_map * jump_map.transpose();
     P.diagonal().segment<3>(to).array() += squared(step->motion_sigma_m);
   }
+  bias_level_.learn(state.velocityBias_m_s(), state.covariance().block<3, 3>(kBias, kBias),
+                    inflation_, increment.duration_s);
   propagateGlobals(odometry, increment, state);
   addAttitude(odometry, next, state);
   state.frames_.push_back(next);
@@ -164,7 +173,7 @@ void Propagator::addAttitude(const OdometryState& odometry, Clone& next, WindowS
 }
 
 void Propagator::inflate(double factor, WindowState& state) {
-  const double more = (factor - inflation_) * squared(config_.velocity_bias_m_s);
+  const double more = (factor - inflation_) * bias_level_.variance();
   inflation_ = factor;
   if (more <= 0) return;
   state.covariance_.all().diagonal().segment<3>(kBias).array() += more;
@@ -196,8 +205,7 @@ void Propagator::propagateGlobals(const OdometryState& odometry, const Increment
   const double yaw_variance =
       squared(radians(config_.yaw_walk_deg_per_sqrt_s)) * dt_s +
       squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * increment.displacement_m;
-  const double bias_variance =
-      inflation_ * squared(config_.velocity_bias_m_s) * (1 - keep_bias * keep_bias);
+  const double bias_variance = inflation_ * bias_level_.variance() * (1 - keep_bias * keep_bias);
   P.block<3, 3>(kAttitude, kAttitude) +=
       tilt_variance * acrossOf(up) + yaw_variance * up * up.transpose();
   P.diagonal().segment<3>(kBias).array() += bias_variance;

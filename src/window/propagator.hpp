@@ -9,6 +9,7 @@
 #include "ardrone_vslam/msckf_config.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
 #include "odometry/odometry_step.hpp"
+#include "window/bias_level.hpp"
 #include "window/window_state.hpp"
 
 namespace ardrone_vslam {
@@ -30,7 +31,7 @@ class Propagator {
   /// what was learned of the odometry's velocity and attitude is forgotten. What the frame moves by
   /// counts as its deviation. There must be no other frame.
   void returnTo(const Eigen::Isometry3d& T_map_odom, WindowState& state);
-  /// Takes the odometry's velocity for so many times worse, in variance, as it is configured.
+  /// Takes the odometry's velocity for so many times worse, in variance, as it was learned.
   void inflate(double factor, WindowState& state);
 
   /// Takes the odometry's newest pose to the newest frame's.
@@ -39,6 +40,8 @@ class Propagator {
   Eigen::Isometry3d T_odom_base() const;
   /// The odometry's velocity bias over what is configured.
   double biasSigmas(const WindowState& state) const;
+  /// The bias that counts as usual, per axis: as configured, and learned since.
+  double velocityBiasSigma_m_s() const;
 
  private:
   /// What the odometry reports between two frames.
@@ -58,6 +61,7 @@ class Propagator {
   OdometryState odometry_;  // of the newest frame
   std::uint32_t next_id_ = 1;
   double inflation_ = 1;
+  BiasLevel bias_level_;
   double odometry_way_m_ = 0;                                  // since it began
   Eigen::Vector3d position_odom_m_ = Eigen::Vector3d::Zero();  // jumps left out
 };

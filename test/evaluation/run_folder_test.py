@@ -73,7 +73,7 @@ class RunFolderTest(unittest.TestCase):
 
     def test_all_plots_are_drawn(self):
         page = self.page(f"{self.runs}/msckf/seed_1")[1]
-        self.assertEqual(page.count("<img "), 10)
+        self.assertEqual(page.count("<img "), 11)
         self.assertNotIn("Left out", page)
 
     def test_seeds_and_estimators_stand_side_by_side(self):
@@ -91,7 +91,7 @@ class RunFolderTest(unittest.TestCase):
         self.assertIsNone(numbers["trajectories"][1]["ratio"])
         numbers, page = self.page(self.copied("fused.tum", "truth.tum"))
         self.assertIn("no odometry.tum", numbers["notes"][0])
-        for reason in ("no run has landmarks", "frames.csv lacks landmark_candidates", "no covariance", "lacks fix_nis", "lacks stage times"):
+        for reason in ("no run has landmarks", "frames.csv lacks landmark_candidates", "no covariance", "lacks fix_nis", "has no track_nis", "lacks stage times"):
             self.assertIn(reason, page)
         self.assertGreater(numbers["trajectories"][0]["ate"]["none"]["rmse_m"], 0)
 

@@ -23,7 +23,8 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
          "landmark_mismatches,"
          "feature_candidates,feature_matches,feature_mismatches,new_landmarks,removed_landmarks,"
          "landmarks,map_features,"
-         "sigma_m,fix_nis,camera_x_m,camera_y_m,camera_z_m,camera_sigma_m,fused_error_m,"
+         "sigma_m,fix_nis,track_nis,velocity_bias_sigma_m_s,camera_x_m,camera_y_m,camera_z_m,"
+         "camera_sigma_m,fused_error_m,"
          "odometry_"
          "error_m,camera_error_m,nees";
   for (const char* name : kStageNames) out << ",ms_" << name;
@@ -47,7 +48,8 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
       out << ',' << count;
     }
     cell(r.sigma_m);
-    cell(r.fix_nis > 0 ? r.fix_nis : kNone);
+    for (const double known : {r.fix_nis, r.track_nis, r.velocity_bias_sigma_m_s})
+      cell(known > 0 ? known : kNone);
     for (int axis = 0; axis < 3; ++axis)
       cell(r.landmark_position_map ? (*r.landmark_position_map)[axis] : kNone);
     cell(r.landmark_position_map ? r.landmark_sigma_m : kNone);

@@ -96,6 +96,16 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   summary["frames_error_not_finite"] = e.frames_error_not_finite;
 }
 
+void addConsistency(const RunResult& run, Json& summary) {
+  std::vector<double> of_tracks =
+      collect(run, [](const RunFrame& f) { return f.result.track_nis; });
+  of_tracks.erase(std::remove(of_tracks.begin(), of_tracks.end(), 0.0), of_tracks.end());
+  summary["track_nis_mean"] =
+      of_tracks.empty() ? Json(nullptr) : orNull(summarise(of_tracks).mean_m);
+  const double bias_m_s = run.frames.empty() ? 0 : run.frames.back().result.velocity_bias_sigma_m_s;
+  summary["velocity_bias_learned_m_s"] = bias_m_s > 0 ? orNull(bias_m_s) : Json(nullptr);
+}
+
 void addScale(const RunResult& run, Json& summary) {
   const FrameResult last = run.frames.empty() ? FrameResult{} : run.frames.back().result;
   const bool is_estimated = last.scale_sigma > 0;
@@ -218,6 +228,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["landmarks"] = run.landmarks.size();
   summary["landmarks_not_finite"] =
       std::count_if(run.landmarks.begin(), run.landmarks.end(), isNotFinite);
+  addConsistency(run, summary);
   addScale(run, summary);
   addCost(run, summary);
   return summary;
@@ -227,9 +238,10 @@ namespace {
 
 // A number that is added to the summary, and of which more is better or says nothing, belongs here.
 bool isWorseWhenLarger(const std::string& key) {
-  for (const char* name : {"seed", "landmark_matches_median", "landmarks", "heights_used",
-                           "camera_frames", "frames_per_second", "odometry_scale_error",
-                           "image_time_offset_s", "image_time_offset_estimate_s"}) {
+  for (const char* name :
+       {"seed", "landmark_matches_median", "landmarks", "heights_used", "camera_frames",
+        "frames_per_second", "odometry_scale_error", "velocity_bias_learned_m_s",
+        "image_time_offset_s", "image_time_offset_estimate_s"}) {
     if (key == name) return false;
   }
   return true;

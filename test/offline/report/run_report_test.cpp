@@ -33,6 +33,8 @@ RunResult someRun() {
     frame.result.landmark_candidates = 10 * i + 2;
     frame.result.landmark_matches = 10 * i;
     if (i > 0) frame.result.fix_nis = 0.75 * i;
+    if (i > 0) frame.result.track_nis = 0.5 * i;
+    frame.result.velocity_bias_sigma_m_s = 0.01 * (1 + i);
     frame.result.features = 100;
     if (i == 3) {
       frame.result.state = SlamState::kLocalised;
@@ -108,6 +110,8 @@ TEST(RunReport, SummaryHasAllThatIsAskedFor) {
   EXPECT_NEAR(summary["ratio_scale_removed"], 0.5, 1e-12);
   EXPECT_NEAR(summary["fused_error_mean_m"], 0.15, 1e-12);
   EXPECT_NEAR(summary["fused_error_max_m"], 0.3, 1e-12);
+  EXPECT_NEAR(summary["track_nis_mean"], 1, 1e-12) << "of the frames that have one";
+  EXPECT_NEAR(summary["velocity_bias_learned_m_s"], 0.04, 1e-12) << "of the last frame";
   EXPECT_NEAR(summary["nees_mean"], 100 * mean_square, 1e-9);
   EXPECT_EQ(summary["landmark_matches_median"], 15);
   EXPECT_EQ(summary["landmarks"], 2);
@@ -230,6 +234,9 @@ TEST(RunReport, FilesOfARun) {
   column("sigma_m");
   EXPECT_EQ(rows[2][column("fix_nis")], "1.5");
   EXPECT_EQ(rows[0][column("fix_nis")], "") << "not known";
+  EXPECT_EQ(rows[2][column("track_nis")], "1");
+  EXPECT_EQ(rows[0][column("track_nis")], "") << "no track was used";
+  EXPECT_EQ(rows[2][column("velocity_bias_sigma_m_s")], "0.03");
 
   std::ifstream landmarks(out + "/landmarks.csv");
   std::getline(landmarks, line);

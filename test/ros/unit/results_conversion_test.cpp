@@ -25,6 +25,8 @@ FrameResult someResult() {
   }
   result.sigma_m = 0.25;
   result.fix_nis = 1.5;
+  result.track_nis = 1.25;
+  result.velocity_bias_sigma_m_s = 0.04;
   result.scale_error = -0.02;
   result.scale_sigma = 0.01;
   result.features = 100;
@@ -103,6 +105,8 @@ TEST(ResultConversion, StatusCountsWhatWasRemoved) {
   EXPECT_EQ(status.match_method, "indexed");
   EXPECT_EQ(status.images, 77U);
   EXPECT_EQ(status.fix_nis, 1.5);
+  EXPECT_EQ(status.track_nis, 1.25);
+  EXPECT_EQ(status.velocity_bias_deviation, 0.04);
   EXPECT_EQ(status.scale_error, -0.02);
   EXPECT_EQ(status.scale_deviation, 0.01);
 }

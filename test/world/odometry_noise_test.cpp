@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The odometry's velocity noise as learned in flight, against the bias that was drawn.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "support/median.hpp"
+#include "support/point_flight.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+SlamConfig msckfConfig() {
+  SlamConfig config;
+  config.estimator = EstimatorKind::kMsckf;
+  config.msckf.odometry.walk_m_per_sqrt_s = 0.03;  // as drawn
+  return config;
+}
+
+/// After a minute of laps. @param bias_m_s  deviation of the constant bias that is drawn, per axis
+double learnedOverDrawn(double bias_m_s, std::uint64_t seed) {
+  const test::Flight flight = test::lapsFlight(200, 3, 10);
+  test::DriftConfig drift;
+  drift.bias_m_s = bias_m_s;
+  test::PointWorld world = test::pointRoom(seed, 0);
+  const std::vector<OdometryState> odometry = test::observe(flight, drift, seed);
+  const test::FlightRun run = test::fly(world, flight, odometry, msckfConfig());
+  const double drawn_m_s = bias_m_s * RandomSource(seed, 77).normal3().norm() / std::sqrt(3.0);
+  return run.results.back().velocity_bias_sigma_m_s / drawn_m_s;
+}
+
+TEST(OdometryNoise, OfTheVelocityIsLearnedWithinAMinute) {
+  // Measured: medians 0.87 to 1.08; without learning 0.36 at four times the configured bias. Single
+  // draws: 0.26 to 1.86, as what lies along the way looks like scale.
+  for (const double bias_m_s : {0.03, 0.06, 0.13}) {
+    std::vector<double> ratios;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed)
+      ratios.push_back(learnedOverDrawn(bias_m_s, seed));
+    const double median = test::median(ratios);
+    EXPECT_GT(median, 1 / 1.5) << bias_m_s;
+    EXPECT_LT(median, 1.5) << bias_m_s;
+  }
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
