@@ -62,7 +62,7 @@ QUICK = (rendered("laps", "drone", seconds=30, changes=(LARGER, ("--setup-fault"
          rendered("hover", "drone", "hover", seconds=15, changes=(LARGER,)),
          rendered("corridor", "drone", seconds=20, changes=(LARGER, ("--setup-fault", "yaw=90"))))
 # laps_then_hover: one lap, then the odometry of a drone that has no help from its motion.
-WHOLE_FLIGHTS = (rendered("laps", "drone", "harsh"), rendered("laps_then_hover", "drone,hover@21.5"), rendered("mapping_turn", "drone"),
+WHOLE_FLIGHTS = (rendered("laps", "drone", "harsh"), rendered("laps", "drone", seconds=120), rendered("laps_then_hover", "drone,hover@21.5"), rendered("mapping_turn", "drone"),
                  rendered("hover", "drone", "hover"), rendered("corridor", "drone"), rendered("corridor_turn", "drone"),
                  rendered("pure_yaw", "drone"), rendered("fast_blur", "drone"), rendered("dark", "drone"), rendered("table", "drone"),
                  rendered("moving_objects", "drone"))
