@@ -143,7 +143,7 @@ TEST(DriverFaultError, IsThatOfTheCleanFlight) {
   for (const char* name :
        {"mirrored_yaw", "epoch_dt", "zero_covariance", "fused_altitude", "whole_metres", "bursts",
         "unscaled_camera_info", "togglecam", "released", "all"}) {
-    // What docs/ardrone_results.md asks. Measured: 0.90 to 1.16, the last with "all".
+    // What the README says. Measured: 0.90 to 1.16, the last with "all".
     EXPECT_LT(errorWith_m(driverFaultsNamed({name})), 1.25 * clean_m) << name;
   }
 }

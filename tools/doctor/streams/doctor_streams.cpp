@@ -11,7 +11,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kSlowestImages_hz = 3;  // docs/msckf_results.md: the lowest useful rate
+constexpr double kSlowestImages_hz = 3;  // tracks last at it (test FrameRate)
 constexpr double kSlowestOdometry_hz = 5;
 constexpr double kSameClock_s = 0.3;    // by which two topics' latencies may differ
 constexpr double kOld_s = 60;           // older stamps are not of this time
