@@ -99,7 +99,8 @@ TEST(SceneDepth, CoversTheTrueDepth) {
       }
     }
   }
-  EXPECT_GT(inside, 0.8 * all) << "of " << all;
+  // 98 of 100 are expected; measured: 94 of 96.
+  EXPECT_GE(inside, all - 5) << "of " << all;
 }
 
 TEST(SceneDepth, NothingToCompareChangesNothing) {
