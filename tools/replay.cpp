@@ -19,6 +19,7 @@
 #include "report/run_page.hpp"
 #include "report/run_print.hpp"
 #include "report/run_verdict.hpp"
+#include "report/seeds_summary.hpp"
 #include "run/run_all.hpp"
 #include "run/run_odometry.hpp"
 #include "sequences/faulty_sequence.hpp"
