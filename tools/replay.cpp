@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "config_files/config_path.hpp"
 #include "parameters/parameter_table.hpp"
@@ -15,16 +14,13 @@
 #include "program/progress_line.hpp"
 #include "program/tool_main.hpp"
 #include "report/earlier_run.hpp"
-#include "report/run_files.hpp"
+#include "report/report_runs.hpp"
 #include "report/run_page.hpp"
-#include "report/run_print.hpp"
-#include "report/run_verdict.hpp"
 #include "run/run_all.hpp"
 #include "run/run_odometry.hpp"
 #include "sequences/faulty_sequence.hpp"
 #include "sequences/kitti_folder.hpp"
 #include "sequences/similar_sequence.hpp"
-#include "trajectory/text_file.hpp"
 #ifdef ARDRONE_VSLAM_WITH_ROS
 #include "bags/bag_options.hpp"
 #include "bags/bag_sequence.hpp"
@@ -33,7 +29,6 @@
 namespace {
 
 using namespace ardrone_vslam;
-using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string input;
@@ -240,35 +235,6 @@ void checkHeights(const Sequence& sequence, const HeightInputConfig& heights) {
   }
 }
 
-/// Prints and writes what came out. @return what is wrong with the input
-std::vector<std::string> reportRuns(const Options& o, const Sequence& sequence,
-                                    const std::vector<RunOdometry>& odometries,
-                                    const std::vector<RunResult>& results,
-                                    const std::string& estimator) {
-  std::vector<Json> summaries;
-  std::vector<std::string> faults;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    bool truth_moved = false;
-    const Trajectory truth = truthFromOdometryStart(sequence.truth(), odometries[i], truth_moved);
-    const RunEvaluation evaluation = evaluate(results[i], truth);
-    const RunVerdict verdict = judgeRun(sequence.name(), results[i], evaluation, truth_moved);
-    for (const std::string& text : verdict.warnings) std::cerr << "replay: " << text << '\n';
-    faults.insert(faults.end(), verdict.faults.begin(), verdict.faults.end());
-    const RunLabel label{sequence.name(), odometries[i].profile, odometries[i].seed, estimator};
-    summaries.push_back(summaryOf(results[i], evaluation, label));
-    const std::string folder = o.seeds.empty() ? o.out : seedFolder(o.out, *label.seed);
-    writeRun(folder, results[i], evaluation, summaries.back());
-  }
-  if (o.seeds.empty()) {
-    printSummary(summaries.front());
-  } else {
-    const Json all = summaryOfSeeds(summaries);
-    writeText(o.out + "/summary.json", all.dump(2) + "\n");
-    printSeeds(all, std::cout);
-  }
-  return faults;
-}
-
 int run(const Options& o) {
   PipelineConfig config = configOf(o);
   config.tracker.align_tracks = !o.whole_pixels;
@@ -293,11 +259,12 @@ int run(const Options& o) {
         [&progress](std::size_t done) { progress.update(done); }, speed);
   }
   removeEarlierRun(o.out);
-  const auto faults =
-      reportRuns(o, *sequence, odometries, results, nameOf(config.mapper.estimator));
+  const auto tell = [](const std::string& text) { std::cerr << "replay: " << text << '\n'; };
+  const auto faults = reportRuns(*sequence, odometries, results,
+                                 {o.out, !o.seeds.empty(), nameOf(config.mapper.estimator), tell});
   std::cout << "written to " << o.out << '\n';
   if (o.report) writeRunPage(evaluate_script, o.out);
-  for (const std::string& text : faults) std::cerr << "replay: " << text << '\n';
+  for (const std::string& text : faults) tell(text);
   return faults.empty() ? 0 : 1;
 }
 

@@ -13,6 +13,7 @@
 #include "program/progress_line.hpp"
 #include "program/tool_main.hpp"
 #include "report/run_files.hpp"
+#include "report/seeds_summary.hpp"
 #include "run/run_all.hpp"
 #include "sequences/sequence.hpp"
 #include "trajectory/metrics.hpp"

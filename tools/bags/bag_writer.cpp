@@ -18,70 +18,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bags/bag_contents.hpp"
 #include "bags/messages/bag_file.hpp"
 #include "bags/messages/bag_messages.hpp"
 #include "bags/messages/camera_info.hpp"
 
 namespace ardrone_vslam {
 namespace {
-
-constexpr std::int64_t kMinStamp_ns = 1'000'000'000;
-constexpr std::int64_t kOffset_ns = 100'000'000'000;
-constexpr std::int64_t kMaxStamp_ns = std::int64_t{0xffffffff} * 1'000'000'000;
-
-/// What is written, in ROS's time.
-struct BagContents {
-  std::vector<std::int64_t> image_stamps_ns;
-  std::vector<OdometryState> odometry;
-  std::vector<StampedPose> truth;
-  std::vector<RangeReading> ranges;
-};
-
-BagContents collect(const Sequence& sequence, const BagWriteOptions& options,
-                    BagWriteReport& report) {
-  BagContents contents;
-  for (std::size_t i = 0; i < sequence.size(); ++i) {
-    contents.image_stamps_ns.push_back(sequence.stamp_ns(i));
-  }
-  contents.truth = sequence.truth().poses();
-  contents.ranges = sequence.ranges();
-  contents.odometry = sequence.odometry();
-  if (options.odometry_profile) {
-    if (sequence.truth().empty()) {
-      throw std::runtime_error(sequence.name() + ": has no true poses that the odometry profile '" +
-                               options.odometry_profile->name +
-                               "' could corrupt; give the truth, or no profile");
-    }
-    OdometryRun run = simulateOdometry(sequence.truth(), *options.odometry_profile, options.seed);
-    contents.odometry = std::move(run.states);
-    report.scale_error = run.scale_error;
-  }
-  return contents;
-}
-
-/// ROS has no time 0 (it means "not set", "the latest" to tf) and none before it.
-std::int64_t shiftStamps(BagContents& contents, const std::string& name) {
-  std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
-  std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
-  const auto forEachStamp = [&contents](auto&& action) {
-    for (auto& stamp_ns : contents.image_stamps_ns) action(stamp_ns);
-    for (auto& state : contents.odometry) action(state.stamp_ns);
-    for (auto& pose : contents.truth) action(pose.stamp_ns);
-    for (auto& reading : contents.ranges) action(reading.stamp_ns);
-  };
-  forEachStamp([&](std::int64_t stamp_ns) {
-    first_ns = std::min(first_ns, stamp_ns);
-    last_ns = std::max(last_ns, stamp_ns);
-  });
-  const std::int64_t offset_ns = first_ns < kMinStamp_ns ? kOffset_ns : 0;
-  if (first_ns < kMinStamp_ns - kOffset_ns || last_ns > kMaxStamp_ns - offset_ns) {
-    throw std::runtime_error(name +
-                             ": its stamps are outside of ROS's time (0 to 2^32 s); "
-                             "give stamps in seconds from 0 or from 1970");
-  }
-  forEachStamp([offset_ns](std::int64_t& stamp_ns) { stamp_ns += offset_ns; });
-  return offset_ns;
-}
 
 /// The last part of a path: a bag that is passed on need not tell where its maker keeps his files.
 std::string sourceName(const Sequence& sequence) {
@@ -148,24 +91,12 @@ class BagWriter {
   }
 
  private:
-  std::int64_t firstStamp_ns() const {
-    std::int64_t first_ns = contents_.image_stamps_ns.front();
-    if (!contents_.odometry.empty()) {
-      first_ns = std::min(first_ns, contents_.odometry.front().stamp_ns);
-    }
-    if (!contents_.truth.empty()) first_ns = std::min(first_ns, contents_.truth.front().stamp_ns);
-    if (!contents_.ranges.empty()) {
-      first_ns = std::min(first_ns, contents_.ranges.front().stamp_ns);
-    }
-    return first_ns;
-  }
-
   std::string cameraFrame(std::size_t which) const {
     return options_.frames.camera + (which == 0 ? "" : "_" + std::to_string(which + 1));
   }
 
   void writeLatched(const std::string& info) {
-    const ros::Time start = toRosTime(firstStamp_ns());
+    const ros::Time start = toRosTime(contents_.firstStamp_ns());
     tf2_msgs::TFMessage extrinsics;
     for (const auto& camera : cameras_) {
       extrinsics.transforms.push_back(
@@ -244,8 +175,9 @@ BagWriteReport writeBag(Sequence& sequence, const BagWriteOptions& options,
   if (sequence.size() == 0) {
     throw std::runtime_error(sequence.name() + ": has no image; there is nothing to write");
   }
-  BagContents contents = collect(sequence, options, report);
-  report.stamp_offset_ns = shiftStamps(contents, sequence.name());
+  BagContents contents = contentsOf(sequence, options.odometry_profile, options.seed);
+  report.scale_error = contents.scale_error;
+  report.stamp_offset_ns = contents.stamp_offset_ns;
   report.images = contents.image_stamps_ns.size();
   report.odometry = contents.odometry.size();
   report.truth = contents.truth.size();

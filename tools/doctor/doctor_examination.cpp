@@ -17,6 +17,7 @@
 #include "doctor/camera/doctor_motion.hpp"
 #include "doctor/camera/doctor_tracks.hpp"
 #include "doctor/recording/doctor_topics.hpp"
+#include "doctor/streams/adapted_odometry.hpp"
 #include "doctor/streams/doctor_height.hpp"
 #include "doctor/streams/doctor_navdata.hpp"
 #include "doctor/streams/doctor_odometry.hpp"

@@ -63,12 +63,12 @@ FakeDrone::FakeDrone(World world, const FakeDroneOptions& options)
     : world_(std::move(world)),
       options_(options),
       flight_(options.autopilot.empty() ? nullptr : makeFlight(options.autopilot, options.start)),
-      model_(flight_ ? FlightStart() : startIn(world_, options.start), standing()),
+      dynamics_(flight_ ? FlightStart() : startIn(world_, options.start), standing()),
       sensors_(options.profile, options.seed),
       gusts_(options.seed, kWindStream),
-      start_m_((flight_ ? flight_->pose(0) : model_.state().T_world_body).translation()) {
+      start_m_((flight_ ? flight_->pose(0) : dynamics_.state().T_world_body).translation()) {
   start_m_.z() = 0;
-  model_.keepWithin(spaceIn(world_.extent()));
+  dynamics_.keepWithin(spaceIn(world_.extent()));
 }
 
 std::string FakeDrone::refusal(const std::string& what) const {
@@ -79,24 +79,24 @@ std::string FakeDrone::refusal(const std::string& what) const {
 std::string FakeDrone::takeOff() {
   if (flight_) return refusal("takeoff");
   if (emergency_) return "takeoff is ignored: the drone is in emergency; send ardrone/reset first";
-  if (model_.phase() != DroneModel::Phase::kLanded)
+  if (dynamics_.phase() != DroneDynamics::Phase::kLanded)
     return "takeoff is ignored: the drone is not on the floor";
   command_ = {};
-  model_.takeOff();
+  dynamics_.takeOff();
   return {};
 }
 
 std::string FakeDrone::land() {
   if (flight_) return refusal("land");
-  model_.land();
+  dynamics_.land();
   return {};
 }
 
 std::string FakeDrone::reset() {
   if (flight_) return refusal("reset");
-  const bool was_landed = model_.phase() == DroneModel::Phase::kLanded;
+  const bool was_landed = dynamics_.phase() == DroneDynamics::Phase::kLanded;
   emergency_ = !emergency_ && !was_landed;
-  if (emergency_) model_.cutMotors();
+  if (emergency_) dynamics_.cutMotors();
   return {};
 }
 
@@ -115,19 +115,19 @@ void FakeDrone::blow() {
   const double keep = std::exp(-kStep_s / kWindTime_s);
   const double noise_m_s = options_.wind_m_s * std::sqrt(1 - keep * keep);
   wind_m_s_.head<2>() = keep * wind_m_s_.head<2>() + noise_m_s * gusts_.normal3().head<2>();
-  model_.setWind(wind_m_s_);
+  dynamics_.setWind(wind_m_s_);
 }
 
 DronePacket::State FakeDrone::reportedState(const DronePacket& packet) const {
   using State = DronePacket::State;
   if (flight_) return packet.state;
   if (emergency_) return State::kUnknown;
-  switch (model_.phase()) {
-    case DroneModel::Phase::kLanded:
+  switch (dynamics_.phase()) {
+    case DroneDynamics::Phase::kLanded:
       return State::kLanded;
-    case DroneModel::Phase::kTakingOff:
+    case DroneDynamics::Phase::kTakingOff:
       return State::kTakingOff;
-    case DroneModel::Phase::kLanding:
+    case DroneDynamics::Phase::kLanding:
       return State::kLanding;
     default:
       return command_.isZero() && command_.auto_hover ? State::kHovering : State::kFlying;
@@ -138,11 +138,11 @@ DroneMoment FakeDrone::advance() {
   DroneMoment moment;
   if (!flight_) {
     blow();
-    model_.advance(kStep_s, command_);
+    dynamics_.advance(kStep_s, command_);
   }
   if (!flight_ || begun_) ++steps_;
   moment.t_s = static_cast<double>(steps_) * kStep_s;
-  moment.state = flight_ ? flight_->state(moment.t_s) : model_.state();
+  moment.state = flight_ ? flight_->state(moment.t_s) : dynamics_.state();
   moment.packet =
       sensors_.measure(moment.state, world_.rangeBelow_m(moment.state.T_world_body, moment.t_s));
   moment.packet.state = reportedState(moment.packet);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "driver/drone_model.hpp"
+#include "driver/drone_dynamics.hpp"
 #include "driver/drone_packet.hpp"
 #include "driver/drone_sensors.hpp"
 #include "simulation/random_source.hpp"
@@ -64,7 +64,7 @@ class FakeDrone {
   World world_;
   FakeDroneOptions options_;
   std::unique_ptr<const Flight> flight_;  // nothing: commands
-  DroneModel model_;
+  DroneDynamics dynamics_;
   DroneSensors sensors_;
   RandomSource gusts_;
   Eigen::Vector3d wind_m_s_ = Eigen::Vector3d::Zero();

@@ -46,8 +46,4 @@ RunEvaluation evaluate(const RunResult& run, const Trajectory& truth);
 nlohmann::ordered_json summaryOf(const RunResult& run, const RunEvaluation& evaluation,
                                  const RunLabel& label);
 
-/// Median and worst over the summaries of several seeds, for every numeric entry where larger is
-/// worse.
-nlohmann::ordered_json summaryOfSeeds(const std::vector<nlohmann::ordered_json>& summaries);
-
 }  // namespace ardrone_vslam

@@ -2,113 +2,11 @@
 #include "run/offline_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <future>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
-#include "ardrone_vslam/image_roll.hpp"
-
 namespace ardrone_vslam {
-namespace {
-
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-ImageView viewOf(const cv::Mat& image) {
-  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
-}
-
-/// The image's turn at ascending stamps, from odometry.
-class ImageRolls {
- public:
-  explicit ImageRolls(const FrontEndAttitude& attitude)
-      : attitude_(attitude.states != nullptr ? *attitude.states : kNone),
-        image_time_offset_ns_(std::llround(attitude.image_time_offset_s * 1e9)) {}
-
-  std::optional<float> at(std::int64_t stamp_ns, const Eigen::Matrix3d& R_base_cam) {
-    const std::int64_t exposed_ns = stamp_ns + image_time_offset_ns_;
-    while (next_ < attitude_.size() && attitude_[next_].stamp_ns < exposed_ns) ++next_;
-    if (next_ == attitude_.size()) return std::nullopt;
-    const OdometryState& after = attitude_[next_];
-    if (next_ == 0 && after.stamp_ns > exposed_ns) return std::nullopt;
-    const OdometryState& before = attitude_[next_ == 0 ? 0 : next_ - 1];
-    const OdometryState state =
-        after.stamp_ns == exposed_ns ? after : interpolate(before, after, exposed_ns);
-    return imageRoll_rad(state.T_odom_base.linear() * R_base_cam);
-  }
-
- private:
-  inline static const std::vector<OdometryState> kNone;
-
-  const std::vector<OdometryState>& attitude_;
-  std::int64_t image_time_offset_ns_;
-  std::size_t next_ = 0;
-};
-
-}  // namespace
-
-double total_ms(const StageTimes_ms& times_ms) {
-  return std::accumulate(times_ms.begin(), times_ms.end(), 0.0);
-}
-
-StageTimer::StageTimer(StageTimes_ms& times_ms) : times_ms_(times_ms) {}
-
-StageHook StageTimer::hook() {
-  return [this](Stage stage) { enter(stage); };
-}
-
-void StageTimer::enter(Stage stage) {
-  const std::int64_t now = now_ns();
-  if (stage_ != Stage::kIdle)
-    times_ms_[static_cast<std::size_t>(stage_)] += static_cast<double>(now - since_ns_) * 1e-6;
-  stage_ = stage;
-  since_ns_ = now;
-}
-
-void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEndAttitude& attitude,
-                 int threads, const std::function<void(const TrackedFrame& frame)>& consume,
-                 const NextImage& next_image) {
-  std::optional<Tracker> tracker;
-  std::size_t which = 0;
-  SequenceCamera camera;
-  const auto policy = threads >= 2 ? std::launch::async : std::launch::deferred;
-  const auto load = [&sequence, policy](std::size_t index) {
-    return std::async(policy, [&sequence, index] { return sequence.image(index); });
-  };
-  ImageRolls turns(attitude);
-  TrackedFrame frame;
-  std::future<cv::Mat> next;
-  if (sequence.size() > 0) next = load(0);
-  for (std::size_t i = 0; i < sequence.size();) {
-    const cv::Mat image = next.get();
-    if (i + 1 < sequence.size()) next = load(i + 1);
-    frame.other_camera.reset();
-    if (!tracker || sequence.cameraOf(i) != which) {
-      which = sequence.cameraOf(i);
-      camera = sequence.cameraAt(which);
-      if (tracker) frame.other_camera = camera.T_base_cam;
-      const std::uint32_t first_track_id = tracker ? tracker->nextTrackId() : 1;
-      tracker.emplace(config, camera.intrinsics, first_track_id);
-    }
-    frame.times_ms = {};
-    StageTimer timer(frame.times_ms);
-    tracker->process(viewOf(image), sequence.stamp_ns(i), frame.features, timer.hook(),
-                     turns.at(sequence.stamp_ns(i), camera.T_base_cam.linear()));
-    consume(frame);
-    const std::size_t decoded = i + 1;
-    i = next_image ? next_image(i) : decoded;
-    if (i != decoded && i < sequence.size()) {
-      next = {};  // a sequence gives one image at a time
-      next = load(i);
-    }
-  }
-}
 
 BackEnd::BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
                  const std::vector<OdometryState>& odometry, std::vector<RangeReading> ranges)

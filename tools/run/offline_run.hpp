@@ -1,37 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/setup_watch.hpp"
 #include "ardrone_vslam/slam.hpp"
-#include "ardrone_vslam/stages.hpp"
 #include "ardrone_vslam/time_offset.hpp"
 #include "config_files/config_file.hpp"
 #include "input_checks/standstill_watch.hpp"
+#include "run/front_end.hpp"
 #include "run/recorded_inputs.hpp"
+#include "run/stage_timer.hpp"
 #include "sequences/sequence.hpp"
 #include "simulation/odometry_model.hpp"
 
 namespace ardrone_vslam {
-
-using StageTimes_ms = std::array<double, kStageCount>;
-
-double total_ms(const StageTimes_ms& times_ms);
-
-/// One image after the front end.
-struct TrackedFrame {
-  ImageFeatures features;
-  StageTimes_ms times_ms{};
-  /// T_base_cam of another camera than the frame's before.
-  std::optional<Eigen::Isometry3d> other_camera;
-};
 
 /// One image's answer.
 struct RunFrame {
@@ -70,24 +56,6 @@ std::int64_t countDistrusted(const RunResult& run);
 /// Called with the number of images done, from the calling thread.
 using Progress = std::function<void(std::size_t)>;
 
-/// With `use_attitude`: poses whose orientation turns the descriptors' pattern, for images exposed
-/// at their stamps plus the offset.
-struct FrontEndAttitude {
-  const std::vector<OdometryState>* states = nullptr;
-  double image_time_offset_s = 0;
-};
-
-/// The image after one that is done; a sequence's size ends the run.
-using NextImage = std::function<std::size_t(std::size_t index)>;
-
-/// Images -> features; images are decoded ahead by a thread of their own when `threads` is 2 or
-/// more.
-/// @param consume  gets each frame in order; `frame` is reused for the next one
-/// @param next_image  asked after each; nothing: all images
-void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEndAttitude& attitude,
-                 int threads, const std::function<void(const TrackedFrame& frame)>& consume,
-                 const NextImage& next_image = {});
-
 /// Features + odometry -> poses and map, as the nodelets do it: odometry through an
 /// OdometryAdapter, interpolated at the image's stamp by an OdometryBuffer, ranges by a
 /// HeightInput.
@@ -114,20 +82,6 @@ class BackEnd {
   RecordedOdometry odometry_;
   RecordedHeights heights_;
   RunResult run_;
-};
-
-/// Accumulates the time between stage changes; the clock that the core does not have.
-class StageTimer {
- public:
-  explicit StageTimer(StageTimes_ms& times_ms);
-  StageHook hook();
-
- private:
-  void enter(Stage stage);
-
-  StageTimes_ms& times_ms_;
-  Stage stage_ = Stage::kIdle;
-  std::int64_t since_ns_ = 0;
 };
 
 }  // namespace ardrone_vslam

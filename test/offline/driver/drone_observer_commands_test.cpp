@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ardrone_vslam/drone_observer.hpp"
+#include "driver/drone_dynamics.hpp"
 #include "driver/drone_flight.hpp"
-#include "driver/drone_model.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::int64_t kBegin_ns = 1'400'000'000'000'000'000;
 /// A drone that obeys, told to and fro, and is not heard of for 0.8 s. @return how far off the
 /// observer is 0.1 s later [m]
 double errorBeyondHole_m(int hole_at, bool is_told) {
-  DroneModel drone;
+  DroneDynamics drone;
   drone.takeOff();
   drone.advance(6, {});
   const Eigen::Vector3d begin_m = drone.state().T_world_body.translation();

@@ -6,6 +6,7 @@
 
 #include "report/run_files.hpp"
 #include "report/run_report.hpp"
+#include "report/seeds_summary.hpp"
 #include "support/sequence_folders.hpp"
 #include "trajectory/text_file.hpp"
 

@@ -12,6 +12,7 @@
 
 #include "report/run_files.hpp"
 #include "report/run_verdict.hpp"
+#include "report/seeds_summary.hpp"
 #include "support/sequence_folders.hpp"
 #include "test_paths.hpp"
 

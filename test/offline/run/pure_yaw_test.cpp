@@ -9,7 +9,8 @@
 #include <set>
 #include <vector>
 
-#include "run/offline_run.hpp"
+#include "ardrone_vslam/slam.hpp"
+#include "run/front_end.hpp"
 #include "simulation/odometry_model.hpp"
 #include "test_paths.hpp"
 #include "world/world_sequence.hpp"

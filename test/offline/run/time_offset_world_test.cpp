@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/time_offset.hpp"
-#include "run/offline_run.hpp"
+#include "run/front_end.hpp"
 #include "simulation/odometry_model.hpp"
 #include "test_paths.hpp"
 #include "world/world_sequence.hpp"

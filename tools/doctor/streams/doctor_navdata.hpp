@@ -2,7 +2,8 @@
 // The AR.Drone's navdata and IMU, of which odometry_mode navdata makes an observer.
 #pragma once
 
-#include "doctor/streams/doctor_odometry.hpp"
+#include "doctor/recording/doctor_report.hpp"
+#include "doctor/streams/adapted_odometry.hpp"
 
 namespace ardrone_vslam {
 

@@ -6,6 +6,7 @@
 #include <iomanip>
 
 #include "ardrone_vslam/msckf_config.hpp"
+#include "doctor/streams/adapted_odometry.hpp"
 #include "input_checks/checked.hpp"
 #include "input_checks/speed_watch.hpp"
 
@@ -146,38 +147,6 @@ Finding checkUnit(const DoctorRecording& recording) {
 }
 
 }  // namespace
-
-AdaptedOdometry adapt(const DoctorRecording& recording, OdometryMode mode, OdometryHeight height) {
-  OdometryAdapterConfig config;
-  config.mode = mode;
-  config.height = height;
-  OdometryAdapter adapter(config);
-  AdaptedOdometry adapted;
-  std::vector<OdometryState> ready;
-  const auto collect = [&] {
-    for (OdometryState& state : ready) {
-      const bool ascends =
-          adapted.states.empty() || state.stamp_ns > adapted.states.back().stamp_ns;
-      if (ascends) adapted.states.push_back(std::move(state));
-    }
-    ready.clear();
-  };
-  for (const DoctorOdometry& odometry : recording.odometry) {
-    if (!odometry.state || odometry.state->stamp_ns <= 0) {
-      ++adapted.refused;
-      continue;
-    }
-    const auto answer = adapter.push(*odometry.state, ready);
-    if (answer == OdometryBuffer::Push::kNotFinite || answer == OdometryBuffer::Push::kOutOfRange) {
-      ++adapted.refused;
-    }
-    collect();
-  }
-  adapter.flush(ready);
-  collect();
-  adapted.faults = adapter.faults();
-  return adapted;
-}
 
 Findings checkOdometryValues(const DoctorRecording& recording) {
   if (recording.odometry.empty()) return {};

@@ -2,21 +2,10 @@
 // What the odometry's numbers tell of its source.
 #pragma once
 
-#include "ardrone_vslam/odometry_adapter.hpp"
 #include "doctor/recording/doctor_recording.hpp"
 #include "doctor/recording/doctor_report.hpp"
 
 namespace ardrone_vslam {
-
-/// The odometry as the mapper would use it: bursts spread, jumps taken out.
-struct AdaptedOdometry {
-  std::vector<OdometryState> states;  ///< stamps ascending
-  OdometryFaultCounts faults{};
-  std::size_t refused = 0;  ///< messages that are not finite or out of bounds
-  std::size_t refused_imu = 0;
-};
-AdaptedOdometry adapt(const DoctorRecording& recording, OdometryMode mode,
-                      OdometryHeight height = OdometryHeight::kPose);
 
 /// Numbers that are none or cannot be (`odometry_values`), positions that jump or begin anew
 /// (`odometry_jumps`), that are not in metres (`odometry_unit`).

@@ -34,12 +34,12 @@ struct DroneLimits {
 /// A drone that flies as it is told: the same state as a Flight's, advanced in small steps. Thrust
 /// is along the body's z, air brakes by 0.3/s. It hovers when no command is given, stands on the
 /// floor until takeOff and from the end of land on. Walls stop it; furniture is none.
-class DroneModel {
+class DroneDynamics {
  public:
   enum class Phase { kLanded, kTakingOff, kFlying, kLanding, kFalling };
 
   /// On the floor.
-  explicit DroneModel(const FlightStart& start = {}, const DroneLimits& limits = {});
+  explicit DroneDynamics(const FlightStart& start = {}, const DroneLimits& limits = {});
 
   /// Ignored unless landed, or unless in the air.
   void takeOff();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "driver/drone_model.hpp"
+#include "driver/drone_dynamics.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -19,20 +19,20 @@ double cut(double command) {
 
 }  // namespace
 
-void DroneModel::Follower::step(double wanted, double time_s, double dt_s) {
+void DroneDynamics::Follower::step(double wanted, double time_s, double dt_s) {
   const double share = 1 - std::exp(-dt_s / time_s);
   between += share * (wanted - between);
   value += share * (between - value);
 }
 
-DroneModel::DroneModel(const FlightStart& start, const DroneLimits& limits)
+DroneDynamics::DroneDynamics(const FlightStart& start, const DroneLimits& limits)
     : limits_(limits), yaw_rad_(start.yaw_rad) {
   state_.T_world_body.translation() << start.x_m, start.y_m, 0;
   standDown();
 }
 
 /// On the floor, below where it is.
-void DroneModel::standDown() {
+void DroneDynamics::standDown() {
   phase_ = Phase::kLanded;
   turn_rad_s_ = 0;
   tilt_forward_ = tilt_left_ = climb_ = Follower();
@@ -43,30 +43,30 @@ void DroneModel::standDown() {
       Eigen::Translation3d(place) * Eigen::AngleAxisd(yaw_rad_, Eigen::Vector3d::UnitZ());
 }
 
-void DroneModel::takeOff() {
+void DroneDynamics::takeOff() {
   if (phase_ == Phase::kLanded) phase_ = Phase::kTakingOff;
 }
 
-void DroneModel::land() {
+void DroneDynamics::land() {
   if (phase_ == Phase::kFlying || phase_ == Phase::kTakingOff) phase_ = Phase::kLanding;
 }
 
-void DroneModel::cutMotors() {
+void DroneDynamics::cutMotors() {
   if (phase_ != Phase::kLanded) phase_ = Phase::kFalling;
 }
 
-void DroneModel::keepWithin(const Eigen::AlignedBox3d& space) {
+void DroneDynamics::keepWithin(const Eigen::AlignedBox3d& space) {
   space_ = space;
   space_.min().z() = -std::numeric_limits<double>::infinity();  // the floor is where it stands
 }
 
-void DroneModel::advance(double seconds, const DroneCommand& command) {
+void DroneDynamics::advance(double seconds, const DroneCommand& command) {
   assert(seconds >= 0 && "time does not go back");
   const int steps = static_cast<int>(std::ceil(seconds / kLongestStep_s - 1e-9));
   for (int i = 0; i < steps; ++i) step(seconds / steps, command);
 }
 
-double DroneModel::wantedClimb(const DroneCommand& command) const {
+double DroneDynamics::wantedClimb(const DroneCommand& command) const {
   switch (phase_) {
     case Phase::kTakingOff: {
       const double missing_m = limits_.take_off_m - state_.T_world_body.translation().z();
@@ -80,7 +80,7 @@ double DroneModel::wantedClimb(const DroneCommand& command) const {
 }
 
 /// Per mass [m/s^2, world].
-Eigen::Vector3d DroneModel::thrust(double dt_s, const DroneCommand& command) {
+Eigen::Vector3d DroneDynamics::thrust(double dt_s, const DroneCommand& command) {
   const bool brakes = command.auto_hover && command.isZero();
   const Eigen::Vector3d forward(std::cos(yaw_rad_), std::sin(yaw_rad_), 0);
   const Eigen::Vector3d left(-forward.y(), forward.x(), 0);
@@ -100,7 +100,7 @@ Eigen::Vector3d DroneModel::thrust(double dt_s, const DroneCommand& command) {
          (tilt_forward_.value * forward + tilt_left_.value * left + Eigen::Vector3d::UnitZ());
 }
 
-void DroneModel::stopAtWalls() {
+void DroneDynamics::stopAtWalls() {
   if (space_.isEmpty()) return;
   const Eigen::Vector3d place = state_.T_world_body.translation();
   state_.T_world_body.translation() = place.cwiseMax(space_.min()).cwiseMin(space_.max());
@@ -113,7 +113,7 @@ void DroneModel::stopAtWalls() {
   if (place.z() > space_.max().z()) climb_ = {};
 }
 
-void DroneModel::step(double dt_s, const DroneCommand& command) {
+void DroneDynamics::step(double dt_s, const DroneCommand& command) {
   if (phase_ == Phase::kLanded) return;
   const DroneCommand obeyed = phase_ == Phase::kFlying ? command : DroneCommand{};
   const Eigen::Vector3d before = state_.velocity_world_m_s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "driver/drone_model.hpp"
+#include "driver/drone_dynamics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,26 +8,26 @@
 namespace ardrone_vslam {
 namespace {
 
-using Phase = DroneModel::Phase;
+using Phase = DroneDynamics::Phase;
 
-DroneModel hovering(const FlightStart& start = {}) {
-  DroneModel drone(start);
+DroneDynamics hovering(const FlightStart& start = {}) {
+  DroneDynamics drone(start);
   drone.takeOff();
   drone.advance(6, {});
   return drone;
 }
 
-double yawOf(const DroneModel& drone) {
+double yawOf(const DroneDynamics& drone) {
   const Eigen::Matrix3d R_world_body = drone.state().T_world_body.linear();
   return std::atan2(R_world_body(1, 0), R_world_body(0, 0));
 }
 
-double tiltOf(const DroneModel& drone) {
+double tiltOf(const DroneDynamics& drone) {
   return std::acos(std::min(1.0, drone.state().T_world_body.linear()(2, 2)));
 }
 
-TEST(DroneModel, StandsUntilItTakesOffAndThenHovers) {
-  DroneModel drone({1, 2, 0.5});
+TEST(DroneDynamics, StandsUntilItTakesOffAndThenHovers) {
+  DroneDynamics drone({1, 2, 0.5});
   drone.advance(2, {1, 1, 1, 1});
   EXPECT_EQ(drone.phase(), Phase::kLanded);
   EXPECT_TRUE(drone.state().T_world_body.translation().isApprox(Eigen::Vector3d(1, 2, 0)));
@@ -42,8 +42,8 @@ TEST(DroneModel, StandsUntilItTakesOffAndThenHovers) {
   EXPECT_NEAR(yawOf(drone), 0.5, 1e-9);
 }
 
-TEST(DroneModel, FliesWhereItIsToldAndBrakesByItself) {
-  DroneModel drone = hovering({0, 0, M_PI / 2});
+TEST(DroneDynamics, FliesWhereItIsToldAndBrakesByItself) {
+  DroneDynamics drone = hovering({0, 0, M_PI / 2});
   const double height_m = drone.state().T_world_body.translation().z();
   drone.advance(0.5, {0.5, 0, 0, 0});
   EXPECT_NEAR(tiltOf(drone), 0.106, 0.01);
@@ -59,8 +59,8 @@ TEST(DroneModel, FliesWhereItIsToldAndBrakesByItself) {
   EXPECT_LT(drone.state().velocity_world_m_s.x(), -1) << "left of y is -x";
 }
 
-TEST(DroneModel, ClimbsAndTurnsAtItsLimitsAndNoFaster) {
-  DroneModel drone = hovering();
+TEST(DroneDynamics, ClimbsAndTurnsAtItsLimitsAndNoFaster) {
+  DroneDynamics drone = hovering();
   drone.advance(3, {0, 0, 5, 0});
   EXPECT_NEAR(drone.state().velocity_world_m_s.z(), 0.7, 0.01);
   drone.advance(3, {0, 0, 0, -7});
@@ -69,8 +69,8 @@ TEST(DroneModel, ClimbsAndTurnsAtItsLimitsAndNoFaster) {
   EXPECT_NEAR(tiltOf(drone), 0.21, 0.01);
 }
 
-TEST(DroneModel, LandsAndCanTakeOffAgain) {
-  DroneModel drone = hovering();
+TEST(DroneDynamics, LandsAndCanTakeOffAgain) {
+  DroneDynamics drone = hovering();
   drone.land();
   drone.advance(0.2, {0, 0, 1, 0});
   EXPECT_EQ(drone.phase(), Phase::kLanding);
@@ -83,9 +83,9 @@ TEST(DroneModel, LandsAndCanTakeOffAgain) {
   EXPECT_EQ(drone.phase(), Phase::kFlying);
 }
 
-TEST(DroneModel, WithoutAutoHoverItLevelsOutButDoesNotBrake) {
-  DroneModel braking = hovering(), gliding = hovering();
-  for (DroneModel* drone : {&braking, &gliding}) drone->advance(1.5, {0.5, 0, 0, 0});
+TEST(DroneDynamics, WithoutAutoHoverItLevelsOutButDoesNotBrake) {
+  DroneDynamics braking = hovering(), gliding = hovering();
+  for (DroneDynamics* drone : {&braking, &gliding}) drone->advance(1.5, {0.5, 0, 0, 0});
   braking.advance(3, {});
   gliding.advance(3, {0, 0, 0, 0, false});
   EXPECT_LT(braking.state().velocity_world_m_s.norm(), 0.1);
@@ -93,16 +93,16 @@ TEST(DroneModel, WithoutAutoHoverItLevelsOutButDoesNotBrake) {
   EXPECT_LT(tiltOf(gliding), 0.01);
 }
 
-TEST(DroneModel, WindMovesIt) {
-  DroneModel drone = hovering();
+TEST(DroneDynamics, WindMovesIt) {
+  DroneDynamics drone = hovering();
   drone.setWind({0.2, 0, 0});
   drone.advance(20, {});
   // Drag 0.3 per second against the wind balances drag and braking, 1.5 together, of its own speed.
   EXPECT_NEAR(drone.state().velocity_world_m_s.x(), 0.04, 0.005);
 }
 
-TEST(DroneModel, WallsStopIt) {
-  DroneModel drone = hovering();
+TEST(DroneDynamics, WallsStopIt) {
+  DroneDynamics drone = hovering();
   const Eigen::AlignedBox3d space(Eigen::Vector3d(-1, -2, 0), Eigen::Vector3d(1.5, 2, 2.5));
   drone.keepWithin(space);
   drone.advance(5, {1, 0, 1, 0});
@@ -115,10 +115,10 @@ TEST(DroneModel, WallsStopIt) {
   EXPECT_NEAR(drone.state().T_world_body.translation().z(), 2.5, 0.01);
 }
 
-TEST(DroneModel, FallsWhenItsMotorsAreCut) {
+TEST(DroneDynamics, FallsWhenItsMotorsAreCut) {
   DroneLimits limits;
   limits.stands_m = 0.1;
-  DroneModel drone({}, limits);
+  DroneDynamics drone({}, limits);
   EXPECT_EQ(drone.state().T_world_body.translation().z(), 0.1);
   drone.cutMotors();
   EXPECT_EQ(drone.phase(), Phase::kLanded);
@@ -134,9 +134,9 @@ TEST(DroneModel, FallsWhenItsMotorsAreCut) {
 }
 
 /// State against its own derivatives, and the lean against the acceleration, under wild commands.
-TEST(DroneModel, ItsStateKeepsTheLawsOfMotion) {
+TEST(DroneDynamics, ItsStateKeepsTheLawsOfMotion) {
   constexpr double kStep_s = 0.002;
-  DroneModel drone = hovering();
+  DroneDynamics drone = hovering();
   for (int i = 0; i < 4000; ++i) {
     const double t = i * kStep_s;
     const FlightState before = drone.state();
@@ -156,8 +156,8 @@ TEST(DroneModel, ItsStateKeepsTheLawsOfMotion) {
   }
 }
 
-TEST(DroneModel, EqualStepsGiveEqualStates) {
-  DroneModel a = hovering(), b = hovering();
+TEST(DroneDynamics, EqualStepsGiveEqualStates) {
+  DroneDynamics a = hovering(), b = hovering();
   for (int i = 0; i < 100; ++i) {
     a.advance(0.01, {0.3, -0.2, 0.1, 0.4});
     b.advance(0.01, {0.3, -0.2, 0.1, 0.4});

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/report_runs.hpp"
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "report/run_files.hpp"
+#include "report/run_print.hpp"
+#include "report/run_verdict.hpp"
+#include "report/seeds_summary.hpp"
+#include "trajectory/text_file.hpp"
+
+namespace ardrone_vslam {
+
+std::vector<std::string> reportRuns(const Sequence& sequence,
+                                    const std::vector<RunOdometry>& odometries,
+                                    const std::vector<RunResult>& results,
+                                    const ReportOptions& options) {
+  std::vector<nlohmann::ordered_json> summaries;
+  std::vector<std::string> faults;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    bool truth_moved = false;
+    const Trajectory truth = truthFromOdometryStart(sequence.truth(), odometries[i], truth_moved);
+    const RunEvaluation evaluation = evaluate(results[i], truth);
+    const RunVerdict verdict = judgeRun(sequence.name(), results[i], evaluation, truth_moved);
+    for (const std::string& text : verdict.warnings) options.warn(text);
+    faults.insert(faults.end(), verdict.faults.begin(), verdict.faults.end());
+    const RunLabel label{sequence.name(), odometries[i].profile, odometries[i].seed,
+                         options.estimator};
+    summaries.push_back(summaryOf(results[i], evaluation, label));
+    const std::string folder =
+        options.is_of_seeds ? seedFolder(options.folder, *label.seed) : options.folder;
+    writeRun(folder, results[i], evaluation, summaries.back());
+  }
+  if (options.is_of_seeds) {
+    const auto all = summaryOfSeeds(summaries);
+    writeText(options.folder + "/summary.json", all.dump(2) + "\n");
+    printSeeds(all, std::cout);
+  } else {
+    printSummary(summaries.front());
+  }
+  return faults;
+}
+
+}  // namespace ardrone_vslam
