@@ -65,8 +65,8 @@ struct FrameResult {
   double sigma_m = 0;    ///< of the fused position, per axis (6.12)
   /// MSCKF: Msckf::fixNis(); 0 with the others.
   double fix_nis = 0;
-  /// MSCKF: squared deviations of this frame's tracks over what the covariance says of them; 1 is
-  /// honest, 0 when none was used.
+  /// MSCKF: squared deviations of this frame's tracks that passed their gate, over what the
+  /// covariance says of them; 1 is honest, 0 when there was none.
   double track_nis = 0;
   /// MSCKF: the odometry's slow velocity error as it is counted with, per axis: `velocity_bias_m_s`
   /// and what was learned since; 0 with the others.

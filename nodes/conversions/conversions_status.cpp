@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cassert>
 #include <cmath>
 
 #include "conversions/conversions.hpp"
@@ -68,8 +69,9 @@ void toStatus(const FrameResult& result, const std::string& map_frame, Status& s
   status.fix_nis = finite(result.fix_nis);
   status.track_nis = finite(result.track_nis);
   status.velocity_bias_deviation = finite(result.velocity_bias_sigma_m_s);
-  status.scale_error = finite(result.scale_error);
-  status.scale_deviation = finite(result.scale_sigma);
+  const bool has_scale = std::isfinite(result.scale_error + result.scale_sigma);
+  status.scale_error = has_scale ? result.scale_error : 0;
+  status.scale_deviation = has_scale ? result.scale_sigma : 0;
   status.deviation = result.state == SlamState::kNotFinite ? 0 : result.sigma_m;
 }
 

@@ -41,6 +41,7 @@ void Msckf::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 
 void Msckf::predict(const OdometryState& odometry, const std::optional<OdometryStep>& step) {
   const bool is_kept = isKeyframe() || zero_motion_.isReference(newest().id);
+  if (motion() != CameraMotion::kResting) propagator_.learnVelocityBias(odometry, state_);
   propagator_.propagate(odometry, step, state_);
   if (step) watchdog_.step(step->jump_odom_m);
   if (!is_kept) state_.removeFrame(state_.frames().size() - 2);

@@ -8,8 +8,8 @@
 namespace ardrone_vslam {
 namespace {
 
-// What is configured counts as so much time, and what was learned is forgotten over so much: some
-// changes of the bias, whose time constant is 20 s, are to be in the mean.
+// What is configured counts as so much time, and what was learned is forgotten over so much: the
+// bias is to have changed some times meanwhile (velocity_bias_time_s).
 constexpr double kConfigured_s = 5;
 constexpr double kMemory_s = 60;
 

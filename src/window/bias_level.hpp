@@ -19,7 +19,7 @@ class BiasLevel {
   /// What is found counts by the time that it stood for.
   /// @param bias_m_s  the filter's mean
   /// @param covariance  the filter's, of this mean [m^2/s^2]
-  /// @param inflation  known factor in the covariance, see Propagator::inflate()
+  /// @param inflation  known factor in the covariance, see Propagator::inflate(); above 0
   void learn(const Eigen::Vector3d& bias_m_s, const Eigen::Matrix3d& covariance, double inflation,
              double duration_s);
   /// What was learned is forgotten.

@@ -32,7 +32,7 @@ void Propagator::start(const OdometryState& odometry, WindowState& state) {
   odometry_ = odometry;
   state.R_map_odom_.setIdentity();
   state.R_base_rig_.setIdentity();
-  inflation_ = 1;
+  inflation_ = inflation_of_state_ = 1;
   bias_level_.reset();
   state.velocity_bias_m_s_.setZero();
   odometry_way_m_ = odometry.T_odom_base.translation().norm();  // at least
@@ -57,7 +57,7 @@ void Propagator::returnTo(const Eigen::Isometry3d& T_map_odom, WindowState& stat
   newest.R_map_rig = T_map_base.linear() * state.R_base_rig_;
   state.R_map_odom_ = T_map_odom.linear();
   state.velocity_bias_m_s_.setZero();
-  inflation_ = 1;
+  inflation_ = inflation_of_state_ = 1;
   bias_level_.reset();
 
   auto P = state.covariance_.all();
@@ -89,8 +89,11 @@ double Propagator::biasSigmas(const WindowState& state) const {
                                        : 0;
 }
 
-double Propagator::velocityBiasSigma_m_s() const {
-  return std::sqrt(inflation_ * bias_level_.variance());
+void Propagator::learnVelocityBias(const OdometryState& odometry, const WindowState& state) {
+  const double duration_s =
+      std::max(static_cast<double>(odometry.stamp_ns - odometry_.stamp_ns) * 1e-9, 0.0);
+  bias_level_.learn(state.velocityBias_m_s(), state.covariance().block<3, 3>(kBias, kBias),
+                    inflation_of_state_, duration_s);
 }
 
 void Propagator::propagate(const OdometryState& odometry, const std::optional<OdometryStep>& step,
@@ -118,8 +121,6 @@ void Propagator::propagate(const OdometryState& odometry, const std::optional<Od
     P.block<3, 3>(to, to) += jump_map * jump_map.transpose();
     P.diagonal().segment<3>(to).array() += squared(step->motion_sigma_m);
   }
-  bias_level_.learn(state.velocityBias_m_s(), state.covariance().block<3, 3>(kBias, kBias),
-                    inflation_, increment.duration_s);
   propagateGlobals(odometry, increment, state);
   addAttitude(odometry, next, state);
   state.frames_.push_back(next);
@@ -173,14 +174,15 @@ void Propagator::addAttitude(const OdometryState& odometry, Clone& next, WindowS
 }
 
 void Propagator::inflate(double factor, WindowState& state) {
-  const double more = (factor - inflation_) * bias_level_.variance();
   inflation_ = factor;
-  if (more <= 0) return;
-  state.covariance_.all().diagonal().segment<3>(kBias).array() += more;
+  if (factor <= inflation_of_state_) return;
+  state.covariance_.all().diagonal().segment<3>(kBias).array() +=
+      (factor - inflation_of_state_) * bias_level_.variance();
+  inflation_of_state_ = factor;
 }
 
 void Propagator::propagateGlobals(const OdometryState& odometry, const Increment& increment,
-                                  WindowState& state) const {
+                                  WindowState& state) {
   const double dt_s = increment.duration_s;
   // Roll and pitch come back to the odometry's, which gravity holds; yaw walks; biases fade.
   const Eigen::Vector3d up = state.R_map_odom_ * odometry.T_odom_base.linear().col(2);
@@ -209,6 +211,7 @@ void Propagator::propagateGlobals(const OdometryState& odometry, const Increment
   P.block<3, 3>(kAttitude, kAttitude) +=
       tilt_variance * acrossOf(up) + yaw_variance * up * up.transpose();
   P.diagonal().segment<3>(kBias).array() += bias_variance;
+  inflation_of_state_ = inflation_ + (inflation_of_state_ - inflation_) * squared(keep_bias);
   const auto others = P.rows() - kGlobals;
   P.topRightCorner(kGlobals, others) = P.bottomLeftCorner(others, kGlobals).transpose();
 }

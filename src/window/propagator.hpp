@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -23,6 +24,9 @@ class Propagator {
 
   /// Map equals odom; the first frame is the window's only one.
   void start(const OdometryState& odometry, WindowState& state);
+  /// Learns how large the bias of the odometry's velocity is, before the frame of this odometry is
+  /// added. Not for a drone at rest: what odometry does there it need not do in flight.
+  void learnVelocityBias(const OdometryState& odometry, const WindowState& state);
   /// Adds a frame by the odometry's increment since the newest one. O(coordinates).
   /// @param step  of that increment: counts as the newest position's uncertainty, not as a way
   void propagate(const OdometryState& odometry, const std::optional<OdometryStep>& step,
@@ -40,8 +44,8 @@ class Propagator {
   Eigen::Isometry3d T_odom_base() const;
   /// The odometry's velocity bias over what is configured.
   double biasSigmas(const WindowState& state) const;
-  /// The bias that counts as usual, per axis: as configured, and learned since.
-  double velocityBiasSigma_m_s() const;
+  /// Of the odometry's velocity, per axis: as configured, and learned since.
+  double velocityBiasSigma_m_s() const { return std::sqrt(bias_level_.variance()); }
 
  private:
   /// What the odometry reports between two frames.
@@ -55,12 +59,13 @@ class Propagator {
                    WindowState& state) const;
   void addAttitude(const OdometryState& odometry, Clone& next, WindowState& state) const;
   void propagateGlobals(const OdometryState& odometry, const Increment& increment,
-                        WindowState& state) const;
+                        WindowState& state);
 
   OdometryNoiseConfig config_;
   OdometryState odometry_;  // of the newest frame
   std::uint32_t next_id_ = 1;
   double inflation_ = 1;
+  double inflation_of_state_ = 1;  // follows it: at once when it rises, as the bias fades when not
   BiasLevel bias_level_;
   double odometry_way_m_ = 0;                                  // since it began
   Eigen::Vector3d position_odom_m_ = Eigen::Vector3d::Zero();  // jumps left out

@@ -43,5 +43,16 @@ TEST(OdometryNoise, OfTheVelocityIsLearnedWithinAMinute) {
   }
 }
 
+// Odometry is perfect while nothing moves, which says nothing of the flight that follows.
+TEST(OdometryNoise, TimeOnTheFloorTeachesNothing) {
+  test::Flight flight;
+  for (int i = 0; i < 1200; ++i)
+    flight.push_back({test::stampOf(i, 10), Eigen::Isometry3d::Identity()});
+  test::PointWorld world = test::pointRoom(1, 0);
+  const test::FlightRun run = test::fly(world, flight, test::observeExactly(flight), msckfConfig());
+  EXPECT_EQ(run.results.back().state, SlamState::kResting);
+  EXPECT_NEAR(run.results.back().velocity_bias_sigma_m_s, 0.03, 0.002);
+}
+
 }  // namespace
 }  // namespace ardrone_vslam

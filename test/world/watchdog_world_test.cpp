@@ -67,6 +67,7 @@ TEST(WatchdogWorld, CameraThatContradictsGoodOdometryIsFoundOutAndLeftOut) {
       EXPECT_LT(outcome.error_m[at], 0.9 * outcome.error_m[at - 1]) << speed << ' ' << seed;
       excess_m.push_back(outcome.error_m[at] - outcome.odometry_error_m[at]);
       EXPECT_LT(excess_m.back(), 1) << speed << ' ' << seed;
+      ASSERT_LT(at + 20, results.size());
       for (std::size_t i = at; i < std::min(at + 95, results.size()); ++i) {
         EXPECT_TRUE(isDistrusted(results[i])) << i;
         EXPECT_EQ(results[i].new_landmarks, 0) << i;

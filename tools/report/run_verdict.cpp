@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
@@ -125,6 +126,26 @@ double largestStep_m(const RunResult& run) {
   return largest_m;
 }
 
+/// When the odometry's velocity errs otherwise than configured, by more than a minute can be wrong.
+std::string tellVelocityBias(const RunResult& run) {
+  constexpr double kLearned_s = 60;
+  constexpr double kMostFactor = 1.5;
+  if (run.frames.empty() || countDistrusted(run) > 0) return {};
+  const FrameResult& first = run.frames.front().result;
+  const FrameResult& last = run.frames.back().result;
+  const double configured_m_s = first.velocity_bias_sigma_m_s;
+  const double learned_m_s = last.velocity_bias_sigma_m_s;
+  const double factor = learned_m_s / configured_m_s;
+  const bool is_long = static_cast<double>(last.stamp_ns - first.stamp_ns) * 1e-9 >= kLearned_s;
+  if (!is_long || !(factor > 0) || (factor < kMostFactor && 1 / factor < kMostFactor)) return {};
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "the odometry's velocity errs by %.2g m/s where %.2g was configured; with "
+                "velocity_bias_m_s: %.2g the covariance counts with it from the first image on",
+                learned_m_s, configured_m_s, learned_m_s);
+  return text;
+}
+
 void warnOfOdometry(const std::string& name, const RunResult& run, RunVerdict& verdict) {
   std::vector<std::string>& warnings = verdict.warnings;
   if (run.frames_without_odometry > 0) {
@@ -135,6 +156,8 @@ void warnOfOdometry(const std::string& name, const RunResult& run, RunVerdict& v
     warnings.push_back(name + ": " + explainSpeed("the odometry", run.absurd_speed_m_s));
   const std::string offset_advice = adviceOn(run.time_offset, run.image_time_offset_s);
   if (!offset_advice.empty()) warnings.push_back(name + ": " + offset_advice);
+  const std::string bias = verdict.faults.empty() ? tellVelocityBias(run) : "";
+  if (!bias.empty()) warnings.push_back(name + ": " + bias);
   if (run.odometry_froze && verdict.faults.empty()) {
     warnings.push_back(name +
                        ": the odometry stood still for seconds while the images moved on; check "

@@ -52,6 +52,24 @@ TEST(RunVerdict, TracksThatMoveOtherwiseSendToDoctor) {
   EXPECT_FALSE(sendsToDoctor(few));
 }
 
+TEST(RunVerdict, SaysWhatWasLearnedOfTheOdometryAfterAMinute) {
+  const auto warningsOf = [](double learned_m_s, double seconds) {
+    RunResult run = runWith(36);
+    run.frames.front().result.velocity_bias_sigma_m_s = 0.03;
+    run.frames.back().result.velocity_bias_sigma_m_s = learned_m_s;
+    run.frames.back().result.stamp_ns = static_cast<std::int64_t>(seconds * 1e9);
+    return judgeRun("/tmp/a.bag", run, RunEvaluation(), false).warnings;
+  };
+  ASSERT_EQ(warningsOf(0.13, 60).size(), 1U);
+  EXPECT_EQ(warningsOf(0.13, 60).front(),
+            "/tmp/a.bag: the odometry's velocity errs by 0.13 m/s where 0.03 was configured; with "
+            "velocity_bias_m_s: 0.13 the covariance counts with it from the first image on");
+  EXPECT_EQ(warningsOf(0.019, 60).size(), 1U) << "better than configured";
+  EXPECT_TRUE(warningsOf(0.04, 60).empty()) << "no more than chance";
+  EXPECT_TRUE(warningsOf(0.13, 50).empty()) << "too short";
+  EXPECT_TRUE(warningsOf(0, 60).empty()) << "not estimated at the end";
+}
+
 TEST(RunVerdict, DistrustAndFrozenOdometrySendToDoctor) {
   RunResult distrusted = runWith(36);
   for (std::size_t i = 0; i < 10; ++i) distrusted.frames[i].result.state = SlamState::kDistrusted;
