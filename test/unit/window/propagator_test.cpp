@@ -121,5 +121,18 @@ TEST(WindowPropagation, CarriesErrorsOfATiltThatFades) {
   expectErrorsCarriedAsTheMeanIs(window(config, {0, 0, 0}));
 }
 
+TEST(Propagator, AFactorThatComesAndGoesIsNotLearned) {
+  OdometryWindow state;
+  state.add(odometryAt(0));
+  const double configured_m_s = state.propagator.velocityBiasSigma_m_s();
+  for (int i = 1; i < 2000; ++i) {
+    if (i % 50 == 0) state.propagator.inflate(i % 100 == 0 ? 1 : 4, state);
+    state.propagator.learnVelocityBias(odometryAt(i), state);
+    state.add(odometryAt(i));
+    state.removeFrame(0);
+  }
+  EXPECT_NEAR(state.propagator.velocityBiasSigma_m_s(), configured_m_s, 1e-9);
+}
+
 }  // namespace
 }  // namespace ardrone_vslam
