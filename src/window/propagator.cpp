@@ -90,8 +90,9 @@ double Propagator::biasSigmas(const WindowState& state) const {
 }
 
 void Propagator::learnVelocityBias(const OdometryState& odometry, const WindowState& state) {
-  const double duration_s =
-      std::max(static_cast<double>(odometry.stamp_ns - odometry_.stamp_ns) * 1e-9, 0.0);
+  constexpr double kLongest_s = 1;  // what was known before a hole does not stand for all of it
+  const double duration_s = std::clamp(
+      static_cast<double>(odometry.stamp_ns - odometry_.stamp_ns) * 1e-9, 0.0, kLongest_s);
   bias_level_.learn(state.velocityBias_m_s(), state.covariance().block<3, 3>(kBias, kBias),
                     inflation_of_state_, duration_s);
 }

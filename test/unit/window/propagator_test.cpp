@@ -121,6 +121,22 @@ TEST(WindowPropagation, CarriesErrorsOfATiltThatFades) {
   expectErrorsCarriedAsTheMeanIs(window(config, {0, 0, 0}));
 }
 
+TEST(Propagator, AHoleCountsAsASecondOfWhatWasKnownBefore) {
+  const auto levelAfter = [](double hole_s) {
+    OdometryWindow state;
+    state.add(odometryAt(0));
+    Information found({WindowState::kBias, WindowState::kBias + 1, WindowState::kBias + 2});
+    found.matrix.diagonal().setConstant(1e6);  // there is no bias
+    EXPECT_TRUE(state.update(found));
+    OdometryState next = odometryAt(0);
+    next.stamp_ns += static_cast<std::int64_t>(hole_s * 1e9);
+    state.propagator.learnVelocityBias(next, state);
+    return state.propagator.velocityBiasSigma_m_s();
+  };
+  EXPECT_LT(levelAfter(1), levelAfter(0.5));
+  EXPECT_EQ(levelAfter(30), levelAfter(1));
+}
+
 TEST(Propagator, AFactorThatComesAndGoesIsNotLearned) {
   OdometryWindow state;
   state.add(odometryAt(0));
