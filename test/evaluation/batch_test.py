@@ -76,7 +76,7 @@ class JobsTest(WithFolder):
     def test_quick_ones_are_among_the_others(self):
         names = [sequence.name for sequence in batch_jobs.QUICK + batch_jobs.WHOLE_FLIGHTS]
         self.assertEqual(len(set(names)), len(names))
-        self.assertEqual(len(batch_jobs.WHOLE_FLIGHTS), 11)
+        self.assertEqual(len(batch_jobs.WHOLE_FLIGHTS), 12)
 
     def test_kitti_folders_with_a_truth_are_found(self):
         for name in ("00/image_0/0.png", "00/poses.txt", "11/image_0/0.png", "poses/00.txt"):
