@@ -64,6 +64,11 @@ def matrix(position, q):
     return result
 
 
+def pose_of(pose):
+    """4x4 transform of a geometry_msgs/Pose."""
+    return matrix(pose.position, pose.orientation)
+
+
 def play(recorders):
     """Lets the paused player of replay.launch begin, once all recorders are connected."""
     end_s = time.monotonic() + TIMEOUT_S

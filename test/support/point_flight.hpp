@@ -82,6 +82,13 @@ inline std::vector<OdometryState> observe(const Flight& flight, const DriftConfi
   return states;
 }
 
+/// The default estimator, told of the walk that observe() draws.
+inline SlamConfig configForDrift() {
+  SlamConfig config;
+  config.msckf.odometry.walk_m_per_sqrt_s = DriftConfig{}.walk_m_per_sqrt_s;
+  return config;
+}
+
 inline std::vector<OdometryState> observeExactly(const Flight& flight) {
   return observe(flight, {0, 0}, 0);
 }

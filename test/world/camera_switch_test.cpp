@@ -80,16 +80,10 @@ bool inSecondLap(std::size_t frame) {
   return frame >= kLapFrames && frame < 2 * kLapFrames;
 }
 
-SlamConfig msckfConfig() {
-  SlamConfig config;
-  config.msckf.odometry.walk_m_per_sqrt_s = 0.03;  // what test::observe draws
-  return config;
-}
-
 TEST(CameraSwitch, OneMapHasWhatBothCamerasSaw) {
   const Flight flight = test::lapsFlight(kLapFrames, kLaps, 10);
   for (const bool thesis : {false, true}) {
-    SlamConfig config = msckfConfig();
+    SlamConfig config = test::configForDrift();
     if (thesis) config.estimator = EstimatorKind::kThesis;
     const SwitchedRun run = fly(1, flight, test::observeExactly(flight), config, inSecondLap);
     int floor = 0;
@@ -111,7 +105,7 @@ TEST(CameraSwitch, WhatTheFirstCameraSawCorrectsThePoseWhenItIsBack) {
   const Flight flight = test::lapsFlight(kLapFrames, kLaps, 10);
   for (const std::uint64_t seed : {1, 2, 3}) {
     const auto odometry = test::observe(flight, {}, seed);
-    const SwitchedRun run = fly(seed, flight, odometry, msckfConfig(), inSecondLap);
+    const SwitchedRun run = fly(seed, flight, odometry, test::configForDrift(), inSecondLap);
     // The third lap finds the first one's landmarks.
     int localised = 0;
     for (std::size_t i = 2 * kLapFrames; i < flight.size(); ++i)
@@ -127,7 +121,7 @@ TEST(CameraSwitch, ThePoseDoesNotJumpWithTheCamera) {
   const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
   const auto every_2_s = [](std::size_t frame) { return frame / 20 % 2 == 1; };
   const auto odometry = test::observeExactly(flight);
-  const SwitchedRun run = fly(1, flight, odometry, msckfConfig(), every_2_s);
+  const SwitchedRun run = fly(1, flight, odometry, test::configForDrift(), every_2_s);
   for (std::size_t i = 1; i < flight.size(); ++i) {
     const Eigen::Vector3d step =
         run.results[i].T_map_base.translation() - run.results[i - 1].T_map_base.translation();
@@ -151,15 +145,16 @@ TEST(CameraSwitch, TheLeverOfEachCameraIsItsOwn) {
     flight.push_back(pose);
   }
   const auto every_2_s = [](std::size_t frame) { return frame / 20 % 2 == 1; };
-  const SwitchedRun run = fly(1, flight, test::observeExactly(flight), msckfConfig(), every_2_s);
+  const SwitchedRun run =
+      fly(1, flight, test::observeExactly(flight), test::configForDrift(), every_2_s);
   EXPECT_LT(rmse_m(flight, run, 0), 0.03);
 }
 
 TEST(CameraSwitch, AnAbsurdMountingIsRefusedAndNothingChanges) {
-  Slam slam(msckfConfig(), frontExtrinsics());
+  Slam slam(test::configForDrift(), frontExtrinsics());
   EXPECT_THROW(slam.changeCamera(Eigen::Translation3d(1000, 0, 0) * test::bottomExtrinsics()),
                std::invalid_argument);
-  SlamConfig with_mounting = msckfConfig();
+  SlamConfig with_mounting = test::configForDrift();
   with_mounting.msckf.odometry.extrinsics_sigma_deg = 0.3;
   EXPECT_FALSE(Slam(with_mounting, frontExtrinsics()).canChangeCamera());
   EXPECT_TRUE(slam.canChangeCamera());

@@ -36,17 +36,10 @@ PointWorld room(std::uint64_t seed, int hz) {
   return test::pointRoom(seed, faults);
 }
 
-SlamConfig configOf() {
-  SlamConfig config;
-  config.estimator = EstimatorKind::kMsckf;
-  config.msckf.odometry.walk_m_per_sqrt_s = 0.03;
-  return config;
-}
-
 /// Keyframes of the whole flight.
 int keyframesOf(const std::vector<ImageFeatures>& frames,
                 const std::vector<OdometryState>& odometry) {
-  Msckf filter(configOf().msckf, test::forwardExtrinsics());
+  Msckf filter(test::configForDrift().msckf, test::forwardExtrinsics());
   int count = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     i == 0 ? filter.start(odometry[i]) : filter.predict(odometry[i]);
@@ -67,7 +60,7 @@ TEST(FrameRate, TracksWorkAtEveryRateAndKeyframesFollowTheWay) {
     for (const std::uint64_t seed : {1, 2, 3}) {
       const std::vector<OdometryState> odometry = thinned(test::observe(flight, {}, seed), every);
       PointWorld world = room(seed, hz);
-      const FlightRun run = test::fly(world, filmed, odometry, configOf());
+      const FlightRun run = test::fly(world, filmed, odometry, test::configForDrift());
       ratios.push_back(run.fused.rmse_m / run.odometry.rmse_m);
       if (seed > 1) continue;
       PointWorld same = room(seed, hz);

@@ -18,14 +18,6 @@ using test::PointWorld;
 
 constexpr int kLapFrames = 200;
 
-SlamConfig msckfConfig() {
-  SlamConfig config;
-  config.estimator = EstimatorKind::kMsckf;
-  // What test::observe draws: no scale, attitude exact.
-  config.msckf.odometry.walk_m_per_sqrt_s = 0.03;
-  return config;
-}
-
 double meanNees(const Flight& flight, const FlightRun& run) {
   double sum = 0;
   for (std::size_t i = 1; i < flight.size(); ++i) {
@@ -51,7 +43,7 @@ TEST(MsckfWorld, RevisitsTakeTheDriftOutOfTheOdometry) {
     for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
       PointWorld world = test::pointRoom(seed, c.wrong_share);
       const FlightRun run =
-          test::fly(world, flight, test::observe(flight, {}, seed), msckfConfig());
+          test::fly(world, flight, test::observe(flight, {}, seed), test::configForDrift());
       ratios.push_back(run.fused.rmse_m / run.odometry.rmse_m);
       nees.push_back(meanNees(flight, run));
       EXPECT_LT(ratios.back(), c.worst) << "seed " << seed << ", wrong " << c.wrong_share;
@@ -71,7 +63,8 @@ TEST(MsckfWorld, AFirstPassIsBetterThanTheOdometryAndKnowsHowGoodItIs) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     PointWorld world(seed);
     world.addCorridor(50, 2000);
-    const FlightRun run = test::fly(world, flight, test::observe(flight, {}, seed), msckfConfig());
+    const FlightRun run =
+        test::fly(world, flight, test::observe(flight, {}, seed), test::configForDrift());
     ratios.push_back(run.fused.rmse_m / run.odometry.rmse_m);
     EXPECT_LT(ratios.back(), 1.05) << "seed " << seed;
     EXPECT_EQ(test::framesIn(run, SlamState::kFixRejected), 0) << "seed " << seed;
@@ -86,7 +79,8 @@ TEST(MsckfWorld, TrueOdometryIsHardlyMadeWorse) {
   const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
   for (const double wrong_share : {0.0, 0.2, 0.4}) {
     PointWorld world = test::pointRoom(1, wrong_share);
-    const FlightRun run = test::fly(world, flight, test::observeExactly(flight), msckfConfig());
+    const FlightRun run =
+        test::fly(world, flight, test::observeExactly(flight), test::configForDrift());
     EXPECT_LT(run.fused.rmse_m, 0.06) << wrong_share;  // measured: 0.03 on 31 m
   }
 }
@@ -102,7 +96,8 @@ TEST(MsckfWorld, TurningOnTheSpotMakesNoLandmarkAndMovesNothing) {
     flight.push_back(pose);
   }
   PointWorld world = test::pointRoom(2);
-  const FlightRun run = test::fly(world, flight, test::observeExactly(flight), msckfConfig());
+  const FlightRun run =
+      test::fly(world, flight, test::observeExactly(flight), test::configForDrift());
   EXPECT_EQ(run.landmarks.size(), 0U);
   EXPECT_LT(run.fused.max_m, 1e-6);
 }
@@ -117,8 +112,8 @@ TEST(MsckfWorld, MovingAndTurningTheWorldMovesTheResultAlike) {
   T_there_here.translation() << 30, -20, 5;
   std::vector<OdometryState> moved = odometry;
   for (OdometryState& state : moved) state.T_odom_base = T_there_here * state.T_odom_base;
-  const FlightRun here = test::run(frames, odometry, msckfConfig());
-  const FlightRun there = test::run(frames, moved, msckfConfig());
+  const FlightRun here = test::run(frames, odometry, test::configForDrift());
+  const FlightRun there = test::run(frames, moved, test::configForDrift());
   std::vector<double> off_m;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Eigen::Vector3d expected =
@@ -141,7 +136,7 @@ TEST(MsckfWorld, AnErrorOfTheMountingIsFoundWhereItIsAllowedFor) {
   for (ImageFeatures& frame : frames) {
     for (Eigen::Vector3f& bearing : frame.bearing_cam) bearing = turn * bearing;
   }
-  SlamConfig config = msckfConfig();
+  SlamConfig config = test::configForDrift();
   const auto rmseOf = [&](const FlightRun& run) {
     double sum = 0;
     for (std::size_t i = 0; i < flight.size(); ++i)
@@ -170,7 +165,7 @@ TEST(MsckfWorld, OdometryThatIsWorseThanConfiguredIsToldByItsFixesAndAllowedFor)
     for (std::size_t i = kLapFrames; i < odometry.size(); ++i)
       odometry[i].T_odom_base.translation() +=
           Eigen::Vector3d(0.2, -0.2, 0.1) * 0.1 * static_cast<double>(i - kLapFrames);
-    const FlightRun run = test::fly(world, flight, odometry, msckfConfig());
+    const FlightRun run = test::fly(world, flight, odometry, test::configForDrift());
     double highest = 0;
     for (const FrameResult& result : run.results) highest = std::max(highest, result.fix_nis);
     EXPECT_GT(highest, 1.5) << seed;  // measured: 1.9 to 2.6; of honest odometry 1, as it begins
@@ -181,7 +176,7 @@ TEST(MsckfWorld, OdometryThatIsWorseThanConfiguredIsToldByItsFixesAndAllowedFor)
 }
 
 TEST(MsckfWorld, HasNoPlanarMode) {
-  SlamConfig config = msckfConfig();
+  SlamConfig config = test::configForDrift();
   config.planar = true;
   EXPECT_THROW(Slam(config, test::forwardExtrinsics()), ConfigError);
 }

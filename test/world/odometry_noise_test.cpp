@@ -11,13 +11,6 @@
 namespace ardrone_vslam {
 namespace {
 
-SlamConfig msckfConfig() {
-  SlamConfig config;
-  config.estimator = EstimatorKind::kMsckf;
-  config.msckf.odometry.walk_m_per_sqrt_s = 0.03;  // as drawn
-  return config;
-}
-
 /// After a minute of laps. @param bias_m_s  deviation of the constant bias that is drawn, per axis
 double learnedOverDrawn(double bias_m_s, std::uint64_t seed) {
   const test::Flight flight = test::lapsFlight(200, 3, 10);
@@ -25,7 +18,7 @@ double learnedOverDrawn(double bias_m_s, std::uint64_t seed) {
   drift.bias_m_s = bias_m_s;
   test::PointWorld world = test::pointRoom(seed, 0);
   const std::vector<OdometryState> odometry = test::observe(flight, drift, seed);
-  const test::FlightRun run = test::fly(world, flight, odometry, msckfConfig());
+  const test::FlightRun run = test::fly(world, flight, odometry, test::configForDrift());
   const double drawn_m_s = bias_m_s * RandomSource(seed, 77).normal3().norm() / std::sqrt(3.0);
   return run.results.back().velocity_bias_sigma_m_s / drawn_m_s;
 }
@@ -55,7 +48,7 @@ TEST(OdometryNoise, TimeOnTheFloorTeachesNothing) {
     odometry.back().stamp_ns = flight.back().stamp_ns;
   }
   test::PointWorld world = test::pointRoom(1, 0);
-  const test::FlightRun run = test::fly(world, flight, odometry, msckfConfig());
+  const test::FlightRun run = test::fly(world, flight, odometry, test::configForDrift());
   const double learned_m_s = run.results[kFlown - 1].velocity_bias_sigma_m_s;
   EXPECT_NEAR(run.results.back().velocity_bias_sigma_m_s, learned_m_s, 0.1 * learned_m_s);
 }

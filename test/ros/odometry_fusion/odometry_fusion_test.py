@@ -16,17 +16,13 @@ from nav_msgs.msg import Odometry, Path
 from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from drone import Recorder, matrix, play  # noqa: E402
+from drone import Recorder, matrix, play, pose_of  # noqa: E402
 
 PLAY_TIMEOUT_S = 110
 
 
 def position(pose):
     return [pose.position.x, pose.position.y, pose.position.z]
-
-
-def transform(pose):
-    return matrix(pose.position, pose.orientation)
 
 
 class OdometryFusion(unittest.TestCase):
@@ -46,7 +42,7 @@ class OdometryFusion(unittest.TestCase):
         live.wait(lambda o: o.header.stamp == last, PLAY_TIMEOUT_S)
         cls.live, cls.corrections, cls.paths = live.all(), corrections.all(), paths.all()
         cls.tf, cls.diagnostics = tf.all(), diagnostics.all()
-        cls.raw_at = {o.header.stamp: transform(o.pose.pose) for o in cls.raw}
+        cls.raw_at = {o.header.stamp: pose_of(o.pose.pose) for o in cls.raw}
 
     def errors_m(self, stamps, positions):
         """Distances to the truth, which is interpolated at the stamps."""
@@ -84,7 +80,7 @@ class OdometryFusion(unittest.TestCase):
         in_use = 0
         for odometry in self.live:
             raw = self.raw_at[odometry.header.stamp]
-            live = transform(odometry.pose.pose)
+            live = pose_of(odometry.pose.pose)
             while not np.allclose(map_odom[in_use] @ raw, live, rtol=0, atol=1e-9):
                 in_use += 1
                 self.assertLess(in_use, len(map_odom), "it is seen through none of the corrections")
@@ -102,7 +98,7 @@ class OdometryFusion(unittest.TestCase):
             c = corrections[path.header.stamp].map_to_odom
             map_odom = matrix(c.translation, c.rotation)
             for pose in path.poses:
-                np.testing.assert_allclose(transform(pose.pose),
+                np.testing.assert_allclose(pose_of(pose.pose),
                                            map_odom @ self.raw_at[pose.header.stamp], atol=1e-9)
 
     def test_it_is_as_good_as_the_fused_pose(self):

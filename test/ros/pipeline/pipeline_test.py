@@ -20,7 +20,7 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from drone import Recorder, matrix, play  # noqa: E402
+from drone import Recorder, matrix, play, pose_of  # noqa: E402
 
 PLAY_TIMEOUT_S = 150
 
@@ -93,8 +93,8 @@ class Pipeline(unittest.TestCase):
         poses = {p.header.stamp: p.pose for p in self.all("pose")}
         fused = {o.header.stamp: o.pose for o in self.all("odometry_fused")}
         for c in self.all("correction"):
-            odometry = matrix(c.observer_pose.position, c.observer_pose.orientation)
-            pose = matrix(c.fused_pose.pose.position, c.fused_pose.pose.orientation)
+            odometry = pose_of(c.observer_pose)
+            pose = pose_of(c.fused_pose.pose)
             map_odom = matrix(c.map_to_odom.translation, c.map_to_odom.rotation)
             np.testing.assert_allclose(map_odom @ odometry, pose, atol=1e-9)
             self.assertEqual(c.fused_pose, poses[c.header.stamp])

@@ -14,13 +14,9 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rosgraph_msgs.msg import Log
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from drone import Recorder, matrix, play  # noqa: E402
+from drone import Recorder, play, pose_of  # noqa: E402
 
 PLAY_TIMEOUT_S = 150
-
-
-def pose_of(pose):
-    return matrix(pose.position, pose.orientation)
 
 
 class SetupFault(unittest.TestCase):
