@@ -25,8 +25,23 @@ function(ardrone_vslam_room room)
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   ardrone_vslam_warnings(${target})
   ardrone_vslam_precompiled(${target} precompiled)
+  ardrone_vslam_unity(${target} ${sources})
   if(with_ROS)
     ardrone_vslam_uses_ros(${target})
+  endif()
+endfunction()
+
+# The headers of ROS and OpenCV cost more than what includes them: each folder's are read once.
+function(ardrone_vslam_unity target)
+  if(ARDRONE_VSLAM_UNITY_BUILD)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    foreach(source ${ARGN})
+      get_filename_component(folder ${source} DIRECTORY)
+      string(MAKE_C_IDENTIFIER "${folder}" group)
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    endforeach()
+    # GCC takes a source in another one for a header, where unnamed namespaces would be a fault.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endfunction()
 

@@ -8,7 +8,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kStatusQueue = 100;
 constexpr double kSilent_s = 1;  // without a datagram: five answers a second come at least
 
 constexpr std::array<const char*, kDatagramFaultCount> kCountNames{
@@ -23,7 +23,7 @@ BridgeStatus::BridgeStatus(ros::NodeHandle nh, const ros::NodeHandle& private_nh
     : names_(names),
       parts_(parts),
       warnings_(warnings),
-      publisher_(nh.advertise<Status>("status", kQueue)),
+      publisher_(nh.advertise<Status>("status", kStatusQueue)),
       diagnostics_(nh, private_nh, names.node) {
   diagnostics_.setHardwareID("none");
   diagnostics_.add("onboard_bridge", this, &BridgeStatus::diagnose);

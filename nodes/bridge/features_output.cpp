@@ -13,7 +13,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kFeaturesQueue = 100;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ FeaturesOutput::FeaturesOutput(ros::NodeHandle nh, const CameraIntrinsics& camer
                                std::string camera_frame)
     : camera_(camera),
       camera_frame_(std::move(camera_frame)),
-      features_pub_(nh.advertise<Features>("features", kQueue)),
+      features_pub_(nh.advertise<Features>("features", kFeaturesQueue)),
       debug_pub_(image_transport::ImageTransport(nh).advertise("debug_image", 1)) {}
 
 void FeaturesOutput::publish(ImageFeatures features) {

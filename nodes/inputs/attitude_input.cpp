@@ -10,7 +10,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::uint32_t kQueue = 200;
+constexpr std::uint32_t kAttitudeQueue = 200;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ AttitudeInput::AttitudeInput(ros::NodeHandle nh, double image_time_offset_s)
       image_time_offset_ns_(std::llround(image_time_offset_s * 1e9)),
       buffer_(OdometryBufferConfig{}),
       topic_(nh.resolveName("attitude")),
-      subscriber_(nh.subscribe("attitude", kQueue, &AttitudeInput::onAttitude, this)) {}
+      subscriber_(nh.subscribe("attitude", kAttitudeQueue, &AttitudeInput::onAttitude, this)) {}
 
 void AttitudeInput::onAttitude(const nav_msgs::Odometry& message) {
   const auto state = toOdometryState(message);

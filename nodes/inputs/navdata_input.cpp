@@ -12,7 +12,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::uint32_t kQueue = 2000;  // 10 s at 200 Hz, in and out
+constexpr std::uint32_t kNavdataQueue = 2000;  // 10 s at 200 Hz, in and out
 
 std::string explain(OdometryBuffer::Push answer) {
   if (answer == OdometryBuffer::Push::kOutOfRange)
@@ -30,12 +30,12 @@ NavdataInput::NavdataInput(ros::NodeHandle nh, const DroneFilterConfig& config, 
       take_(std::move(take)),
       refuse_(std::move(refuse)),
       observer_(config),
-      odometry_pub_(nh.advertise<nav_msgs::Odometry>("observer_odometry", kQueue)),
-      command_sub_(nh.subscribe("cmd_vel", kQueue, &NavdataInput::onCommand, this,
+      odometry_pub_(nh.advertise<nav_msgs::Odometry>("observer_odometry", kNavdataQueue)),
+      command_sub_(nh.subscribe("cmd_vel", kNavdataQueue, &NavdataInput::onCommand, this,
                                 ros::TransportHints().tcpNoDelay())),
-      imu_sub_(nh.subscribe("imu", kQueue, &NavdataInput::onImu, this,
+      imu_sub_(nh.subscribe("imu", kNavdataQueue, &NavdataInput::onImu, this,
                             ros::TransportHints().tcpNoDelay())),
-      navdata_sub_(nh.subscribe("navdata", kQueue, &NavdataInput::onNavdata, this,
+      navdata_sub_(nh.subscribe("navdata", kNavdataQueue, &NavdataInput::onNavdata, this,
                                 ros::TransportHints().tcpNoDelay())) {
   if (frames_.odom.empty()) frames_.odom = kObserverFrame;
 }

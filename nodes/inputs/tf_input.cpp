@@ -4,7 +4,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::uint32_t kQueue = 100;  // as TransformListener's
+constexpr std::uint32_t kTfQueue = 100;  // as TransformListener's
 
 }  // namespace
 
@@ -14,7 +14,7 @@ TfInput::TfInput(ros::NodeHandle nh) : spinner_(1, &queue_) {
     const boost::function<void(const Event&)> callback = [this, is_static](const Event& event) {
       take(event, is_static);
     };
-    return nh.subscribe<tf2_msgs::TFMessage>(topic, kQueue, callback);
+    return nh.subscribe<tf2_msgs::TFMessage>(topic, kTfQueue, callback);
   };
   moving_sub_ = listen("/tf", false);
   static_sub_ = listen("/tf_static", true);

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 Json orNull(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -162,10 +162,10 @@ RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
     const StampedPose odometry{exposed_ns, r.T_odom_base};
     e.fused.append(fused);
     e.odometry.append(odometry);
-    double camera_error = kNone;
-    double fused_nees = kNone;
-    double fused_error = kNone;
-    double odometry_error = kNone;
+    double camera_error = kNotKnown;
+    double fused_nees = kNotKnown;
+    double fused_error = kNotKnown;
+    double odometry_error = kNotKnown;
     if (truth.covers(exposed_ns, kLongestTruthGap_ns)) {
       const Eigen::Isometry3d T_map_base = truth.at(exposed_ns);
       e.truth.append({exposed_ns, T_map_base});

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMost = 0.99;         // of the heights
 constexpr double kClimb_m = 0.3;       // by which a height in metres must have changed
-constexpr double kWindow_s = 0.6;      // a sonar's smoothing
+constexpr double kSmoothing_s = 0.6;   // a sonar's smoothing
 constexpr double kStep_m = 0.25;       // that the velocity does not know
 constexpr std::size_t kDistinct = 10;  // heights, before their unit tells anything
 constexpr double kMillimetre = 1e-6;   // of one, for rounding
@@ -78,11 +78,11 @@ Steps stepsOf(const std::vector<HeightSample>& samples, Height height) {
   };
   std::size_t first = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    while (samples[i].t_s - samples[first].t_s > kWindow_s) ++first;
+    while (samples[i].t_s - samples[first].t_s > kSmoothing_s) ++first;
     if (unknown_m(first, i) < kStep_m) continue;
     // To its end, so that each counts once.
     std::size_t last = i;
-    for (; i < samples.size() && samples[i].t_s - samples[last].t_s < kWindow_s; ++i) {
+    for (; i < samples.size() && samples[i].t_s - samples[last].t_s < kSmoothing_s; ++i) {
       if (unknown_m(first, i) > unknown_m(first, last)) last = i;
     }
     ++steps.count;

@@ -12,10 +12,10 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr double kOtherUnit = 1.5;  // by which the median force differs from gravity
-constexpr double kWindow_s = 1;
+constexpr double kTurnWindow_s = 1;
 constexpr double kLongestStep_s = 0.1;  // that turn rates are integrated across
 constexpr double kTelling_rad = 0.5;    // of turning, before rate and attitude are compared
-constexpr double kDisagrees = 0.5;      // of that turning
+constexpr double kTurnDisagrees = 0.5;  // of that turning
 
 std::vector<const DroneImu*> imuOf(const DoctorRecording& recording) {
   std::vector<const DroneImu*> readings;
@@ -62,7 +62,7 @@ Turns turnsOf(const std::vector<const NavdataReading*>& navdata,
       continue;
     }
     felt = felt * rotationOf(dt_s * rate_rad_s);
-    if (static_cast<double>(here->stamp_ns - begin->stamp_ns) * 1e-9 < kWindow_s) continue;
+    if (static_cast<double>(here->stamp_ns - begin->stamp_ns) * 1e-9 < kTurnWindow_s) continue;
     const Eigen::Vector3d told_rad =
         rotationVectorOf(begin->measured.R_odom_base.transpose() * here->measured.R_odom_base);
     const Eigen::Vector3d felt_rad = rotationVectorOf(felt);
@@ -128,7 +128,7 @@ Finding checkImuTurnRate(const DoctorRecording& recording) {
   finding.text = text("turn rates add up to ", rounded(turns.felt_rad, 1),
                       " rad, navdata's attitude turns by ", rounded(turns.told_rad, 1), ", ",
                       rounded(turns.apart_rad, 1), " apart");
-  if (turns.apart_rad > kDisagrees * turned_rad) {
+  if (turns.apart_rad > kTurnDisagrees * turned_rad) {
     finding.verdict = Verdict::kWarning;
     finding.remedy =
         "rad/s about base's axes (x forward, y left, z up) are asked for, in navdata degrees: "

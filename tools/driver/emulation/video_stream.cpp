@@ -12,7 +12,7 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr const char* kBottom = "bottom";
-constexpr double kWarnPeriod_s = 5;
+constexpr double kVideoWarnPeriod_s = 5;
 
 }  // namespace
 
@@ -64,7 +64,7 @@ void VideoStream::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) 
   if (counts.lost > lost_before_) {
     status.summary(DiagnosticStatus::WARN,
                    "this computer is too slow to render all images: lower rate, or shutter");
-    ROS_WARN_STREAM_THROTTLE(kWarnPeriod_s,
+    ROS_WARN_STREAM_THROTTLE(kVideoWarnPeriod_s,
                              counts.lost << " images were not rendered in time and are left out ("
                                          << counts.rendered << " were): lower rate, or shutter");
   } else {
