@@ -6,6 +6,8 @@
 
 #include <iostream>
 
+#include "from_ros/ros_start.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -19,7 +21,7 @@ void printHelp(const std::string& name, const std::string& type) {
 }  // namespace
 
 int runStandalone(int argc, char** argv, const std::string& name, const std::string& type) {
-  ros::init(argc, argv, name);  // takes ROS's own arguments out
+  if (!startRos(argc, argv, name)) return 2;
   if (argc > 1) {
     const std::string argument = argv[1];
     if (argument == "--help" || argument == "-h") {

@@ -12,6 +12,7 @@
 #include "doctor/collection/doctor_bag.hpp"
 #include "doctor/collection/doctor_live.hpp"
 #include "doctor/doctor_examination.hpp"
+#include "from_ros/ros_start.hpp"
 #include "program/progress_line.hpp"
 #include "program/tool_main.hpp"
 #include "trajectory/text_file.hpp"
@@ -36,7 +37,7 @@ void addOptions(CLI::App& app, Options& o) {
   o.seconds_option =
       app.add_option("--seconds", o.seconds, "with --live: for how long; fly and turn meanwhile")
           ->capture_default_str()
-          ->check(CLI::Range(1.0, 600.0));
+          ->check(numberWithin(1.0, 600.0));
   app.add_option("--json", o.json,
                  "also write what was found as JSON to this file; -: to stdout, "
                  "in place of the text");
@@ -86,7 +87,7 @@ int run(const Options& o) {
 
 int main(int argc, char** argv) {
   // Takes ROS's own arguments (topic:=other) out; without them there is no name to look up.
-  ros::init(argc, argv, "doctor", ros::init_options::AnonymousName);
+  if (!startRos(argc, argv, "doctor", ros::init_options::AnonymousName)) return 2;
   CLI::App app{
       "Looks at a bag (or with --live at the running topics): stamps, rates, calibration, tf, the "
       "odometry's and the AR.Drone driver's known faults, and whether the camera looks where tf "

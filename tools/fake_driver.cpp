@@ -8,6 +8,7 @@
 #include <string>
 
 #include "from_ros/params.hpp"
+#include "from_ros/ros_start.hpp"
 
 namespace {
 
@@ -57,7 +58,7 @@ int run(const ros::NodeHandle& nh) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "ardrone_driver");  // takes ROS's own arguments out
+  if (!startRos(argc, argv, "ardrone_driver")) return 2;
   if (argc > 1) {
     const std::string argument = argv[1];
     const bool is_help = argument == "--help" || argument == "-h";

@@ -54,9 +54,9 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_flag("--force", o.force, "replace what is there");
   o.seconds = app.add_option("--seconds", o.world.duration_s,
                              "of flight; default: the whole of it (--list)")
-                  ->check(CLI::Range(0.001, 1e6));
+                  ->check(numberWithin(0.001, 1e6));
   o.rate = app.add_option("--rate", o.world.rate_hz, "images a second; default: 30, driver's 20")
-               ->check(CLI::Range(0.001, 1e3));
+               ->check(numberWithin(0.001, 1e3));
   app.add_option("--odometry-profile", o.odometry_profile,
                  "how the simulated odometry drifts: truth, wheel, drone, hover, harsh "
                  "(config/odometry_profiles.yaml); default: drone in a bag, no odometry in a "
@@ -65,7 +65,7 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--range-noise", o.world.range_noise_m,
                  "also write a range sensor's height above what is below, with this deviation "
                  "[m]: /range in a bag, range.txt in a folder")
-      ->check(CLI::Range(0.0, 10.0));
+      ->check(numberWithin(0.0, 10.0));
   addSeed(app, "--seed", o.world.seed, "of the noise in odometry, ranges and images");
   addSeed(app, "--world-seed", o.world.world_seed, "of the world");
   app.add_option("--start", o.start,

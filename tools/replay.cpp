@@ -62,7 +62,7 @@ void addSequenceOptions(CLI::App& app, Options& o) {
   app.add_option("--world-scale", o.similarity.scale,
                  "a scene and flight so many times as large, at the same speed: the truth's "
                  "positions and all stamps are multiplied (default 1)")
-      ->check(CLI::Range(0.001, 1000.0));
+      ->check(numberWithin(0.001, 1000.0));
   app.add_flag("--mirror-world", o.similarity.is_mirrored,
                "images, camera and truth, left to right: as true as before");
   app.add_option("--setup-fault", o.setup_fault,
@@ -110,12 +110,12 @@ void addOptions(CLI::App& app, Options& o) {
       app.add_option("--budget-ms", o.speed.budget_ms,
                      "emulate a computer that needs so long for an image; of those that arrive "
                      "meanwhile the newest waits, the others are dropped. The same each time")
-          ->check(CLI::Range(0.0, 1e6));
+          ->check(numberWithin(0.0, 1e6));
   o.cpu_factor_option =
       app.add_option("--cpu-factor", o.speed.cpu_factor,
                      "emulate one that needs so many times what an image takes here (decoding "
                      "left out), or what --budget-ms says")
-          ->check(CLI::Range(0.0, 1e6));
+          ->check(numberWithin(0.0, 1e6));
   app.add_option("--threads", o.threads,
                  "2: decode ahead, spread the seeds; results do not depend on it")
       ->check(CLI::Range(1, 256));
@@ -124,7 +124,10 @@ void addOptions(CLI::App& app, Options& o) {
 #endif
 }
 
-std::unique_ptr<Sequence> openInput(const Options& o, const PipelineConfig& config) {
+/// @param faults  gets a sentence when so much of a bag was dropped that the results are not of
+/// what was recorded
+std::unique_ptr<Sequence> openInput(const Options& o, const PipelineConfig& config,
+                                    std::vector<std::string>& faults) {
   const bool is_folder = std::filesystem::is_directory(o.input);
 #ifdef ARDRONE_VSLAM_WITH_ROS
   if (is_folder) {
@@ -132,10 +135,15 @@ std::unique_ptr<Sequence> openInput(const Options& o, const PipelineConfig& conf
     return openFolder(o.input);
   }
   auto bag = openBag(o.input, o.bag.read(config));
-  for (const std::string& warning : bag->warnings()) std::cerr << "replay: " << warning << '\n';
+  for (const std::string& text : bag->findings().warnings) std::cerr << "replay: " << text << '\n';
+  if (bag->findings().has_lost_much)
+    faults.push_back(o.input +
+                     ": more than 5 % of a topic's messages were dropped (see above); "
+                     "the results are of the rest");
   return bag;
 #else
   static_cast<void>(config);
+  static_cast<void>(faults);
   if (is_folder) return openFolder(o.input);
   throw std::runtime_error(
       o.input + ": is no folder, and this replay was built without ROS, so it reads no bags");
@@ -242,7 +250,8 @@ int run(const Options& o) {
   const std::optional<ComputerSpeed> speed = speedOf(o);
   const FrameSelection selection =
       asUsage([&o] { return FrameSelection::parse(o.frames, o.ping_pong); });
-  auto sequence = select(openInput(o, config), selection);
+  std::vector<std::string> faults;
+  auto sequence = select(openInput(o, config, faults), selection);
   if (o.similarity.scale != 1 || o.similarity.is_mirrored)
     sequence = withSimilarity(std::move(sequence), o.similarity);
   if (!o.setup_fault.empty())
@@ -260,8 +269,9 @@ int run(const Options& o) {
   }
   removeEarlierRun(o.out);
   const auto tell = [](const std::string& text) { std::cerr << "replay: " << text << '\n'; };
-  const auto faults = reportRuns(*sequence, odometries, results,
-                                 {o.out, !o.seeds.empty(), nameOf(config.mapper.estimator), tell});
+  const auto of_runs = reportRuns(*sequence, odometries, results,
+                                  {o.out, !o.seeds.empty(), nameOf(config.mapper.estimator), tell});
+  faults.insert(faults.end(), of_runs.begin(), of_runs.end());
   std::cout << "written to " << o.out << '\n';
   if (o.report) writeRunPage(evaluate_script, o.out);
   for (const std::string& text : faults) tell(text);

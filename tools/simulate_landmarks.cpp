@@ -63,13 +63,13 @@ void addOptions(CLI::App& app, Options& o) {
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str();
   app.add_option("--pixel-noise", o.faults.pixel_noise_px, "deviation of a corner per axis [px]")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(numberWithin(0.0, 100.0))
       ->capture_default_str();
   app.add_option("--wrong", o.faults.wrong_share, "share of wrong corners")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(numberWithin(0.0, 1.0))
       ->capture_default_str();
   app.add_option("--lost", o.faults.lost_share, "share of the landmarks in view that are not found")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(numberWithin(0.0, 1.0))
       ->capture_default_str();
   app.add_option("--peer", o.peers,
                  "NAME=FILE, another system's poses of the same path, as a row beside; may be "

@@ -62,7 +62,7 @@ TEST(BagCameras, EachFrameHasItsCalibrationAndMounting) {
   const SequenceCamera other = bag->cameraAt(bag->cameraOf(4));
   EXPECT_EQ(other.intrinsics.fx_px, 30);
   EXPECT_EQ(other.T_base_cam.translation().y(), -0.5);
-  EXPECT_TRUE(bag->warnings().empty());
+  EXPECT_TRUE(bag->findings().warnings.empty());
 }
 
 TEST(BagCameras, ImagesWithoutCalibrationAreNamedAndLeftOut) {
@@ -74,9 +74,10 @@ TEST(BagCameras, ImagesWithoutCalibrationAreNamedAndLeftOut) {
   });
   const auto bag = test_bag.open();
   EXPECT_EQ(bag->size(), 4U);
-  ASSERT_EQ(bag->warnings().size(), 1U);
+  ASSERT_EQ(bag->findings().warnings.size(), 1U);
   for (const char* part : {"/cam/image", "1 images", "other", "no calibration", "camera_info"})
-    EXPECT_NE(bag->warnings()[0].find(part), std::string::npos) << bag->warnings()[0];
+    EXPECT_NE(bag->findings().warnings[0].find(part), std::string::npos)
+        << bag->findings().warnings[0];
 }
 
 TEST(BagCameras, AMountingThatIsMissingIsNamed) {

@@ -4,6 +4,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Range.h>
 #include <std_msgs/String.h>
 
 #include <iterator>
@@ -17,16 +18,17 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void expectWarning(const BagSequence& sequence, const std::vector<std::string>& parts) {
-  ASSERT_EQ(sequence.warnings().size(), 1u);
+  ASSERT_EQ(sequence.findings().warnings.size(), 1u);
   for (const auto& part : parts) {
-    EXPECT_NE(sequence.warnings()[0].find(part), std::string::npos) << sequence.warnings()[0];
+    EXPECT_NE(sequence.findings().warnings[0].find(part), std::string::npos)
+        << sequence.findings().warnings[0];
   }
 }
 
 TEST(BagInput, SoundBag) {
   const TestBag bag{BagRecipe()};
   const auto sequence = bag.open();
-  EXPECT_TRUE(sequence->warnings().empty());
+  EXPECT_TRUE(sequence->findings().warnings.empty());
   ASSERT_EQ(sequence->size(), 4u);
   EXPECT_EQ(sequence->stamp_ns(2), 1'200'000'000);
   EXPECT_EQ(sequence->camera().k1, -0.5);
@@ -134,9 +136,9 @@ TEST(BagInput, IncompleteImagesAndBackwardStampsAreDroppedAndCounted) {
   recipe.image_stamps_s = {1.0, 1.1, 1.05, 1.1, 1.2};
   const TestBag backward(recipe);
   const auto sequence = backward.open();
-  ASSERT_EQ(sequence->size(), 3u);
-  EXPECT_EQ(cv::norm(sequence->image(2), testImage(4), cv::NORM_INF), 0);
-  expectWarning(*sequence, {"/cam/image", "2 images", "does not ascend"});
+  ASSERT_EQ(sequence->size(), 4u);
+  EXPECT_EQ(cv::norm(sequence->image(3), testImage(4), cv::NORM_INF), 0);
+  expectWarning(*sequence, {"/cam/image", "1 images", "out of order"});
 
   recipe.image_stamps_s = {0, 0, 0};
   TestBag(recipe).expectRefused({"/cam/image", "no image can be used", "3 images have no stamp"});
@@ -148,6 +150,47 @@ TEST(BagInput, IncompleteImagesAndBackwardStampsAreDroppedAndCounted) {
     bag.write("/cam/image", ros::Time(9), message);
   });
   expectWarning(*incomplete.open(), {"/cam/image", "1 images are incomplete"});
+}
+
+TEST(BagInput, OneStampFarAheadTakesNothingAlong) {
+  BagRecipe recipe;
+  recipe.image_stamps_s = {1.0, 1001, 1.1, 1.2, 1.3};
+  recipe.odometry[2].header.stamp += ros::Duration(1000);
+  sensor_msgs::Range range;
+  range.range = range.max_range = 1;
+  const auto withTruthAndRanges = [&](rosbag::Bag& more) {
+    ros::Time recorded(2);
+    for (const double stamp_s : {1.0, 1.1, 1001.2, 1.3, 1.4}) {
+      recorded += ros::Duration(0.1);
+      range.header.stamp = ros::Time(stamp_s);
+      more.write("/range", recorded, range);
+      geometry_msgs::PoseStamped truth;
+      truth.header.stamp = range.header.stamp;
+      truth.pose.orientation.w = 1;
+      more.write("/ground_truth", recorded, truth);
+    }
+  };
+  BagReadOptions options;
+  options.use_range = true;
+  const auto sequence = TestBag(recipe, withTruthAndRanges).open(options);
+  EXPECT_EQ(sequence->size(), 4U);
+  EXPECT_EQ(sequence->odometry().size(), 4U);
+  EXPECT_EQ(sequence->ranges().size(), 4U);
+  EXPECT_EQ(sequence->truth().size(), 4U);
+  EXPECT_EQ(sequence->findings().warnings.size(), 4U);
+  // One of five is more than 5 %.
+  EXPECT_TRUE(sequence->findings().has_lost_much);
+}
+
+TEST(BagInput, AFewLostMessagesAreNoReasonToFail) {
+  BagRecipe recipe;
+  for (int i = 0; i < 15; ++i)
+    recipe.odometry.push_back(BagRecipe::odometryAt(1.5 + 0.1 * i, 2.5 + 0.5 * i));
+  recipe.odometry[7].header.stamp += ros::Duration(1000);
+  EXPECT_FALSE(TestBag(recipe).open()->findings().has_lost_much);
+  recipe.odometry[9].pose.pose.position.x = kNan;
+  recipe.odometry[11].pose.pose.position.x = kNan;
+  EXPECT_TRUE(TestBag(recipe).open()->findings().has_lost_much);
 }
 
 TEST(BagInput, HalfACompressedImageIsDroppedAndCounted) {
@@ -213,7 +256,7 @@ TEST(BagInput, ACovarianceThatCountsAsNotGivenIsToldOnce) {
   EXPECT_EQ(negative->odometry().size(), 5u);
   expectWarning(*negative, {"/odom", "variance of -1 m^2", "counts as not given"});
   for (auto& message : recipe.odometry) message.pose.covariance.assign(0);  // the usual "none"
-  EXPECT_TRUE(TestBag(recipe).open()->warnings().empty());
+  EXPECT_TRUE(TestBag(recipe).open()->findings().warnings.empty());
 }
 
 TEST(BagInput, AMountingThatCannotBeIsRefusedWithTheBagsName) {
@@ -294,7 +337,7 @@ TEST(BagInput, TruthOfEveryType) {
     EXPECT_EQ(sequence->truth().poses()[0].stamp_ns, 1'000'000'000);
     EXPECT_EQ(sequence->truth().poses()[0].T_map_base.translation().x(), 4);
     EXPECT_EQ(sequence->odometry().size(), 5u);
-    expectWarning(*sequence, {"/ground_truth", "1 messages dropped", "does not ascend"});
+    expectWarning(*sequence, {"/ground_truth", "1 messages dropped", "goes back"});
   };
   check(stamped);
   check(with_covariance);

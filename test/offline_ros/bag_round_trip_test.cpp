@@ -74,7 +74,7 @@ TEST(BagRoundTrip, KittiFolderWithSimulatedObserver) {
   EXPECT_NE(report.scale_error, 0);
 
   const auto bag = openBag(folder.file("out.bag"), {});
-  EXPECT_TRUE(bag->warnings().empty());
+  EXPECT_TRUE(bag->findings().warnings.empty());
   EXPECT_TRUE(bag->camera() == source->camera());
   expectSamePose(bag->T_base_cam(), source->T_base_cam());
   expectSameImages(*source, *bag, kOffset_ns);

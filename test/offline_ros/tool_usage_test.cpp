@@ -212,6 +212,40 @@ TEST_F(ToolUsage, ReplayOfADamagedBagNamesItAndDoesNotCrash) {
   expectOutput({"replay: ", "damaged.bag", "is no readable bag", "rosbag reindex"});
 }
 
+TEST_F(ToolUsage, ABagThatDoesNotFitOnTheDiskLeavesNothing) {
+  makeTumFolder(folder_, 60);
+  const auto onFullDisk = [this](const std::string& command) {  // a write fails as on a full disk
+    return run("bash -c \"trap '' XFSZ; ulimit -f 20; " + command + "\"");
+  };
+  for (const std::string format : {"", " --compression lz4", " --compression bz2"}) {
+    EXPECT_EQ(onFullDisk(ARDRONE_VSLAM_MAKE_BAG " tum " + folder_.path() + " --out " +
+                         path("full.bag") + format),
+              1)
+        << format << output();
+    expectOutput({"make_bag: ", "full.bag: cannot be written", "free space"});
+  }
+  EXPECT_EQ(onFullDisk(ARDRONE_VSLAM_MAKE_WORLD " laps --seconds 1 --out " + path("full.bag")), 1);
+  expectOutput({"make_world: ", "full.bag: cannot be written"});
+  EXPECT_FALSE(std::filesystem::exists(path("full.bag")));
+  EXPECT_FALSE(std::filesystem::exists(path("full.bag.part")));
+}
+
+TEST_F(ToolUsage, OutputThatCannotBeWrittenIsAFault) {
+  for (const std::string argument : {"--help", "--version", "--list-parameters"}) {
+    const int status = std::system(
+        (ARDRONE_VSLAM_REPLAY " " + argument + " > /dev/full 2> " + path("output")).c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1) << argument;
+    expectOutput({"replay: the output cannot be written"});
+  }
+}
+
+TEST_F(ToolUsage, ReplayOfWhatIsLeftOfABagFails) {
+  BagRecipe recipe;
+  recipe.image_stamps_s = {1.0, 1.1, 1001, 1.2, 1.3};
+  EXPECT_EQ(replay(TestBag(recipe).path()), 1);
+  expectOutput({"/cam/image: 1 images have no stamp or one out of order"});
+}
+
 TEST_F(ToolUsage, TheDriversOptionsGoWithADriver) {
   const auto makeWorld = [this](const std::string& arguments) {
     return run(ARDRONE_VSLAM_MAKE_WORLD " laps --seconds 0.1 --out " + path("d.bag") + " " +

@@ -14,7 +14,7 @@
 namespace ardrone_vslam {
 
 BagCameras::BagCameras(const rosbag::Bag& bag, const std::string& camera_info_topic,
-                       const BagReadOptions& options, std::vector<std::string>& warnings) {
+                       const BagReadOptions& options, BagFindings& findings) {
   if (options.camera) {
     cameras_.push_back({{}, {}, *options.camera});
     return;
@@ -34,9 +34,9 @@ BagCameras::BagCameras(const rosbag::Bag& bag, const std::string& camera_info_to
       cameras_.push_back({frame, {}, intrinsics});
     } else if (!(known->intrinsics == intrinsics) && !has_changed) {
       has_changed = true;
-      warnings.push_back(camera_info_topic + ": the calibration of " +
-                         (frame.empty() ? "the camera" : frame) +
-                         " changes; only the first one is used");
+      findings.warn(camera_info_topic, "the calibration of " +
+                                           (frame.empty() ? "the camera" : frame) +
+                                           " changes; only the first one is used");
     }
   }
   if (cameras_.empty()) {

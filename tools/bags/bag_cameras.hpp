@@ -19,7 +19,7 @@ class BagCameras {
   /// The calibration of `options`, else the first of each frame in the camera_info topic.
   /// @throws std::runtime_error naming the topic, the fault and the remedy
   BagCameras(const rosbag::Bag& bag, const std::string& camera_info_topic,
-             const BagReadOptions& options, std::vector<std::string>& warnings);
+             const BagReadOptions& options, BagFindings& findings);
 
   /// Which camera took an image of this frame_id; nothing without a calibration. The only
   /// calibration of a bag is that of its first image, whatever its frame.

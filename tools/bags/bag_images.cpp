@@ -9,6 +9,7 @@
 #include "bags/messages/bag_messages.hpp"
 #include "bags/messages/bag_read_message.hpp"
 #include "bags/messages/grey_image.hpp"
+#include "trajectory/ascent.hpp"
 
 namespace ardrone_vslam {
 
@@ -36,12 +37,13 @@ std::string text(const cv::Size& size_px) {
 }  // namespace
 
 BagImages::BagImages(const rosbag::Bag& bag, const ChosenTopics& topics, BagCameras& cameras,
-                     std::vector<std::string>& warnings)
+                     BagFindings& findings)
     : place_(bag.getFileName() + ", " + topics.image), is_compressed_(topics.is_compressed) {
   Counts dropped;
   rosbag::View view(bag, rosbag::TopicQuery(topics.image));
   for (const rosbag::MessageInstance& instance : view) add(instance, cameras, dropped);
-  report(dropped, warnings);
+  putInOrder(dropped);
+  report(dropped, findings);
 }
 
 BagImages::Candidate BagImages::inspect(const rosbag::MessageInstance& instance) const {
@@ -85,7 +87,7 @@ void BagImages::add(const rosbag::MessageInstance& instance, BagCameras& cameras
     ++dropped.sizes;
     dropped.other_size =
         text(candidate.size_px) + ", the calibration is for " + text(calibrated_px);
-  } else if (stamp_ns <= 0 || (!stamps_ns_.empty() && stamp_ns <= stamps_ns_.back())) {
+  } else if (stamp_ns <= 0) {
     ++dropped.stamps;
   } else {
     stamps_ns_.push_back(stamp_ns);
@@ -94,33 +96,36 @@ void BagImages::add(const rosbag::MessageInstance& instance, BagCameras& cameras
   }
 }
 
-void BagImages::report(const Counts& dropped, std::vector<std::string>& warnings) const {
-  std::vector<std::string> faults;
-  if (dropped.incomplete > 0) {
-    faults.push_back(std::to_string(dropped.incomplete) +
-                     " images are incomplete or cannot be decoded; record them again");
-  }
-  if (dropped.sizes > 0) {
-    faults.push_back(std::to_string(dropped.sizes) + " images are unlike the calibration (" +
-                     dropped.other_size + "); use the calibration made at the size of the images");
-  }
-  if (dropped.uncalibrated > 0) {
-    faults.push_back(std::to_string(dropped.uncalibrated) + " images of the camera " +
-                     dropped.uncalibrated_frame +
-                     " have no calibration; record the camera_info of that frame, too");
-  }
-  if (dropped.stamps > 0) {
-    faults.push_back(std::to_string(dropped.stamps) +
-                     " images have no stamp or one that does not ascend; correct the driver's "
-                     "clock");
-  }
+void BagImages::putInOrder(Counts& dropped) {
+  const std::vector<std::size_t> kept = longestAscent(stamps_ns_, Ascent::kStrict);
+  dropped.stamps += stamps_ns_.size() - kept.size();
+  keepAt(kept, stamps_ns_);
+  keepAt(kept, camera_of_);
+  keepAt(kept, instances_);
+}
+
+void BagImages::report(const Counts& dropped, BagFindings& findings) const {
+  const std::size_t total = stamps_ns_.size() + dropped.incomplete + dropped.sizes +
+                            dropped.uncalibrated + dropped.stamps;
+  BagFindings found;
+  found.lose(dropped.incomplete, total, place_,
+             "images are incomplete or cannot be decoded; record them again");
+  found.lose(dropped.sizes, total, place_,
+             "images are unlike the calibration (" + dropped.other_size +
+                 "); use the calibration made at the size of the images");
+  found.lose(dropped.uncalibrated, total, place_,
+             "images of the camera " + dropped.uncalibrated_frame +
+                 " have no calibration; record the camera_info of that frame, too");
+  found.lose(dropped.stamps, total, place_,
+             "images have no stamp or one out of order; correct the driver's clock");
   if (stamps_ns_.empty()) {
     std::string all;
-    for (const auto& fault : faults) all += (all.empty() ? "" : ". ") + fault;
+    for (const std::string& fault : found.warnings)
+      all += (all.empty() ? "" : ". ") + fault.substr(place_.size() + 2);
     throw std::runtime_error(place_ + ": no image can be used: " +
                              (all.empty() ? "the topic holds no message; record it again" : all));
   }
-  for (const auto& fault : faults) warnings.push_back(place_ + ": " + fault);
+  findings.append(found);
 }
 
 cv::Mat BagImages::image(std::size_t index) const {

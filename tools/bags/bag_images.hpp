@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bags/bag_cameras.hpp"
+#include "bags/bag_findings.hpp"
 #include "bags/bag_topics.hpp"
 
 namespace ardrone_vslam {
@@ -17,12 +18,12 @@ namespace ardrone_vslam {
 /// The images of a topic that can be used. The pixels stay in the bag until they are asked for.
 class BagImages {
  public:
-  /// Images whose stamps do not ascend, that are incomplete, of another size than their camera's
-  /// calibration, or without one are left out; `warnings` says how many. @pre the bag outlives the
+  /// Images whose stamps are out of order, that are incomplete, of another size than their camera's
+  /// calibration, or without one are left out; `findings` says how many. @pre the bag outlives the
   /// object
   /// @throws std::runtime_error when the encoding is not supported or no image is left
   BagImages(const rosbag::Bag& bag, const ChosenTopics& topics, BagCameras& cameras,
-            std::vector<std::string>& warnings);
+            BagFindings& findings);
 
   std::size_t size() const { return stamps_ns_.size(); }
   std::int64_t stamp_ns(std::size_t index) const { return stamps_ns_.at(index); }
@@ -36,7 +37,8 @@ class BagImages {
   struct Candidate;
   Candidate inspect(const rosbag::MessageInstance& instance) const;
   void add(const rosbag::MessageInstance& instance, BagCameras& cameras, Counts& dropped);
-  void report(const Counts& dropped, std::vector<std::string>& warnings) const;
+  void putInOrder(Counts& dropped);
+  void report(const Counts& dropped, BagFindings& findings) const;
 
   std::string place_;  // bag and topic, for messages
   bool is_compressed_;

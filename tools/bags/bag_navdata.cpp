@@ -22,7 +22,7 @@ bool push(const Checked<Reading>& reading, DroneObserver& observer,
 }  // namespace
 
 BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
-                        const DroneFilterConfig& config, std::vector<std::string>& warnings) {
+                        const DroneFilterConfig& config, BagFindings& findings) {
   BagOdometry odometry;
   DroneObserver observer(config);
   std::size_t refused = 0;
@@ -44,11 +44,9 @@ BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
   }
   observer.flush(odometry.states);
   odometry.faults = observer.faults();
-  if (refused > 0) {
-    warnings.push_back(topics.navdata + ", IMU and commands: " + std::to_string(refused) +
-                       " messages dropped: not finite, out of bounds or the stamp goes back");
-  }
-  if (odometry.states.empty()) warnings.push_back(topics.navdata + ": holds no usable navdata");
+  findings.lose(refused, view.size(), topics.navdata + ", IMU and commands",
+                "messages dropped: not finite, out of bounds or the stamp goes back");
+  if (odometry.states.empty()) findings.warn(topics.navdata, "holds no usable navdata");
   return odometry;
 }
 

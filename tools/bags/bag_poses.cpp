@@ -12,26 +12,26 @@
 
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "ardrone_vslam/odometry_adapter.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "bags/messages/bag_messages.hpp"
 #include "bags/messages/bag_read_message.hpp"
+#include "trajectory/ascent.hpp"
 
 namespace ardrone_vslam {
 namespace {
-
-void warnOfDropped(std::size_t count, const std::string& topic, const std::string& fault,
-                   std::vector<std::string>& warnings) {
-  if (count == 0) return;
-  warnings.push_back(topic + ": " + std::to_string(count) + " messages dropped: " + fault);
-}
 
 /// Stamp and pose of any of the types that may tell the truth.
 struct TruthPose {
   std::int64_t stamp_ns;
   std::optional<Eigen::Isometry3d> T_map_base;
 };
+
+constexpr const char* kNotInOrder =
+    "messages dropped: the stamp goes back, or far ahead of those that follow; correct the clock "
+    "of its source";
 
 std::optional<TruthPose> toTruthPose(const rosbag::MessageInstance& instance) {
   if (const auto pose = readMessage<geometry_msgs::PoseStamped>(instance)) {
@@ -49,11 +49,11 @@ std::optional<TruthPose> toTruthPose(const rosbag::MessageInstance& instance) {
 /// Says once that the odometry's covariance counts as not given, and why, as the mapper nodelet
 /// does.
 void warnOfCovariance(const std::vector<OdometryState>& states, const std::string& topic,
-                      std::vector<std::string>& warnings) {
+                      BagFindings& findings) {
   for (const OdometryState& state : states) {
     const std::string fault = covarianceFault(state);
     if (fault.empty()) continue;
-    warnings.push_back(topic + ": " + fault);
+    findings.warn(topic, fault);
     return;
   }
 }
@@ -71,12 +71,10 @@ std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
 }
 
-BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
-                         std::vector<std::string>& warnings) {
+BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic, BagFindings& findings) {
   BagOdometry odometry;
   if (topic.empty()) return odometry;
   std::size_t not_finite = 0;
-  std::size_t backward = 0;
   std::size_t too_far = 0;
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   for (const rosbag::MessageInstance& instance : view) {
@@ -88,31 +86,30 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
       ++not_finite;
     } else if (OdometryAdapter::isBeyondAllJumps(*state)) {
       ++too_far;
-    } else if (!odometry.states.empty() && state->stamp_ns < odometry.states.back().stamp_ns) {
-      ++backward;
     } else {
       odometry.states.push_back(*state);
     }
   }
-  warnOfDropped(not_finite, topic,
-                "pose, twist or a covariance is not finite, or the quaternion is not a unit; "
-                "correct the odometry's source",
-                warnings);
-  warnOfDropped(too_far, topic, std::string(kTooFarFault) + "; correct the odometry's source",
-                warnings);
-  warnOfDropped(backward, topic, "the stamp goes back; correct the clock of its source", warnings);
-  warnOfCovariance(odometry.states, topic, warnings);
-  if (odometry.states.empty()) {
-    warnings.push_back(topic + ": holds no usable odometry; record a working odometry");
-  }
+  const std::size_t out_of_order = keepAscent(Ascent::kMayRepeat, odometry.states);
+  findings.lose(not_finite, view.size(), topic,
+                "messages dropped: pose, twist or a covariance is not finite, or the quaternion is "
+                "not a unit; correct the odometry's source");
+  findings.lose(
+      too_far, view.size(), topic,
+      "messages dropped: " + std::string(kTooFarFault) + "; correct the odometry's source");
+  findings.lose(out_of_order, view.size(), topic, kNotInOrder);
+  warnOfCovariance(odometry.states, topic, findings);
+  if (odometry.states.empty())
+    findings.warn(topic, "holds no usable odometry; record a working odometry");
   if (standsStill(odometry.states)) {
-    warnings.push_back(topic + ": all " + std::to_string(odometry.states.size()) +
-                       " poses are equal (zero odometry); check that the odometry runs");
+    findings.warn(topic, "all " + std::to_string(odometry.states.size()) +
+                             " poses are equal (zero odometry); check that the odometry runs");
   }
   return odometry;
 }
 
-std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& topic) {
+std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& topic,
+                                     BagFindings& findings) {
   std::vector<RangeReading> ranges;
   if (topic.empty()) return ranges;
   rosbag::View view(bag, rosbag::TopicQuery(topic));
@@ -122,15 +119,15 @@ std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& 
     ranges.push_back({toNanoseconds(message->header.stamp), message->range, message->min_range,
                       message->max_range});
   }
+  const std::size_t out_of_order = keepAscent(Ascent::kMayRepeat, ranges);
+  findings.lose(out_of_order, view.size(), topic, kNotInOrder);
   return ranges;
 }
 
-Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic,
-                     std::vector<std::string>& warnings) {
-  Trajectory truth;
-  if (topic.empty()) return truth;
+Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic, BagFindings& findings) {
+  if (topic.empty()) return {};
+  std::vector<StampedPose> truth;
   std::size_t not_finite = 0;
-  std::size_t backward = 0;
   std::size_t too_far = 0;
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   for (const rosbag::MessageInstance& instance : view) {
@@ -140,17 +137,17 @@ Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic,
       ++not_finite;
     } else if (isTooFar(pose->T_map_base->translation())) {
       ++too_far;
-    } else if (!truth.empty() && pose->stamp_ns <= truth.poses().back().stamp_ns) {
-      ++backward;
     } else {
-      truth.append({pose->stamp_ns, *pose->T_map_base});
+      truth.push_back({pose->stamp_ns, *pose->T_map_base});
     }
   }
-  warnOfDropped(not_finite, topic, "the pose is not finite or its quaternion is not a unit",
-                warnings);
-  warnOfDropped(too_far, topic, kTooFarFault, warnings);
-  warnOfDropped(backward, topic, "the stamp does not ascend", warnings);
-  return truth;
+  const std::size_t out_of_order = keepAscent(Ascent::kStrict, truth);
+  findings.lose(not_finite, view.size(), topic,
+                "messages dropped: the pose is not finite or its quaternion is not a unit");
+  findings.lose(too_far, view.size(), topic, std::string("messages dropped: ") + kTooFarFault);
+  // Motion capture repeats stamps: nothing is lost by that.
+  if (out_of_order > 0) findings.warn(topic, std::to_string(out_of_order) + " " + kNotInOrder);
+  return Trajectory(std::move(truth));
 }
 
 Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base_frame,

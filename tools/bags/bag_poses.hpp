@@ -8,6 +8,7 @@
 
 #include "ardrone_vslam/drone_observer.hpp"
 #include "ardrone_vslam/height_input.hpp"
+#include "bags/bag_findings.hpp"
 #include "bags/bag_topics.hpp"
 #include "simulation/odometry_model.hpp"
 
@@ -19,25 +20,24 @@ struct BagOdometry {
   OdometryFaultCounts faults{};       ///< of the package's own observer
 };
 
-/// States that are not finite or go back are dropped; `warnings` says how many. Also warns when
-/// nothing moves.
-BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic,
-                         std::vector<std::string>& warnings);
+/// States that are not finite or whose stamps are out of order (keepAscent) are dropped; `findings`
+/// says how many. Also warns when nothing moves.
+BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic, BagFindings& findings);
 
 /// What the package's own observer makes of the AR.Drone's navdata and, where they are, IMU and
-/// commands, as the mapper nodelet does. `warnings` says how many messages it refused.
+/// commands, as the mapper nodelet does. `findings` says how many messages it refused.
 BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
-                        const DroneFilterConfig& config, std::vector<std::string>& warnings);
+                        const DroneFilterConfig& config, BagFindings& findings);
 
-/// All of them, the ones without an echo, too.
-std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& topic);
+/// All whose stamps are in order, the ones without an echo, too.
+std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& topic,
+                                     BagFindings& findings);
 /// The same of the drone's own height. A message without a stamp is left out.
 std::vector<RangeReading> readNavdataHeights(const rosbag::Bag& bag, const std::string& topic);
 
-/// PoseStamped, PoseWithCovarianceStamped or Odometry. Poses that are not finite or whose stamps do
-/// not ascend are dropped; `warnings` says how many.
-Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic,
-                     std::vector<std::string>& warnings);
+/// PoseStamped, PoseWithCovarianceStamped or Odometry. Poses that are not finite or whose stamps
+/// are out of order are dropped; `findings` says how many.
+Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic, BagFindings& findings);
 
 /// base -> camera from tf_static and tf, wherever in the tree the two are. An empty base frame is
 /// taken as the camera's parent. @throws std::runtime_error naming the frames and the remedy

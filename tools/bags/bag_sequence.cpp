@@ -42,14 +42,14 @@ class BagFile : public BagSequence {
   BagFile(const std::string& path, const BagReadOptions& options) : name_(path) {
     openForReading(bag_, path);
     const ChosenTopics topics = chooseTopics(path, topicTypes(bag_), options);
-    BagCameras cameras(bag_, topics.camera_info, options, warnings_);
-    images_ = std::make_unique<BagImages>(bag_, topics, cameras, warnings_);
+    BagCameras cameras(bag_, topics.camera_info, options, findings_);
+    images_ = std::make_unique<BagImages>(bag_, topics, cameras, findings_);
     BagOdometry odometry = options.drone_filter
-                               ? readNavdata(bag_, topics, *options.drone_filter, warnings_)
-                               : readOdometry(bag_, topics.odometry, warnings_);
-    ranges_ = options.use_range ? readRanges(bag_, topics.range)
+                               ? readNavdata(bag_, topics, *options.drone_filter, findings_)
+                               : readOdometry(bag_, topics.odometry, findings_);
+    ranges_ = options.use_range ? readRanges(bag_, topics.range, findings_)
                                 : readNavdataHeights(bag_, topics.navdata);
-    truth_ = readTruth(bag_, topics.truth, warnings_);
+    truth_ = readTruth(bag_, topics.truth, findings_);
     const std::string base = options.base_frame.empty() ? odometry.base_frame : options.base_frame;
     if (base.empty() && !odometry.states.empty() && !options.T_base_cam) {
       throw std::runtime_error(path + ", " + topics.odometry +
@@ -86,7 +86,7 @@ class BagFile : public BagSequence {
   OdometryFaultCounts odometryInputFaults() const override { return odometry_faults_; }
   std::vector<RangeReading> ranges() const override { return ranges_; }
   OdometryNote odometryNote() const override { return note_; }
-  const std::vector<std::string>& warnings() const override { return warnings_; }
+  const BagFindings& findings() const override { return findings_; }
 
  private:
   const SequenceCamera& first() const { return cameras_.at(images_->cameraOf(0)); }
@@ -100,7 +100,7 @@ class BagFile : public BagSequence {
   OdometryFaultCounts odometry_faults_{};
   std::vector<RangeReading> ranges_;
   OdometryNote note_;
-  std::vector<std::string> warnings_;
+  BagFindings findings_;
 };
 
 }  // namespace

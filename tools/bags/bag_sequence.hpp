@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ardrone_vslam/odometry_config.hpp"
+#include "bags/bag_findings.hpp"
 #include "sequences/sequence.hpp"
 
 namespace ardrone_vslam {
@@ -37,12 +38,11 @@ struct BagReadOptions {
 /// A recorded bag; images may be asked for in any order.
 class BagSequence : public Sequence {
  public:
-  /// What was dropped and what looks wrong, one sentence each, naming the topic.
-  virtual const std::vector<std::string>& warnings() const = 0;
+  virtual const BagFindings& findings() const = 0;
 };
 
 /// Reads image (mono8, rgb8, bgr8, bayer, compressed), camera_info, odometry, truth, and base ->
-/// camera from tf_static or tf. Messages with NaN or with stamps that go back are dropped and
+/// camera from tf_static or tf. Messages with NaN or with stamps out of order are dropped and
 /// counted, and so are images of another size than the calibration's.
 /// @throws std::runtime_error naming bag or topic, the fault and the remedy
 std::unique_ptr<BagSequence> openBag(const std::string& path, const BagReadOptions& options);

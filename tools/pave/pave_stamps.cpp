@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "trajectory/ascent.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -18,29 +20,6 @@ constexpr std::size_t kFewest = 3;           // of them
 constexpr std::uint32_t kMostSkipped = 300;  // frame numbers between two frames; 10 s
 
 using Stamps = std::vector<std::int64_t>;
-
-/// The indices of the longest strictly ascending sub-sequence (patience sorting), O(n log n).
-std::vector<std::size_t> longestAscent(const std::vector<std::int64_t>& values) {
-  constexpr auto kNone = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> ends;  // of the ascents of each length: the one that ends lowest
-  std::vector<std::size_t> before(values.size(), kNone);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto end = std::lower_bound(
-        ends.begin(), ends.end(), values[i],
-        [&values](std::size_t index, std::int64_t value) { return values[index] < value; });
-    if (end != ends.begin()) before[i] = *std::prev(end);
-    if (end == ends.end()) {
-      ends.push_back(i);
-    } else {
-      *end = i;
-    }
-  }
-  std::vector<std::size_t> ascent;
-  for (std::size_t i = ends.empty() ? kNone : ends.back(); i != kNone; i = before[i])
-    ascent.push_back(i);
-  std::reverse(ascent.begin(), ascent.end());
-  return ascent;
-}
 
 std::int64_t medianOf(Stamps::const_iterator begin, Stamps::const_iterator end) {
   Stamps stamps(begin, end);
@@ -78,7 +57,7 @@ class PaveRun {
       : begin_(begin) {
     const Stamps told_ns(stamps_ns.begin() + static_cast<std::ptrdiff_t>(begin),
                          stamps_ns.begin() + static_cast<std::ptrdiff_t>(end));
-    frames_ = longestAscent(told_ns);
+    frames_ = longestAscent(told_ns, Ascent::kStrict);
     is_spread_ = 2 * frames_.size() <= told_ns.size();
     if (is_spread_) {
       spread(headers, told_ns);

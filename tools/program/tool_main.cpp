@@ -2,8 +2,11 @@
 #include "program/tool_main.hpp"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <system_error>
 
 #include "ardrone_vslam/instruction_set.hpp"
 #include "ardrone_vslam/parameters.hpp"
@@ -31,6 +34,21 @@ std::vector<std::string> oldArguments(int argc, char** argv) {
   return sentences;
 }
 
+/// @return false when it is no whole number from 0 or does not fit
+bool readWhole(const std::string& text, std::uint64_t& number) {
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && rest == end;
+}
+
+/// What stood in a buffer and did not get out would be lost in silence.
+bool isWritten(const CLI::App& app) {
+  const bool is_good = std::cout.flush().good() && std::fflush(stdout) == 0 && !std::ferror(stdout);
+  if (!is_good)
+    std::cerr << app.get_name() << ": the output cannot be written; check the free space\n";
+  return is_good;
+}
+
 }  // namespace
 
 int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& run) {
@@ -42,9 +60,10 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& ru
     app.parse(argc, argv);
     const std::string& kernels_fault = instructionSetInUse().fault;
     if (!kernels_fault.empty()) std::cerr << app.get_name() << ": " << kernels_fault << '\n';
-    return run();
+    const int code = run();
+    return isWritten(app) ? code : 1;
   } catch (const CLI::ParseError& e) {
-    if (app.exit(e) == 0) return 0;
+    if (app.exit(e) == 0) return isWritten(app) ? 0 : 1;
     for (const std::string& sentence : oldArguments(argc, argv))
       std::cerr << app.get_name() << ": " << sentence << '\n';
     return 2;
@@ -55,25 +74,34 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& ru
   }
 }
 
+CLI::Validator numberWithin(double least, double most) {
+  const CLI::Range range(least, most);
+  const auto fault = [range](std::string& text) {
+    double number = 0;
+    const bool is_nan = CLI::detail::lexical_cast(text, number) && std::isnan(number);
+    return is_nan ? "'" + text + "' must be a number" : range(text);
+  };
+  return CLI::Validator(fault, range.get_description());
+}
+
 CLI::Option* addSeed(CLI::App& app, const std::string& name, std::uint64_t& seed,
                      const std::string& what) {
-  const auto isWholeNumber = [](const std::string& text) {
-    const bool is_good = text.find_first_not_of("0123456789") == std::string::npos;
-    return is_good ? std::string() : "'" + text + "' must be a whole number from 0";
+  const auto faultOf = [](const std::string& text) {
+    std::uint64_t number = 0;
+    return readWhole(text, number) ? std::string()
+                                   : "'" + text + "' must be a whole number from 0 below 2^64";
   };
   return app.add_option(name, seed, what)
       ->capture_default_str()
-      ->check(CLI::Validator(isWholeNumber, "", "seed"));
+      ->check(CLI::Validator(faultOf, "", "seed"));
 }
 
 std::vector<std::uint64_t> parseSeeds(const std::string& text) {
   std::uint64_t first = 0;
   std::uint64_t last = 0;
-  char rest = 0;
-  // sscanf alone takes -1 for 2^64 - 1.
-  if (text.find('-') != std::string::npos ||
-      std::sscanf(text.c_str(), "%lu:%lu%c", &first, &last, &rest) != 2 || last < first ||
-      last - first > 9999) {
+  const auto colon = text.find(':');
+  if (colon == std::string::npos || !readWhole(text.substr(0, colon), first) ||
+      !readWhole(text.substr(colon + 1), last) || last < first || last - first > 9999) {
     throw UsageError("--seeds: '" + text +
                      "' must be A:B with 0 <= A <= B, at most 10000 seeds, for example 1:5");
   }

@@ -10,6 +10,7 @@
 namespace CLI {  // NOLINT(readability-identifier-naming): the library is called so
 class App;
 class Option;
+class Validator;
 }  // namespace CLI
 
 namespace ardrone_vslam {
@@ -22,7 +23,8 @@ struct UsageError : std::runtime_error {
 /// What all tools' main() do: parses the arguments, calls `run`, and prints what either throws as
 /// "name: message".
 /// @param app  carries the tool's name
-/// @return `run`'s answer; 0 for --help and the like; 2 for wrong usage; 1 for every other fault
+/// @return `run`'s answer; 0 for --help and the like; 2 for wrong usage; 1 for every other fault,
+/// and where the output cannot be written (a full disk)
 int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& run);
 
 /// Calls `read`, for which std::invalid_argument means that what the user gave cannot be.
@@ -36,8 +38,11 @@ auto asUsage(const Read& read) {
   }
 }
 
-/// An option for a random generator's seed: a whole number from 0, as CLI11 alone takes -1 for
-/// 2^64 - 1.
+/// A number between these: CLI11's own Range lets NaN pass.
+CLI::Validator numberWithin(double least, double most);
+
+/// An option for a random generator's seed: a whole number from 0 below 2^64, as CLI11 alone takes
+/// -1 and what is too large for 2^64 - 1.
 CLI::Option* addSeed(CLI::App& app, const std::string& name, std::uint64_t& seed,
                      const std::string& what);
 

@@ -107,7 +107,7 @@ OdometryProfile loadLater(const std::string& text, double after_s,
   double from_s = 0;
   char rest = 0;
   if (at == std::string::npos || std::sscanf(text.c_str() + at + 1, "%lf%c", &from_s, &rest) != 1 ||
-      !(from_s > after_s)) {
+      !(from_s > after_s) || !std::isfinite(from_s)) {
     throw std::runtime_error("odometry profile '" + text +
                              "' must be NAME@SECONDS, the seconds ascending, as in "
                              "drone,hover@20");

@@ -71,18 +71,18 @@ void addCameraOptions(CLI::App& app, WorldOptions& world, CameraArguments& argum
   arguments.shutter = app.add_option("--shutter", arguments.shutter_ms,
                                      "how long a row is exposed [ms]: motion blur; default: 0, of "
                                      "fast_blur 16")
-                          ->check(CLI::Range(0.0, 1000.0));
+                          ->check(numberWithin(0.0, 1000.0));
   arguments.readout =
       app.add_option("--readout", arguments.readout_ms,
                      "how much later the last row is exposed than the first [ms]: rolling "
                      "shutter; default: 0, of fast_blur 25")
-          ->check(CLI::Range(0.0, 1000.0));
+          ->check(numberWithin(0.0, 1000.0));
   app.add_option("--gain", arguments.gain, "of light and noise, or auto: to a mean grey of 110")
       ->capture_default_str();
   app.add_option("--image-noise", world.effects.noise_grey,
                  "deviation of the images' white noise at gain 1 [grey]")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(numberWithin(0.0, 100.0));
   app.add_option("--artefacts", world.effects.quantiser,
                  "blocks of 4x4 pixels as H.264 leaves them at this QP, 1 to 51; 0: none")
       ->capture_default_str()

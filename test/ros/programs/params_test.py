@@ -151,6 +151,14 @@ class Params(unittest.TestCase):
                 self.assertEqual(process.returncode, code)
                 self.assertIn(said, output)
 
+    def test_a_name_that_cannot_be_is_wrong_usage(self):
+        for executable in ["tracker_node", "mapper_node", "odometry_fusion_node", "onboard_bridge_node"]:
+            for argument in ["__name:=a b", "image:=a b", "__ns:=/x y"]:
+                process = start(executable, argument)
+                output, _ = process.communicate(timeout=30)
+                self.assertEqual(process.returncode, 2, output)
+                self.assertIn("a name among the arguments cannot be", output)
+
 
 if __name__ == "__main__":
     rospy.init_node("params_test")
