@@ -165,6 +165,15 @@ void fitToHover(double begin_s, Options& o) {
   o.odometry_profile += later.data();
 }
 
+void tellWritten(const WorldSequence& world, const Options& o) {
+  std::cout << o.out << ": " << world.size() << " images, world seed " << o.world.world_seed;
+  if (o.world.odometry) {
+    std::cout << "; odometry profile " << o.world.odometry->name << ", seed " << o.world.seed
+              << ", scale error " << world.odometryNote().scale_error;
+  }
+  std::cout << '\n';
+}
+
 int run(Options& o) {
   const bool bag = isBag(o.out);
   if (!bag) refuseBagOptions(o);
@@ -192,12 +201,7 @@ int run(Options& o) {
     ProgressLine progress("make_world", world.size());
     bag ? writeWorldBag(world, o, progress) : writeWorldFolder(world, o, progress);
   }
-  std::cout << o.out << ": " << world.size() << " images, world seed " << o.world.world_seed;
-  if (o.world.odometry) {
-    std::cout << "; odometry profile " << o.world.odometry->name << ", seed " << o.world.seed
-              << ", scale error " << world.odometryNote().scale_error;
-  }
-  std::cout << '\n';
+  tellWritten(world, o);
   return 0;
 }
 

@@ -52,6 +52,15 @@ void forInnerPixels(const cv::Mat& image, const Visit& visit) {
     for (int x = kCircleRadiusPx; x < image.cols - kCircleRadiusPx; ++x) visit(x, y);
 }
 
+/// Whether no neighbour is as good.
+bool isMaximum(const cv::Mat& scores, int x, int y) {
+  const std::int16_t own = scores.at<std::int16_t>(y, x);
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx)
+      if ((dx != 0 || dy != 0) && scores.at<std::int16_t>(y + dy, x + dx) >= own) return false;
+  return true;
+}
+
 }  // namespace
 
 std::vector<Corner> arcCorners(const cv::Mat& image, int arc_length_px, int threshold) {
@@ -68,10 +77,7 @@ std::vector<Corner> arcCorners(const cv::Mat& image, int arc_length_px, int thre
   std::vector<Corner> corners;
   forInnerPixels(image, [&](int x, int y) {
     const std::int16_t own = scores.at<std::int16_t>(y, x);
-    if (own == 0) return;
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx)
-        if ((dx != 0 || dy != 0) && scores.at<std::int16_t>(y + dy, x + dx) >= own) return;
+    if (own == 0 || !isMaximum(scores, x, y)) return;
     corners.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y),
                        static_cast<std::uint8_t>(own)});
   });

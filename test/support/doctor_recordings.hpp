@@ -81,18 +81,27 @@ inline DoctorRecording goodRecording() {
   return recording;
 }
 
+/// On walls, floor and ceiling of a room of 9 x 9 x 4 m.
+inline std::vector<Eigen::Vector3d> pointsOfRoom(std::mt19937& random,
+                                                 std::uniform_real_distribution<double>& uniform) {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 1500; ++i) {
+    Eigen::Vector3d point(4.5 * uniform(random), 4.5 * uniform(random), 1.5 + 2 * uniform(random));
+    const bool is_even = i % 2 == 0;
+    if (i % 3 == 2) point.z() = is_even ? -0.5 : 3.5;
+    if (i % 3 != 2) point[i % 3] = is_even ? -4.5 : 4.5;
+    points.push_back(point);
+  }
+  return points;
+}
+
 /// The camera's view of points on the walls of a room, at the images' stamps plus `late_s` seen
 /// at these stamps.
 inline std::vector<ImageFeatures> doctorViews(const Eigen::Isometry3d& T_base_cam,
                                               double late_s = 0, double seconds = 12) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  std::vector<Eigen::Vector3d> points;
-  for (int i = 0; i < 1500; ++i) {
-    Eigen::Vector3d point(4.5 * uniform(random), 4.5 * uniform(random), 1.5 + 2 * uniform(random));
-    point[i % 3] = i % 3 == 2 ? (i % 2 == 0 ? -0.5 : 3.5) : (i % 2 == 0 ? -4.5 : 4.5);
-    points.push_back(point);
-  }
+  const std::vector<Eigen::Vector3d> points = pointsOfRoom(random, uniform);
   const CameraModel camera(doctorCamera());
   std::vector<ImageFeatures> images;
   for (double t_s = 0; t_s < seconds; t_s += 0.1) {

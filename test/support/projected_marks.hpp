@@ -21,34 +21,35 @@ constexpr double kTexelsPerMetre = 250;
 constexpr double kMarkRadius_m = 0.05;
 constexpr double kMarkSpacing_m = 0.4;
 
-/// White discs on black, the texels' coverage by 16 x 16 samples each; the first disc's middle is
-/// half a spacing from both borders.
+/// From the next disc's middle.
+inline double distanceToMark_m(double u_m, double v_m) {
+  const auto along = [](double metres) {
+    return std::remainder(metres - kMarkSpacing_m / 2, kMarkSpacing_m);
+  };
+  return std::hypot(along(u_m), along(v_m));
+}
+
+/// By 16 x 16 samples of the texel.
+inline std::uint8_t greyOfMarks(int x, int y) {
+  constexpr int kSamples = 16;
+  const double from_border =
+      distanceToMark_m((x + 0.5) / kTexelsPerMetre, (y + 0.5) / kTexelsPerMetre) - kMarkRadius_m;
+  if (std::abs(from_border) > 1 / kTexelsPerMetre) return from_border < 0 ? 255 : 0;
+  int inside = 0;
+  for (int i = 0; i < kSamples * kSamples; ++i) {
+    const double u = (x + (i % kSamples + 0.5) / kSamples) / kTexelsPerMetre;
+    const double v = (y + (i / kSamples + 0.5) / kSamples) / kTexelsPerMetre;
+    inside += distanceToMark_m(u, v) < kMarkRadius_m ? 1 : 0;
+  }
+  return static_cast<std::uint8_t>(std::lround(255.0 * inside / (kSamples * kSamples)));
+}
+
+/// White discs on black; the first disc's middle is half a spacing from both borders.
 inline cv::Mat paintMarks(double width_m, double height_m) {
   cv::Mat picture(static_cast<int>(height_m * kTexelsPerMetre),
                   static_cast<int>(width_m * kTexelsPerMetre), CV_8UC1);
-  constexpr int kSamples = 16;
-  const auto distanceToMark = [](double metres) {
-    return std::remainder(metres - kMarkSpacing_m / 2, kMarkSpacing_m);
-  };
-  for (int y = 0; y < picture.rows; ++y) {
-    for (int x = 0; x < picture.cols; ++x) {
-      const double from_border = std::hypot(distanceToMark((x + 0.5) / kTexelsPerMetre),
-                                            distanceToMark((y + 0.5) / kTexelsPerMetre)) -
-                                 kMarkRadius_m;
-      if (std::abs(from_border) > 1 / kTexelsPerMetre) {
-        picture.at<std::uint8_t>(y, x) = from_border < 0 ? 255 : 0;
-        continue;
-      }
-      int inside = 0;
-      for (int i = 0; i < kSamples * kSamples; ++i) {
-        const double u = (x + (i % kSamples + 0.5) / kSamples) / kTexelsPerMetre;
-        const double v = (y + (i / kSamples + 0.5) / kSamples) / kTexelsPerMetre;
-        inside += std::hypot(distanceToMark(u), distanceToMark(v)) < kMarkRadius_m ? 1 : 0;
-      }
-      picture.at<std::uint8_t>(y, x) =
-          static_cast<std::uint8_t>(std::lround(255.0 * inside / (kSamples * kSamples)));
-    }
-  }
+  for (int y = 0; y < picture.rows; ++y)
+    for (int x = 0; x < picture.cols; ++x) picture.at<std::uint8_t>(y, x) = greyOfMarks(x, y);
   return picture;
 }
 

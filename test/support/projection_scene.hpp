@@ -36,16 +36,7 @@ struct ProjectionScene {
     SceneRandom random(seed);
     for (auto& column : columns) column.resize(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      for (std::size_t axis = 0; axis < 3; ++axis) columns[axis][i] = random.uniform(-50, 50);
-      columns[3][i] = columns[2][i];
-      float length2 = 0;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        columns[4 + axis][i] = columns[axis][i] + random.uniform(-30, 30);
-        length2 += columns[4 + axis][i] * columns[4 + axis][i];
-      }
-      for (std::size_t axis = 0; axis < 3; ++axis) columns[4 + axis][i] /= std::sqrt(length2);
-      const float seen_m = random.uniform(1, 60);
-      columns[7][i] = random.next() % 4 == 0 ? 0.F : seen_m * seen_m;
+      place(i, random);
       if (odd && random.next() % 2 == 0) makeOdd(i, random);
     }
     // A camera that looks along map's x, a little turned.
@@ -73,6 +64,19 @@ struct ProjectionScene {
   kernels::ProjectCamera camera;
 
  private:
+  void place(std::size_t i, SceneRandom& random) {
+    for (std::size_t axis = 0; axis < 3; ++axis) columns[axis][i] = random.uniform(-50, 50);
+    columns[3][i] = columns[2][i];
+    float length2 = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      columns[4 + axis][i] = columns[axis][i] + random.uniform(-30, 30);
+      length2 += columns[4 + axis][i] * columns[4 + axis][i];
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) columns[4 + axis][i] /= std::sqrt(length2);
+    const float seen_m = random.uniform(1, 60);
+    columns[7][i] = random.next() % 4 == 0 ? 0.F : seen_m * seen_m;
+  }
+
   void makeOdd(std::size_t i, SceneRandom& random) {
     static const float kOdd[] = {0.F,   -0.F,  0.5F,     -0.25F,    1.F,
                                  1e20F, -1e6F, INFINITY, -INFINITY, NAN};

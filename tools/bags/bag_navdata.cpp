@@ -19,6 +19,19 @@ bool push(const Checked<Reading>& reading, DroneObserver& observer,
   return reading.value && observer.push(*reading.value, states) == OdometryBuffer::Push::kAccepted;
 }
 
+/// One of the navdata, the IMU's or the commands. @return false when the observer refused it
+bool push(const rosbag::MessageInstance& instance, DroneObserver& observer, BagOdometry& odometry) {
+  if (const auto navdata = readMessage<Navdata>(instance)) {
+    if (odometry.base_frame.empty()) odometry.base_frame = withoutSlash(navdata->header.frame_id);
+    return push(toNavdataReading(*navdata), observer, odometry.states);
+  }
+  if (const auto imu = readMessage<sensor_msgs::Imu>(instance))
+    return push(toDroneImu(*imu), observer, odometry.states);
+  const auto command = readMessage<geometry_msgs::Twist>(instance);
+  return !command || observer.push(toDroneCommand(*command, toNanoseconds(instance.getTime()))) ==
+                         OdometryBuffer::Push::kAccepted;
+}
+
 }  // namespace
 
 BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
@@ -32,15 +45,7 @@ BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
   }
   rosbag::View view(bag, rosbag::TopicQuery(wanted));
   for (const rosbag::MessageInstance& instance : view) {
-    if (const auto navdata = readMessage<Navdata>(instance)) {
-      if (odometry.base_frame.empty()) odometry.base_frame = withoutSlash(navdata->header.frame_id);
-      if (!push(toNavdataReading(*navdata), observer, odometry.states)) ++refused;
-    } else if (const auto imu = readMessage<sensor_msgs::Imu>(instance)) {
-      if (!push(toDroneImu(*imu), observer, odometry.states)) ++refused;
-    } else if (const auto command = readMessage<geometry_msgs::Twist>(instance)) {
-      const auto read = toDroneCommand(*command, toNanoseconds(instance.getTime()));
-      if (observer.push(read) != OdometryBuffer::Push::kAccepted) ++refused;
-    }
+    if (!push(instance, observer, odometry)) ++refused;
   }
   observer.flush(odometry.states);
   odometry.faults = observer.faults();

@@ -59,6 +59,18 @@ std::string cameraOf(const std::string& topic) {
   return parentName(endsWith(topic, "/compressed") ? parentName(topic) : topic);
 }
 
+/// Of ardrone_autonomy's topics the one of whichever camera streams; empty when there is none.
+std::string aboveAllOthers(const std::vector<std::string>& candidates) {
+  for (const std::string& one : candidates) {
+    const auto is_above = [&one](const std::string& other) {
+      return other == one || parentName(cameraOf(other)) == cameraOf(one);
+    };
+    if (!cameraOf(one).empty() && std::all_of(candidates.begin(), candidates.end(), is_above))
+      return one;
+  }
+  return {};
+}
+
 class TopicChooser {
  public:
   TopicChooser(const std::string& path, const TopicTypes& types) : path_(path), types_(types) {}
@@ -73,16 +85,8 @@ class TopicChooser {
         candidates.push_back(topic.first);
       }
     }
-    if (candidates.size() > 1 && role.has_parent) {
-      // Of ardrone_autonomy's topics the one of whichever camera streams.
-      for (const std::string& one : candidates) {
-        const auto is_above = [&one](const std::string& other) {
-          return other == one || parentName(cameraOf(other)) == cameraOf(one);
-        };
-        if (!cameraOf(one).empty() && std::all_of(candidates.begin(), candidates.end(), is_above))
-          return one;
-      }
-    }
+    const std::string streaming = role.has_parent ? aboveAllOthers(candidates) : "";
+    if (!streaming.empty()) return streaming;
     if (candidates.size() > 1) {
       throw std::runtime_error(path_ + ": has several topics for the " + role.what + ": " +
                                listOf(candidates) + "; choose one by " + role.option);

@@ -41,6 +41,25 @@ std::string twice(const std::string& section) {
   return "section '" + section + "' is there twice; put all its keys under one '" + section + ":'";
 }
 
+/// A section's keys and their values as text.
+Section readSection(const std::string& path, const std::string& name, const YAML::Node& node,
+                    std::vector<std::string>& faults) {
+  Section section;
+  if (node.IsNull()) return section;  // its keys are all commented out
+  if (!node.IsMap()) {
+    faults.push_back(path + ": '" + name + "' must be a section of keys (tracker: or mapper:)");
+    return section;
+  }
+  for (const auto& entry : node) {
+    const auto key = entry.first.as<std::string>();
+    const std::string value =
+        entry.second.IsScalar() ? entry.second.as<std::string>() : YAML::Dump(entry.second);
+    if (!section.emplace(key, value).second)
+      faults.push_back(path + ": '" + name + "/" + key + "' is there twice; keep one of them");
+  }
+  return section;
+}
+
 std::map<std::string, Section> readSections(const std::string& path,
                                             std::vector<std::string>& faults) {
   std::map<std::string, Section> sections;
@@ -54,20 +73,8 @@ std::map<std::string, Section> readSections(const std::string& path,
     }
     for (const auto& section : root) {
       const auto name = section.first.as<std::string>();
-      // One whose keys are all commented out is there, and empty.
-      if (!sections.emplace(name, Section{}).second) faults.push_back(path + ": " + twice(name));
-      if (section.second.IsNull()) continue;
-      if (!section.second.IsMap()) {
-        faults.push_back(path + ": '" + name + "' must be a section of keys (tracker: or mapper:)");
-        continue;
-      }
-      for (const auto& entry : section.second) {
-        const auto key = entry.first.as<std::string>();
-        const std::string value =
-            entry.second.IsScalar() ? entry.second.as<std::string>() : YAML::Dump(entry.second);
-        if (!sections[name].emplace(key, value).second)
-          faults.push_back(path + ": '" + name + "/" + key + "' is there twice; keep one of them");
-      }
+      if (sections.count(name) > 0) faults.push_back(path + ": " + twice(name));
+      sections.emplace(name, readSection(path, name, section.second, faults));
     }
   } catch (const YAML::BadFile&) {
     faults.push_back(path + ": cannot be read; check the path");

@@ -67,9 +67,11 @@ class FrameAssembler {
            header.frame_number == last_number_ && header.slice_index > last_slice_index_;
   }
 
-  bool isWanted(const PaveHeader& header) {
+  static bool isIdr(const PaveHeader& header) { return header.frame_type == PaveHeader::kIdr; }
+
+  bool isNumberWanted(const PaveHeader& header) {
     PaveStatistics& statistics = stream_.statistics;
-    const bool is_idr = header.frame_type == PaveHeader::kIdr;
+    const bool is_idr = isIdr(header);
     if (has_number_ && header.frame_number <= last_number_) {
       // A restarted drone counts from the beginning again, with an IDR picture.
       const bool is_restart = is_idr && header.frame_number < last_number_;
@@ -88,6 +90,12 @@ class FrameAssembler {
       statistics.lost_frames += header.frame_number - last_number_ - 1;
       awaits_idr_ = true;
     }
+    return true;
+  }
+
+  bool isWanted(const PaveHeader& header) {
+    PaveStatistics& statistics = stream_.statistics;
+    if (!isNumberWanted(header)) return false;
     has_number_ = true;
     last_number_ = header.frame_number;
     if (sizes_.count(sizeOf(header)) == 0) {
@@ -97,7 +105,7 @@ class FrameAssembler {
     }
     if (!stream_.frames.empty() && sizeOf(stream_.frames.back().header) != sizeOf(header))
       awaits_idr_ = true;
-    if (awaits_idr_ && !is_idr) {
+    if (awaits_idr_ && !isIdr(header)) {
       ++statistics.waiting_frames;
       return false;
     }

@@ -17,6 +17,25 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+void writeCell(std::ostream& out, double value) {
+  out << ',';
+  if (std::isfinite(value)) out << value;
+}
+
+double valueAt(const std::vector<double>& values, std::size_t i) {
+  return i < values.size() ? values[i] : kNone;
+}
+
+/// What the filter said, from sigma_m to camera_sigma_m.
+void writeEstimates(std::ostream& out, const FrameResult& r) {
+  writeCell(out, r.sigma_m);
+  for (const double known : {r.fix_nis, r.track_nis, r.velocity_bias_sigma_m_s})
+    writeCell(out, known > 0 ? known : kNone);
+  for (int axis = 0; axis < 3; ++axis)
+    writeCell(out, r.landmark_position_map ? (*r.landmark_position_map)[axis] : kNone);
+  writeCell(out, r.landmark_position_map ? r.landmark_sigma_m : kNone);
+}
+
 void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e) {
   out << "index,stamp_ns,state,match_method,features,landmarks_in_view,landmark_candidates,"
          "landmark_matches,"
@@ -29,13 +48,6 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
          "error_m,camera_error_m,nees";
   for (const char* name : kStageNames) out << ",ms_" << name;
   out << ",ms_total\n" << std::setprecision(9);
-  const auto cell = [&out](double value) {
-    out << ',';
-    if (std::isfinite(value)) out << value;
-  };
-  const auto valueAt = [](const std::vector<double>& values, std::size_t i) {
-    return i < values.size() ? values[i] : kNone;
-  };
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     const FrameResult& r = run.frames[i].result;
     out << i << ',' << r.stamp_ns << ',' << kSlamStateNames[static_cast<std::size_t>(r.state)]
@@ -47,18 +59,11 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
           r.landmarks, r.map_features}) {
       out << ',' << count;
     }
-    cell(r.sigma_m);
-    for (const double known : {r.fix_nis, r.track_nis, r.velocity_bias_sigma_m_s})
-      cell(known > 0 ? known : kNone);
-    for (int axis = 0; axis < 3; ++axis)
-      cell(r.landmark_position_map ? (*r.landmark_position_map)[axis] : kNone);
-    cell(r.landmark_position_map ? r.landmark_sigma_m : kNone);
-    cell(valueAt(e.fused_error_m, i));
-    cell(valueAt(e.odometry_error_m, i));
-    cell(valueAt(e.camera_error_m, i));
-    cell(valueAt(e.nees, i));
-    for (const double ms : run.frames[i].times_ms) cell(ms);
-    cell(total_ms(run.frames[i].times_ms));
+    writeEstimates(out, r);
+    for (const auto* errors : {&e.fused_error_m, &e.odometry_error_m, &e.camera_error_m, &e.nees})
+      writeCell(out, valueAt(*errors, i));
+    for (const double ms : run.frames[i].times_ms) writeCell(out, ms);
+    writeCell(out, total_ms(run.frames[i].times_ms));
     out << '\n';
   }
 }

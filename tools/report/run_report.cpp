@@ -44,6 +44,24 @@ std::vector<double> finite(const std::vector<double>& values) {
   return kept;
 }
 
+void addCameraErrors(const RunEvaluation& e, bool known, Json& summary) {
+  const std::vector<double> camera = finite(e.camera_error_m);
+  const ErrorSummary camera_summary = summarise(camera);
+  const bool fixed = known && !camera.empty();
+  summary["camera_frames"] = camera.size();
+  summary["camera_error_mean_m"] = fixed ? orNull(camera_summary.mean_m) : Json(nullptr);
+  summary["camera_error_max_m"] = fixed ? orNull(camera_summary.max_m) : Json(nullptr);
+  const std::vector<double> nees_values = finite(e.nees);
+  summary["nees_mean"] =
+      nees_values.empty() ? Json(nullptr) : orNull(summarise(nees_values).mean_m);
+  const auto outside = std::count_if(nees_values.begin(), nees_values.end(),
+                                     [](double n) { return n > kNees3Sigma; });
+  summary["outside_3_sigma"] =
+      nees_values.empty()
+          ? Json(nullptr)
+          : Json(static_cast<double>(outside) / static_cast<double>(nees_values.size()));
+}
+
 void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& label, Json& summary) {
   const ErrorSummary fused = summarise(finite(e.fused_error_m));
   const ErrorSummary odometry = summarise(finite(e.odometry_error_m));
@@ -77,21 +95,7 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   summary["t_rel_percent"] = t_rel ? Json(*t_rel) : Json(nullptr);
   summary["odometry_t_rel_percent"] = odometry_t_rel ? Json(*odometry_t_rel) : Json(nullptr);
 
-  const std::vector<double> camera = finite(e.camera_error_m);
-  const ErrorSummary camera_summary = summarise(camera);
-  const bool fixed = known && !camera.empty();
-  summary["camera_frames"] = camera.size();
-  summary["camera_error_mean_m"] = fixed ? orNull(camera_summary.mean_m) : Json(nullptr);
-  summary["camera_error_max_m"] = fixed ? orNull(camera_summary.max_m) : Json(nullptr);
-  const std::vector<double> nees_values = finite(e.nees);
-  summary["nees_mean"] =
-      nees_values.empty() ? Json(nullptr) : orNull(summarise(nees_values).mean_m);
-  const auto outside = std::count_if(nees_values.begin(), nees_values.end(),
-                                     [](double n) { return n > kNees3Sigma; });
-  summary["outside_3_sigma"] =
-      nees_values.empty()
-          ? Json(nullptr)
-          : Json(static_cast<double>(outside) / static_cast<double>(nees_values.size()));
+  addCameraErrors(e, known, summary);
   summary["frames_without_truth"] = e.frames_without_truth;
   summary["frames_error_not_finite"] = e.frames_error_not_finite;
 }

@@ -43,14 +43,40 @@ class ImageRolls {
   std::size_t next_ = 0;
 };
 
+/// The tracker of the camera whose turn it is.
+class CameraTracker {
+ public:
+  CameraTracker(const Sequence& sequence, const TrackerConfig& config)
+      : sequence_(sequence), config_(config) {}
+
+  /// Before an image. @return the camera's mounting where it is another one than before
+  std::optional<Eigen::Isometry3d> use(std::size_t image) {
+    if (tracker_ && sequence_.cameraOf(image) == which_) return std::nullopt;
+    which_ = sequence_.cameraOf(image);
+    const SequenceCamera camera = sequence_.cameraAt(which_);
+    R_base_cam_ = camera.T_base_cam.linear();
+    const bool is_first = !tracker_;
+    const std::uint32_t first_track_id = is_first ? 1 : tracker_->nextTrackId();
+    tracker_.emplace(config_, camera.intrinsics, first_track_id);
+    return is_first ? std::nullopt : std::optional<Eigen::Isometry3d>(camera.T_base_cam);
+  }
+  Tracker& tracker() { return *tracker_; }
+  const Eigen::Matrix3d& R_base_cam() const { return R_base_cam_; }
+
+ private:
+  const Sequence& sequence_;
+  const TrackerConfig& config_;
+  std::optional<Tracker> tracker_;
+  std::size_t which_ = 0;
+  Eigen::Matrix3d R_base_cam_ = Eigen::Matrix3d::Identity();
+};
+
 }  // namespace
 
 void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEndAttitude& attitude,
                  int threads, const std::function<void(const TrackedFrame& frame)>& consume,
                  const NextImage& next_image) {
-  std::optional<Tracker> tracker;
-  std::size_t which = 0;
-  SequenceCamera camera;
+  CameraTracker camera(sequence, config);
   const auto policy = threads >= 2 ? std::launch::async : std::launch::deferred;
   const auto load = [&sequence, policy](std::size_t index) {
     return std::async(policy, [&sequence, index] { return sequence.image(index); });
@@ -62,18 +88,11 @@ void runFrontEnd(Sequence& sequence, const TrackerConfig& config, const FrontEnd
   for (std::size_t i = 0; i < sequence.size();) {
     const cv::Mat image = next.get();
     if (i + 1 < sequence.size()) next = load(i + 1);
-    frame.other_camera.reset();
-    if (!tracker || sequence.cameraOf(i) != which) {
-      which = sequence.cameraOf(i);
-      camera = sequence.cameraAt(which);
-      if (tracker) frame.other_camera = camera.T_base_cam;
-      const std::uint32_t first_track_id = tracker ? tracker->nextTrackId() : 1;
-      tracker.emplace(config, camera.intrinsics, first_track_id);
-    }
+    frame.other_camera = camera.use(i);
     frame.times_ms = {};
     StageTimer timer(frame.times_ms);
-    tracker->process(viewOf(image), sequence.stamp_ns(i), frame.features, timer.hook(),
-                     turns.at(sequence.stamp_ns(i), camera.T_base_cam.linear()));
+    camera.tracker().process(viewOf(image), sequence.stamp_ns(i), frame.features, timer.hook(),
+                             turns.at(sequence.stamp_ns(i), camera.R_base_cam()));
     consume(frame);
     const std::size_t decoded = i + 1;
     i = next_image ? next_image(i) : decoded;

@@ -36,28 +36,32 @@ std::string faultOfNext(const std::vector<StampedPose>& poses, const StampedPose
   return {};
 }
 
+constexpr std::int64_t kMaxSeconds = 9000000000;  // 64 bits of nanoseconds
+
 /// Reads "sec.fraction" digit by digit: a double has no nanoseconds left at today's epoch.
-bool parseStamp(const std::string& text, std::int64_t& stamp_ns) {
+/// @return false when it is not written so, or too large
+bool parseDigits(const std::string& text, std::int64_t& stamp_ns) {
   const bool negative = text[0] == '-';
   std::size_t i = negative || text[0] == '+' ? 1 : 0;
-  constexpr std::int64_t kMaxSeconds = 9000000000;  // 64 bits of nanoseconds
-  std::int64_t seconds = 0, fraction_ns = 0, unit_ns = 100000000;
   std::size_t digits = 0;
-  for (; i < text.size() && text[i] >= '0' && text[i] <= '9'; ++i, ++digits) {
+  const auto isDigit = [&] { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+  std::int64_t seconds = 0, fraction_ns = 0, unit_ns = 100000000;
+  for (; isDigit() && seconds <= kMaxSeconds; ++i, ++digits)
     seconds = 10 * seconds + (text[i] - '0');
-    if (seconds > kMaxSeconds) return false;
+  const bool has_fraction = i < text.size() && text[i] == '.';
+  if (has_fraction) ++i;
+  for (; has_fraction && isDigit(); ++i, ++digits) {
+    fraction_ns += unit_ns * (text[i] - '0');
+    unit_ns /= 10;
   }
-  if (i < text.size() && text[i] == '.') {
-    for (++i; i < text.size() && text[i] >= '0' && text[i] <= '9'; ++i, ++digits) {
-      fraction_ns += unit_ns * (text[i] - '0');
-      unit_ns /= 10;
-    }
-  }
-  if (i == text.size() && digits > 0) {
-    stamp_ns = seconds * 1000000000 + fraction_ns;
-    if (negative) stamp_ns = -stamp_ns;
-    return true;
-  }
+  if (i != text.size() || digits == 0 || seconds > kMaxSeconds) return false;
+  stamp_ns = seconds * 1000000000 + fraction_ns;
+  if (negative) stamp_ns = -stamp_ns;
+  return true;
+}
+
+bool parseStamp(const std::string& text, std::int64_t& stamp_ns) {
+  if (parseDigits(text, stamp_ns)) return true;
   // Exponents, as numpy.savetxt writes them: no more digits than a double has.
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());

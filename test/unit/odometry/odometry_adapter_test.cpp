@@ -44,9 +44,15 @@ struct Faults {
   bool bursts = false;
 };
 
+constexpr double kStep_s = 0.005;
+
+/// Where there are bursts: of twelve messages, five come with the stamp of the sixth.
+void addBurst(bool are_there, int i, OdometryState& message) {
+  if (are_there && i % 12 < 5) message.stamp_ns = truthAt((i - i % 12 + 5) * kStep_s).stamp_ns;
+}
+
 /// Sixty seconds at 200 Hz as the driver sends them: x and y integrated by itself.
 std::vector<OdometryState> messagesOf(const Faults& faults) {
-  constexpr double kStep_s = 0.005;
   std::vector<OdometryState> messages;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   bool has_jumped = false;
@@ -63,9 +69,7 @@ std::vector<OdometryState> messagesOf(const Faults& faults) {
     message.T_odom_base.translation().head<2>() = position_m;
     double& z_m = message.T_odom_base.translation().z();
     if (faults.whole_metres) z_m = std::floor(z_m);
-    if (faults.bursts && i % 12 < 5) {
-      message.stamp_ns = truthAt((i - i % 12 + 5) * kStep_s).stamp_ns;
-    }
+    addBurst(faults.bursts, i, message);
     messages.push_back(message);
   }
   return messages;

@@ -157,6 +157,39 @@ Finding checkPairing(const DoctorRecording& recording) {
   return finding;
 }
 
+namespace {
+
+/// The findings on the i-th calibration. @param which  of several, for their texts
+Findings checkCalibration(const DoctorRecording& recording, std::size_t i,
+                          const std::string& which) {
+  const DoctorCalibration& calibration = recording.calibrations[i];
+  const bool is_rescaled = needsRescaling(calibration);
+  if (!calibration.fault.empty() && !is_rescaled)
+    return {{"calibration", Verdict::kFault, which + calibration.fault, kCalibrate}};
+  Findings findings{judgeSize(recording, i, which)};
+  if (findings.front().check.empty()) {
+    findings.front() =
+        is_rescaled ? judgeRescaled(calibration, which) : judgeCentre(calibration.camera, which);
+  }
+  const CameraIntrinsics& camera = usedCamera(calibration);
+  if (isPlausible(camera)) findings.push_back(judgeLens(camera, which));
+  return findings;
+}
+
+/// How an image's camera is called; two that differ are two cameras.
+std::string cameraOf(const DoctorImage& image, const std::optional<std::size_t>& calibration) {
+  return text(image.frame, " ", image.width_px, "x", image.height_px,
+              calibration ? text(" with calibration ", *calibration + 1) : std::string());
+}
+
+std::string listOf(const std::set<std::string>& cameras) {
+  std::string list;
+  for (const std::string& camera : cameras) list += (list.empty() ? "" : ", ") + camera;
+  return list;
+}
+
+}  // namespace
+
 Findings checkCalibrations(const DoctorRecording& recording) {
   if (recording.calibrations.empty()) {
     if (recording.camera_info_topic.empty()) return {};
@@ -165,23 +198,10 @@ Findings checkCalibrations(const DoctorRecording& recording) {
   }
   Findings findings;
   for (std::size_t i = 0; i < recording.calibrations.size(); ++i) {
-    const DoctorCalibration& calibration = recording.calibrations[i];
     const std::string which =
         recording.calibrations.size() == 1 ? "" : text("calibration ", i + 1, ": ");
-    const bool is_rescaled = needsRescaling(calibration);
-    if (!calibration.fault.empty() && !is_rescaled) {
-      findings.push_back({"calibration", Verdict::kFault, which + calibration.fault, kCalibrate});
-      continue;
-    }
-    const Finding size = judgeSize(recording, i, which);
-    if (!size.check.empty()) {
-      findings.push_back(size);
-    } else {
-      findings.push_back(is_rescaled ? judgeRescaled(calibration, which)
-                                     : judgeCentre(calibration.camera, which));
-    }
-    const CameraIntrinsics& camera = usedCamera(calibration);
-    if (isPlausible(camera)) findings.push_back(judgeLens(camera, which));
+    const Findings of_one = checkCalibration(recording, i, which);
+    findings.insert(findings.end(), of_one.begin(), of_one.end());
   }
   return findings;
 }
@@ -197,18 +217,14 @@ Finding checkCameraSwitch(const DoctorRecording& recording) {
     const DoctorImage& image = recording.images[i];
     if (!image.fault.empty()) continue;
     const auto calibration = calibrationOf(recording, i);
-    const std::string now =
-        text(image.frame, " ", image.width_px, "x", image.height_px,
-             calibration ? text(" with calibration ", *calibration + 1) : std::string());
+    const std::string now = cameraOf(image, calibration);
     changes += !before.empty() && calibration && now != before ? 1 : 0;
     if (before.empty() || calibration) before = now;
     if (calibration || recording.calibrations.empty()) cameras.insert(now);
   }
   if (changes == 0) return {"camera_switch", Verdict::kOk, "one camera: " + before, {}};
-  std::string list;
-  for (const std::string& camera : cameras) list += (list.empty() ? "" : ", ") + camera;
   return {"camera_switch", Verdict::kWarning,
-          text("the camera changes ", changes, " times: ", list),
+          text("the camera changes ", changes, " times: ", listOf(cameras)),
           "map and pose go on where each camera has a calibration and a tf of its own"};
 }
 

@@ -57,6 +57,20 @@ std::vector<std::string> cameraFrames(const DoctorRecording& recording) {
   return frames;
 }
 
+namespace {
+
+void warnOfSecondParent(const DoctorRecording& recording, const std::string& frame,
+                        Finding& finding) {
+  const auto edge = recording.transforms.find(frame);
+  if (edge == recording.transforms.end() || edge->second.other_parent.empty()) return;
+  finding.verdict = Verdict::kWarning;
+  finding.text += text("; '", frame, "' has two parents in tf, '", edge->second.parent, "' and '",
+                       edge->second.other_parent, "'");
+  finding.remedy = "stop one of the two that publish it (tf is a tree)";
+}
+
+}  // namespace
+
 Finding checkOdometryFrames(const DoctorRecording& recording,
                             std::vector<SuggestedParameter>& parameters) {
   Finding finding{"odometry_frames", Verdict::kOk, {}, {}};
@@ -100,14 +114,7 @@ Finding checkOdometryFrames(const DoctorRecording& recording,
     finding.text += text(", but tf has '", up->second.parent, "' -> '", base, "'");
     finding.remedy = "let one name be used for both";
   }
-  for (const std::string& frame : {odom, base}) {
-    const auto edge = recording.transforms.find(frame);
-    if (edge == recording.transforms.end() || edge->second.other_parent.empty()) continue;
-    finding.verdict = Verdict::kWarning;
-    finding.text += text("; '", frame, "' has two parents in tf, '", edge->second.parent, "' and '",
-                         edge->second.other_parent, "'");
-    finding.remedy = "stop one of the two that publish it (tf is a tree)";
-  }
+  for (const std::string& frame : {odom, base}) warnOfSecondParent(recording, frame, finding);
   return finding;
 }
 

@@ -120,6 +120,20 @@ TimeOffset estimateOffset(const std::vector<ImageFeatures>& images,
   return estimator.estimate();
 }
 
+/// Whether the odometry stands still while a camera's images move.
+bool isStuck(const CameraTracks& camera, const Eigen::Isometry3d& T_base_cam,
+             const std::vector<OdometryState>& odometry) {
+  StandstillWatch watch;
+  std::size_t next = 0;
+  for (const ImageFeatures& features : camera.images) {
+    while (next < odometry.size() && odometry[next].stamp_ns < features.stamp_ns) ++next;
+    if (next == 0 || next == odometry.size()) continue;
+    const OdometryState state = interpolate(odometry[next - 1], odometry[next], features.stamp_ns);
+    watch.see(features, state.T_odom_base * T_base_cam);
+  }
+  return watch.isStuck();
+}
+
 }  // namespace
 
 Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
@@ -131,22 +145,12 @@ Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
   for (const OdometryState& state : odometry) {
     farthest_m = std::max(farthest_m, (state.T_odom_base.translation() - first).norm());
   }
-  bool is_stuck = false;
-  for (const CameraTracks& camera : tracks.cameras) {
+  const auto isCameraStuck = [&](const CameraTracks& camera) {
     const auto T_base_cam = lookUp(recording, recording.base_frame, camera.frame);
-    StandstillWatch watch;
-    std::size_t next = 0;
-    for (const ImageFeatures& features : camera.images) {
-      while (next < odometry.size() && odometry[next].stamp_ns < features.stamp_ns) ++next;
-      if (next == 0 || next == odometry.size()) continue;
-      const OdometryState state =
-          interpolate(odometry[next - 1], odometry[next], features.stamp_ns);
-      watch.see(features, state.T_odom_base * T_base_cam.value_or(Eigen::Isometry3d::Identity()));
-    }
-    is_stuck = is_stuck || watch.isStuck();
-  }
+    return isStuck(camera, T_base_cam.value_or(Eigen::Isometry3d::Identity()), odometry);
+  };
   finding.text = text("up to ", rounded(farthest_m, 2), " m from where it began");
-  if (is_stuck) {
+  if (std::any_of(tracks.cameras.begin(), tracks.cameras.end(), isCameraStuck)) {
     finding.verdict = Verdict::kFault;
     finding.text = explainStandstill(odometryTopic(recording));
   } else if (farthest_m == 0) {

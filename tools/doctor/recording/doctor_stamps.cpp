@@ -37,6 +37,21 @@ std::string percent(std::size_t part, std::size_t all) {
   return rounded(100.0 * static_cast<double>(part) / static_cast<double>(all), 1) + " %";
 }
 
+namespace {
+
+void measure(const std::vector<double>& intervals_s, StampStatistics& s) {
+  if (intervals_s.empty()) return;
+  s.interval_s = medianOf(intervals_s);
+  for (const double interval_s : intervals_s) {
+    s.duration_s += interval_s;
+    if (interval_s <= std::max(kGap_s, kGap_intervals * s.interval_s)) continue;
+    ++s.gaps;
+    s.longest_gap_s = std::max(s.longest_gap_s, interval_s);
+  }
+}
+
+}  // namespace
+
 StampStatistics statisticsOf(const std::vector<DoctorTime>& times) {
   StampStatistics s;
   s.messages = times.size();
@@ -65,14 +80,7 @@ StampStatistics statisticsOf(const std::vector<DoctorTime>& times) {
     newest_ns = time.stamp_ns;
     run = 1;
   }
-  if (intervals_s.empty()) return s;
-  s.interval_s = medianOf(intervals_s);
-  for (const double interval_s : intervals_s) {
-    s.duration_s += interval_s;
-    if (interval_s <= std::max(kGap_s, kGap_intervals * s.interval_s)) continue;
-    ++s.gaps;
-    s.longest_gap_s = std::max(s.longest_gap_s, interval_s);
-  }
+  measure(intervals_s, s);
   return s;
 }
 

@@ -59,36 +59,49 @@ bool anyTopic(const std::string& /*topic*/) {
   return true;
 }
 
+/// The topics that a role may take.
+std::vector<std::string> candidatesOf(const DoctorRecording& recording, const Role& role,
+                                      const std::function<bool(const std::string&)>& is_candidate) {
+  std::vector<std::string> candidates;
+  for (const auto& topic : recording.topics) {
+    if (isOneOf(role.types, topic.second.type) && is_candidate(topic.first))
+      candidates.push_back(topic.first);
+  }
+  return candidates;
+}
+
+/// The usual one, else the one with most messages, of those the one with the shortest name.
+std::string bestOf(const DoctorRecording& recording, const std::vector<std::string>& candidates,
+                   const std::string& usual) {
+  if (std::find(candidates.begin(), candidates.end(), usual) != candidates.end()) return usual;
+  const auto isBetter = [&recording](const std::string& a, const std::string& b) {
+    const std::size_t of_a = recording.topics.at(a).messages;
+    const std::size_t of_b = recording.topics.at(b).messages;
+    return of_a != of_b ? of_a > of_b : a.size() < b.size();
+  };
+  const auto best = std::min_element(candidates.begin(), candidates.end(), isBetter);
+  return best == candidates.end() ? std::string() : *best;
+}
+
 /// @param name  that the user gave; empty: none
 /// @param usual  taken where it fits, whatever else does
 std::string best(DoctorRecording& recording, const Role& role, const std::string& name,
                  const std::function<bool(const std::string&)>& is_candidate,
                  const std::string& usual = {}) {
-  std::string best_name;
-  std::size_t most = 0, candidates = 0;
   if (!name.empty()) {
-    best_name = named(recording, name, role.types);
-  } else {
-    for (const auto& topic : recording.topics) {
-      if (!isOneOf(role.types, topic.second.type) || !is_candidate(topic.first)) continue;
-      ++candidates;
-      const std::size_t messages = topic.second.messages;
-      const bool is_better = best_name.empty() || messages > most ||
-                             (messages == most && topic.first.size() < best_name.size());
-      if (best_name == usual && !usual.empty()) continue;
-      if (!is_better && topic.first != usual) continue;
-      best_name = topic.first;
-      most = messages;
-    }
+    const std::string chosen = named(recording, name, role.types);
+    if (!role.option.empty()) recording.replay_options.push_back(role.option + " " + chosen);
+    return chosen;
   }
-  if (candidates > 1 && best_name != usual) {
-    recording.choices.push_back(best_name + " is one of " + std::to_string(candidates) +
+  const std::vector<std::string> candidates = candidatesOf(recording, role, is_candidate);
+  const std::string chosen = bestOf(recording, candidates, usual);
+  if (candidates.size() < 2) return chosen;
+  if (chosen != usual) {
+    recording.choices.push_back(chosen + " is one of " + std::to_string(candidates.size()) +
                                 " that fit");
   }
-  if ((!name.empty() || candidates > 1) && !role.option.empty()) {
-    recording.replay_options.push_back(role.option + " " + best_name);
-  }
-  return best_name;
+  if (!role.option.empty()) recording.replay_options.push_back(role.option + " " + chosen);
+  return chosen;
 }
 
 /// What the mapper publishes is no odometry, nor is the truth.

@@ -27,10 +27,21 @@ struct HeightSample {
   std::optional<double> altitude_m;  // the drone's own, of the same stamp
 };
 
+/// The drone's own height of this stamp. In bursts several of each have one stamp: the driver sends
+/// them in turn. @param navdata  goes on to what comes behind it
+std::optional<double> takeAltitude_m(const DoctorRecording& recording, std::int64_t stamp_ns,
+                                     std::size_t& navdata) {
+  const auto& all = recording.navdata;
+  while (navdata < all.size() && all[navdata].time.stamp_ns < stamp_ns) ++navdata;
+  if (navdata == all.size() || all[navdata].time.stamp_ns != stamp_ns) return std::nullopt;
+  const auto& reading = all[navdata++].reading;
+  return reading ? std::optional<double>(reading->measured.height_m) : std::nullopt;
+}
+
 std::vector<HeightSample> samplesOf(const DoctorRecording& recording) {
   std::vector<HeightSample> samples;
   const OdometryState* before = nullptr;
-  auto navdata = recording.navdata.begin();
+  std::size_t navdata = 0;
   for (const DoctorOdometry& odometry : recording.odometry) {
     if (!odometry.state || odometry.state->stamp_ns <= 0) continue;
     const OdometryState& state = *odometry.state;
@@ -43,14 +54,7 @@ std::vector<HeightSample> samplesOf(const DoctorRecording& recording) {
       sample.t_s = samples.back().t_s + dt_s;
       sample.climbed_m = samples.back().climbed_m + (dt_s < kLongestGap_s ? climb_m_s * dt_s : 0);
     }
-    // In bursts several of each have one stamp: the driver sends them in turn.
-    while (navdata != recording.navdata.end() && navdata->time.stamp_ns < state.stamp_ns) {
-      ++navdata;
-    }
-    if (navdata != recording.navdata.end() && navdata->time.stamp_ns == state.stamp_ns) {
-      if (navdata->reading) sample.altitude_m = navdata->reading->measured.height_m;
-      ++navdata;
-    }
+    sample.altitude_m = takeAltitude_m(recording, state.stamp_ns, navdata);
     samples.push_back(sample);
     before = &state;
   }

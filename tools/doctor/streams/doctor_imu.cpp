@@ -40,6 +40,28 @@ struct Turns {
   double apart_rad = 0;
 };
 
+void add(const NavdataReading& begin, const NavdataReading& end, const Eigen::Matrix3d& felt,
+         Turns& turns) {
+  const Eigen::Vector3d told_rad =
+      rotationVectorOf(begin.measured.R_odom_base.transpose() * end.measured.R_odom_base);
+  const Eigen::Vector3d felt_rad = rotationVectorOf(felt);
+  turns.told_rad += told_rad.norm();
+  turns.felt_rad += felt_rad.norm();
+  turns.apart_rad += (told_rad - felt_rad).norm();
+}
+
+bool isSound(double dt_s, const Eigen::Vector3d& rate_rad_s, const NavdataReading& navdata) {
+  return dt_s > 0 && dt_s < kLongestStep_s && rate_rad_s.allFinite() &&
+         navdata.measured.R_odom_base.allFinite();
+}
+
+/// Index of the first one at or after a stamp. @param begin  where to begin to look
+std::size_t firstFrom(std::int64_t stamp_ns, const std::vector<const NavdataReading*>& navdata,
+                      std::size_t begin) {
+  while (begin < navdata.size() && navdata[begin]->stamp_ns < stamp_ns) ++begin;
+  return begin;
+}
+
 Turns turnsOf(const std::vector<const NavdataReading*>& navdata,
               const std::vector<const DroneImu*>& imu) {
   Turns turns;
@@ -50,26 +72,17 @@ Turns turnsOf(const std::vector<const NavdataReading*>& navdata,
     const std::int64_t stamp_ns = imu[i]->stamp_ns;
     const double dt_s = static_cast<double>(stamp_ns - imu[i - 1]->stamp_ns) * 1e-9;
     if (dt_s == 0) continue;  // of a burst one stands for all
-    while (next < navdata.size() && navdata[next]->stamp_ns < stamp_ns) ++next;
+    next = firstFrom(stamp_ns, navdata, next);
     if (next == navdata.size()) break;
     const Eigen::Vector3d& rate_rad_s = imu[i]->turn_rate_base_rad_s;
     const NavdataReading* here = navdata[next];
-    const bool is_sound = dt_s > 0 && dt_s < kLongestStep_s && rate_rad_s.allFinite() &&
-                          here->measured.R_odom_base.allFinite();
-    if (!is_sound || !begin) {
-      begin = is_sound ? here : nullptr;
-      felt.setIdentity();
-      continue;
+    const bool is_sound = isSound(dt_s, rate_rad_s, *here);
+    if (is_sound && begin) {
+      felt = felt * rotationOf(dt_s * rate_rad_s);
+      if (static_cast<double>(here->stamp_ns - begin->stamp_ns) * 1e-9 < kTurnWindow_s) continue;
+      add(*begin, *here, felt, turns);
     }
-    felt = felt * rotationOf(dt_s * rate_rad_s);
-    if (static_cast<double>(here->stamp_ns - begin->stamp_ns) * 1e-9 < kTurnWindow_s) continue;
-    const Eigen::Vector3d told_rad =
-        rotationVectorOf(begin->measured.R_odom_base.transpose() * here->measured.R_odom_base);
-    const Eigen::Vector3d felt_rad = rotationVectorOf(felt);
-    turns.told_rad += told_rad.norm();
-    turns.felt_rad += felt_rad.norm();
-    turns.apart_rad += (told_rad - felt_rad).norm();
-    begin = here;
+    begin = is_sound ? here : nullptr;
     felt.setIdentity();
   }
   return turns;

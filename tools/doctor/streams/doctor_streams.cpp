@@ -109,6 +109,26 @@ Findings checkOdometryStream(const DoctorRecording& recording) {
           checkStamps(name, s, false), checkBursts(name, s)};
 }
 
+namespace {
+
+/// Images whose stamp lies within the time of these.
+std::size_t imagesWithin(const DoctorRecording& recording, const std::vector<DoctorTime>& times) {
+  std::int64_t begin_ns = 0, end_ns = 0;
+  for (const DoctorTime& time : times) {
+    const std::int64_t stamp_ns = time.stamp_ns;
+    if (stamp_ns <= 0) continue;
+    if (begin_ns == 0 || stamp_ns < begin_ns) begin_ns = stamp_ns;
+    end_ns = std::max(end_ns, stamp_ns);
+  }
+  const auto is_within = [&](const DoctorImage& image) {
+    return image.time.stamp_ns >= begin_ns && image.time.stamp_ns <= end_ns;
+  };
+  return static_cast<std::size_t>(
+      std::count_if(recording.images.begin(), recording.images.end(), is_within));
+}
+
+}  // namespace
+
 Finding checkClock(const DoctorRecording& recording) {
   Finding finding{"clock", Verdict::kOk, {}, {}};
   const auto images_s = medianLatency_s(timesOf(recording.images));
@@ -120,17 +140,7 @@ Finding checkClock(const DoctorRecording& recording) {
     return {"clock", Verdict::kNotChecked, "needs images and odometry with stamps", {}};
   }
   const double apart_s = *images_s - *odometry_s;
-  std::int64_t begin_ns = 0, end_ns = 0;
-  for (const DoctorTime& time : odometry) {
-    const std::int64_t stamp_ns = time.stamp_ns;
-    if (stamp_ns <= 0) continue;
-    if (begin_ns == 0 || stamp_ns < begin_ns) begin_ns = stamp_ns;
-    end_ns = std::max(end_ns, stamp_ns);
-  }
-  std::size_t within = 0;
-  for (const DoctorImage& image : recording.images) {
-    if (image.time.stamp_ns >= begin_ns && image.time.stamp_ns <= end_ns) ++within;
-  }
+  const std::size_t within = imagesWithin(recording, odometry);
   const double share = static_cast<double>(within) / static_cast<double>(recording.images.size());
   finding.text = text("received after the stamp: images ", rounded(*images_s, 3), " s, ", what, " ",
                       rounded(*odometry_s, 3), " s in the median");

@@ -86,27 +86,47 @@ int WorldRenderer::blurSamples(const Exposure& exposure) const {
   return static_cast<int>(std::min<double>(kMost, std::max(1.0, std::ceil(blur_px / kApart_px))));
 }
 
-void WorldRenderer::renderBand(int band, const Scene& scene, const Exposure& exposure, int samples,
-                               std::uint64_t noise_seed, cv::Mat& image) const {
-  const int first = band * TilePyramids::kTile_px;
-  const int end = std::min(first + TilePyramids::kTile_px, camera_.height_px);
+namespace {
+
+/// Where the camera is at each sample of each row; without a rolling shutter of the first row
+/// alone.
+std::vector<Eigen::Isometry3d> posesOf(const Exposure& exposure, int first, int end, int height_px,
+                                       int samples) {
   const bool is_rolling = exposure.readout_s > 0;
   const auto offset_s = [&](int row, int sample) {
-    return (is_rolling ? ((row + 0.5) / camera_.height_px - 0.5) * exposure.readout_s : 0) +
+    return (is_rolling ? ((row + 0.5) / height_px - 0.5) * exposure.readout_s : 0) +
            ((sample + 0.5) / samples - 0.5) * exposure.shutter_s;
   };
   std::vector<Eigen::Isometry3d> T_world_cam;
   for (int row = first; row < (is_rolling ? end : first + 1); ++row) {
     for (int i = 0; i < samples; ++i) T_world_cam.push_back(exposure.motion(offset_s(row, i)));
   }
-  const Eigen::Isometry3d& middle = T_world_cam[T_world_cam.size() / 2];
+  return T_world_cam;
+}
+
+/// How far the poses are from one of them.
+PoseSlack slackAround(const Eigen::Isometry3d& middle,
+                      const std::vector<Eigen::Isometry3d>& T_world_cam) {
   PoseSlack slack;
   for (const auto& pose : T_world_cam) {
     const PoseSlack moved = slackBetween(middle, pose);
     slack.angle_rad = std::max(slack.angle_rad, moved.angle_rad);
     slack.shift_m = std::max(slack.shift_m, moved.shift_m);
   }
-  const BandSurfaces seen = tiles_->seenIn(band, scene, middle, slack);
+  return slack;
+}
+
+}  // namespace
+
+void WorldRenderer::renderBand(int band, const Scene& scene, const Exposure& exposure, int samples,
+                               std::uint64_t noise_seed, cv::Mat& image) const {
+  const int first = band * TilePyramids::kTile_px;
+  const int end = std::min(first + TilePyramids::kTile_px, camera_.height_px);
+  const bool is_rolling = exposure.readout_s > 0;
+  const std::vector<Eigen::Isometry3d> T_world_cam =
+      posesOf(exposure, first, end, camera_.height_px, samples);
+  const Eigen::Isometry3d& middle = T_world_cam[T_world_cam.size() / 2];
+  const BandSurfaces seen = tiles_->seenIn(band, scene, middle, slackAround(middle, T_world_cam));
   std::vector<SceneView> views;
   const float gain = static_cast<float>(exposure.gain) / static_cast<float>(samples);
   std::vector<float> sums(static_cast<std::size_t>(camera_.width_px));
