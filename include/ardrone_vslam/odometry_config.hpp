@@ -25,7 +25,9 @@ struct OdometryDriftConfig {
 template <class Visitor>
 void visitParameters(OdometryDriftConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"velocity_bias_m_s", "m/s", 0, 10,
-                      "slow error of the odometry's velocity, per axis", turnFirst(8)},
+                      "slow error of the odometry's velocity, per axis; msckf begins with it and "
+                      "learns it in flight",
+                      turnFirst(8)},
         c.velocity_bias_m_s);
   visit(ParameterInfo{"walk_m_per_sqrt_s", "m/sqrt(s)", 0, 10,
                       "white noise of the odometry's position per square root of time, where the "
