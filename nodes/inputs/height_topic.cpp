@@ -10,7 +10,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::uint32_t kRangeQueue = 500;
+constexpr std::uint32_t kHeightQueue = 500;
 
 }  // namespace
 
@@ -20,11 +20,11 @@ HeightTopic::HeightTopic(ros::NodeHandle nh, const HeightInputConfig& config, do
   if (config.use_range) {
     name_ = "range";
     parameter_ = "use_range";
-    subscriber_ = nh.subscribe(name_, kRangeQueue, &HeightTopic::onRange, this);
+    subscriber_ = nh.subscribe(name_, kHeightQueue, &HeightTopic::onRange, this);
   } else if (config.use_navdata_height) {
     name_ = "altitude";
     parameter_ = "use_navdata_height";
-    subscriber_ = nh.subscribe(name_, kRangeQueue, &HeightTopic::onAltitude, this);
+    subscriber_ = nh.subscribe(name_, kHeightQueue, &HeightTopic::onAltitude, this);
   }
 }
 

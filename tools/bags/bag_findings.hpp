@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sequences/sequence.hpp"
+
 namespace ardrone_vslam {
 
 /// What was dropped of a bag and what looks wrong in it, a sentence each, naming the topic.
@@ -19,10 +21,9 @@ struct BagFindings {
   /// `dropped` of `total` messages. @param what  "messages dropped: ..." and what helps
   void lose(std::size_t dropped, std::size_t total, const std::string& topic,
             const std::string& what) {
-    constexpr double kMuch = 0.05;
     if (dropped == 0) return;
     warn(topic, std::to_string(dropped) + " " + what);
-    if (static_cast<double>(dropped) > kMuch * static_cast<double>(total)) has_lost_much = true;
+    if (static_cast<double>(dropped) > kMuchLost * static_cast<double>(total)) has_lost_much = true;
   }
   void append(const BagFindings& others) {
     warnings.insert(warnings.end(), others.warnings.begin(), others.warnings.end());

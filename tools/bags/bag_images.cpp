@@ -119,11 +119,10 @@ void BagImages::report(const Counts& dropped, BagFindings& findings) const {
   found.lose(dropped.stamps, total, place_,
              "images have no stamp or one out of order; correct the driver's clock");
   if (stamps_ns_.empty()) {
-    std::string all;
-    for (const std::string& fault : found.warnings)
-      all += (all.empty() ? "" : ". ") + fault.substr(place_.size() + 2);
-    throw std::runtime_error(place_ + ": no image can be used: " +
-                             (all.empty() ? "the topic holds no message; record it again" : all));
+    std::string all = place_ + ": no image can be used";
+    if (found.warnings.empty()) all += ": the topic holds no message; record it again";
+    for (const std::string& fault : found.warnings) all += ". " + fault;
+    throw std::runtime_error(all);
   }
   findings.append(found);
 }

@@ -6,7 +6,8 @@
 
 namespace ardrone_vslam {
 
-constexpr double kPacketRate_hz = 200;  ///< of the AR.Drone with navdata_demo 0
+constexpr double kPacketRate_hz = 200;                ///< of the AR.Drone with navdata_demo 0
+constexpr double kPacketStep_s = 1 / kPacketRate_hz;  ///< from one packet to the next
 
 /// What the AR.Drone measures and sends 200 times a second. Base is its middle, x forward, y left,
 /// z up; odom is the world with its origin where the drone was when it was switched on.

@@ -7,7 +7,6 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kStep_s = 1 / kPacketRate_hz;
 constexpr std::uint64_t kSensorStream = 'S';
 constexpr double kForceNoise_m_s2 = 0.1;
 constexpr double kGyroNoise_rad_s = 0.005;
@@ -72,17 +71,18 @@ DroneSensors::DroneSensors(const OdometryProfile& profile, std::uint64_t seed)
     : profile_(atTheDrone(profile)), drift_(profile_, seed), noise_(seed, kSensorStream) {}
 
 double DroneSensors::fuseAltitude(const std::optional<double>& range_m, const DronePacket& packet) {
-  altitude_m_ += (packet.R_odom_base * packet.velocity_base_m_s).z() * kStep_s;
+  altitude_m_ += (packet.R_odom_base * packet.velocity_base_m_s).z() * kPacketStep_s;
   if (!range_m) return altitude_m_;
   const double height_m = *range_m * packet.R_odom_base(2, 2);
-  altitude_m_ =
-      has_altitude_ ? altitude_m_ + (height_m - altitude_m_) * kStep_s / kAltitudeTime_s : height_m;
+  altitude_m_ = has_altitude_
+                    ? altitude_m_ + (height_m - altitude_m_) * kPacketStep_s / kAltitudeTime_s
+                    : height_m;
   has_altitude_ = true;
   return altitude_m_;
 }
 
 DronePacket DroneSensors::measure(const FlightState& state, const std::optional<double>& range_m) {
-  const double t_s = static_cast<double>(count_) * kStep_s;
+  const double t_s = static_cast<double>(count_) * kPacketStep_s;
   // Of whole nanoseconds, as stamps have them.
   const double since_first_s = std::round(t_s * 1e9) * 1e-9;
   const Eigen::Isometry3d T_odom_base = drift_.report(state.T_world_body, since_first_s);

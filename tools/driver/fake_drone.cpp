@@ -10,7 +10,6 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kBetweenSteps_s = 1 / kPacketRate_hz;
 constexpr std::uint64_t kWindStream = 'W';
 constexpr double kWindTime_s = 10;
 constexpr double kStands_m = 0.1;   // its middle above the floor it stands on
@@ -112,7 +111,7 @@ std::string FakeDrone::command(const DroneCommand& command) {
 
 /// Ornstein-Uhlenbeck, from calm air on.
 void FakeDrone::blow() {
-  const double keep = std::exp(-kBetweenSteps_s / kWindTime_s);
+  const double keep = std::exp(-kPacketStep_s / kWindTime_s);
   const double noise_m_s = options_.wind_m_s * std::sqrt(1 - keep * keep);
   wind_m_s_.head<2>() = keep * wind_m_s_.head<2>() + noise_m_s * gusts_.normal3().head<2>();
   dynamics_.setWind(wind_m_s_);
@@ -138,10 +137,10 @@ DroneMoment FakeDrone::advance() {
   DroneMoment moment;
   if (!flight_) {
     blow();
-    dynamics_.advance(kBetweenSteps_s, command_);
+    dynamics_.advance(kPacketStep_s, command_);
   }
   if (!flight_ || begun_) ++steps_;
-  moment.t_s = static_cast<double>(steps_) * kBetweenSteps_s;
+  moment.t_s = static_cast<double>(steps_) * kPacketStep_s;
   moment.state = flight_ ? flight_->state(moment.t_s) : dynamics_.state();
   moment.packet =
       sensors_.measure(moment.state, world_.rangeBelow_m(moment.state.T_world_body, moment.t_s));

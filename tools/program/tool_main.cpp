@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <system_error>
 
@@ -77,8 +78,7 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& ru
 CLI::Validator numberWithin(double least, double most) {
   const CLI::Range range(least, most);
   const auto fault = [range](std::string& text) {
-    double number = 0;
-    const bool is_nan = CLI::detail::lexical_cast(text, number) && std::isnan(number);
+    const bool is_nan = std::isnan(std::strtod(text.c_str(), nullptr));
     return is_nan ? "'" + text + "' must be a number" : range(text);
   };
   return CLI::Validator(fault, range.get_description());

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -15,25 +14,23 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 void writeCell(std::ostream& out, double value) {
   out << ',';
   if (std::isfinite(value)) out << value;
 }
 
 double valueAt(const std::vector<double>& values, std::size_t i) {
-  return i < values.size() ? values[i] : kNone;
+  return i < values.size() ? values[i] : kNotKnown;
 }
 
 /// What the filter said, from sigma_m to camera_sigma_m.
 void writeEstimates(std::ostream& out, const FrameResult& r) {
   writeCell(out, r.sigma_m);
   for (const double known : {r.fix_nis, r.track_nis, r.velocity_bias_sigma_m_s})
-    writeCell(out, known > 0 ? known : kNone);
+    writeCell(out, known > 0 ? known : kNotKnown);
   for (int axis = 0; axis < 3; ++axis)
-    writeCell(out, r.landmark_position_map ? (*r.landmark_position_map)[axis] : kNone);
-  writeCell(out, r.landmark_position_map ? r.landmark_sigma_m : kNone);
+    writeCell(out, r.landmark_position_map ? (*r.landmark_position_map)[axis] : kNotKnown);
+  writeCell(out, r.landmark_position_map ? r.landmark_sigma_m : kNotKnown);
 }
 
 void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e) {

@@ -17,8 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
-
 Json orNull(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -51,6 +49,9 @@ void addCameraErrors(const RunEvaluation& e, bool known, Json& summary) {
   summary["camera_frames"] = camera.size();
   summary["camera_error_mean_m"] = fixed ? orNull(camera_summary.mean_m) : Json(nullptr);
   summary["camera_error_max_m"] = fixed ? orNull(camera_summary.max_m) : Json(nullptr);
+}
+
+void addNees(const RunEvaluation& e, Json& summary) {
   const std::vector<double> nees_values = finite(e.nees);
   summary["nees_mean"] =
       nees_values.empty() ? Json(nullptr) : orNull(summarise(nees_values).mean_m);
@@ -96,6 +97,7 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   summary["odometry_t_rel_percent"] = odometry_t_rel ? Json(*odometry_t_rel) : Json(nullptr);
 
   addCameraErrors(e, known, summary);
+  addNees(e, summary);
   summary["frames_without_truth"] = e.frames_without_truth;
   summary["frames_error_not_finite"] = e.frames_error_not_finite;
 }

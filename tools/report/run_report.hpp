@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -11,6 +12,8 @@
 #include "trajectory/trajectory.hpp"
 
 namespace ardrone_vslam {
+
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 /// What a run was made of; goes into every summary.
 struct RunLabel {

@@ -58,8 +58,6 @@ std::string standstillFault(const std::string& name, const RunResult& run,
   return {};
 }
 
-constexpr double kMuch = 0.05;  // of the images: without them the results are of another flight
-
 std::vector<std::string> faultsOf(const std::string& name, const RunResult& run,
                                   const RunEvaluation& evaluation) {
   std::vector<std::string> faults;
@@ -67,7 +65,7 @@ std::vector<std::string> faultsOf(const std::string& name, const RunResult& run,
   if (!standstill.empty()) faults.push_back(standstill);
   const auto left_out = static_cast<std::size_t>(run.frames_without_odometry);
   const std::size_t all = left_out + run.frames.size();
-  if (static_cast<double>(left_out) > kMuch * static_cast<double>(all)) {
+  if (static_cast<double>(left_out) > kMuchLost * static_cast<double>(all)) {
     faults.push_back(name + ": " + std::to_string(left_out) + " of " + std::to_string(all) +
                      " images have no usable odometry at their stamp; record the odometry for as "
                      "long as the images, or choose the frames that have it by --frames");

@@ -17,6 +17,9 @@
 
 namespace ardrone_vslam {
 
+/// Share of a recording whose loss makes the results those of another flight.
+constexpr double kMuchLost = 0.05;
+
 /// How a simulated odometry was made.
 struct OdometryNote {
   std::string profile;

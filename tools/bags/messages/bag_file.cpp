@@ -16,13 +16,12 @@ namespace {
 
 /// rosbag's destructor writes the index, and ends the program when that fails: a bag that could not
 /// be written is never destroyed. Its file's blocks are free again.
-[[noreturn]] void abandon(std::unique_ptr<rosbag::Bag> bag, const std::string& path) {
+void abandon(std::unique_ptr<rosbag::Bag> bag, const std::string& path) {
   static auto* const abandoned = new std::vector<std::unique_ptr<rosbag::Bag>>();
   abandoned->push_back(std::move(bag));
   std::error_code ignored;
   std::filesystem::resize_file(path, 0, ignored);
   std::filesystem::remove(path, ignored);
-  throw;
 }
 
 }  // namespace
@@ -33,22 +32,22 @@ void writeBagFile(const std::string& path, BagCompression compression,
   const std::string part = path + ".part";
   auto bag = std::make_unique<rosbag::Bag>();
   try {
-    try {
-      bag->open(part, rosbag::bagmode::Write);
-      if (compression == BagCompression::kLz4) {
-        bag->setCompression(rosbag::compression::LZ4);
-      } else if (compression == BagCompression::kBz2) {
-        bag->setCompression(rosbag::compression::BZ2);
-      }
-      write(*bag);
-      bag->close();
-      std::filesystem::rename(part, path);
-    } catch (...) {
-      abandon(std::move(bag), part);
+    bag->open(part, rosbag::bagmode::Write);
+    if (compression == BagCompression::kLz4) {
+      bag->setCompression(rosbag::compression::LZ4);
+    } else if (compression == BagCompression::kBz2) {
+      bag->setCompression(rosbag::compression::BZ2);
     }
+    write(*bag);
+    bag->close();
+    std::filesystem::rename(part, path);
   } catch (const rosbag::BagException& e) {
+    abandon(std::move(bag), part);
     throw std::runtime_error(path + ": cannot be written (" + e.what() +
                              "); check the folder, its permissions and the free space");
+  } catch (...) {
+    abandon(std::move(bag), part);
+    throw;
   }
 }
 
