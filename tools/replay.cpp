@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // replay: images and odometry of a bag or folder through tracker and mapper, without a ROS master.
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -10,12 +8,15 @@
 
 #include "config_files/config_path.hpp"
 #include "parameters/parameter_table.hpp"
+#include "program/map_options.hpp"
 #include "program/profile_option.hpp"
 #include "program/progress_line.hpp"
 #include "program/tool_main.hpp"
 #include "report/earlier_run.hpp"
 #include "report/report_runs.hpp"
+#include "report/run_files.hpp"
 #include "report/run_page.hpp"
+#include "run/loaded_map.hpp"
 #include "run/run_all.hpp"
 #include "run/run_odometry.hpp"
 #include "sequences/faulty_sequence.hpp"
@@ -40,6 +41,8 @@ struct Options {
   std::uint64_t seed = 0;
   CLI::Option* seed_option = nullptr;
   std::string seeds;
+  bool is_odometry_at_zero = false;
+  MapOptions maps;
   std::string frames;
   bool ping_pong = false;
   bool whole_pixels = false;
@@ -101,7 +104,11 @@ void addOptions(CLI::App& app, Options& o) {
   o.seed_option = addSeed(app, "--seed", o.seed, "of the odometry's noise");
   app.add_option("--seeds", o.seeds, "A:B, runs the seeds A to B and prints median and worst")
       ->excludes(o.seed_option);
+  app.add_flag(
+      "--odometry-at-zero", o.is_odometry_at_zero,
+      "simulated odometry begins at the origin, heading 0, as of a drone switched on there");
   addSequenceOptions(app, o);
+  o.maps.addTo(app);
   app.add_flag("--whole-pixels", o.whole_pixels,
                "tracks are not aligned between pixels, as the thesis has them");
   app.add_flag("--report", o.report,
@@ -150,7 +157,7 @@ std::unique_ptr<Sequence> openInput(const Options& o, const PipelineConfig& conf
 #endif
 }
 
-/// Nothing: a computer that has time for all images.
+/// @return nothing: a computer that has time for all images
 std::optional<ComputerSpeed> speedOf(const Options& o) {
   if (o.budget_option->count() + o.cpu_factor_option->count() == 0) return {};
   if (!o.speed.budget_ms && !o.seeds.empty()) {
@@ -159,10 +166,6 @@ std::optional<ComputerSpeed> speedOf(const Options& o) {
         "images; give one --seed, or --budget-ms");
   }
   return o.speed;
-}
-
-std::vector<std::uint64_t> seedsOf(const Options& o) {
-  return o.seeds.empty() ? std::vector<std::uint64_t>{o.seed} : parseSeeds(o.seeds);
 }
 
 std::vector<RunOdometry> odometriesOf(const Sequence& sequence, const Options& o) {
@@ -185,18 +188,20 @@ std::vector<RunOdometry> odometriesOf(const Sequence& sequence, const Options& o
   }
   const std::string profile =
       o.odometry_profile.empty() ? defaultProfile(o.input) : o.odometry_profile;
-  for (const std::uint64_t seed : seedsOf(o))
+  for (const std::uint64_t seed :
+       (o.seeds.empty() ? std::vector<std::uint64_t>{o.seed} : parseSeeds(o.seeds))) {
     odometries.push_back(simulatedOdometry(sequence, profile, seed));
+    if (o.is_odometry_at_zero) beginAtOrigin(odometries.back());
+  }
   return odometries;
 }
 
-/// Made before the work, so that a folder that cannot be written does not cost a run.
-void makeFolder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || access(folder.c_str(), W_OK) != 0) {
-    throw std::runtime_error(folder + ": cannot be written; choose another --out");
-  }
+RunMaps mapsOf(const Options& o, const Sequence& sequence, const PipelineConfig& config) {
+  const std::string fault = Slam::faultOfMaps(config.mapper);
+  RunMaps maps{std::nullopt, !o.maps.saved.empty()};
+  if (!fault.empty() && (maps.is_saved || !o.maps.loaded.empty())) throw UsageError(fault);
+  if (!o.maps.loaded.empty()) maps.loaded = loadMap(o.maps.loaded, sequence.camera());
+  return maps;
 }
 
 /// What is wrong with the file is a fault of the input, what --set adds to it wrong usage.
@@ -209,6 +214,7 @@ PipelineConfig configOf(const Options& given) {
   }
   std::vector<std::string> overrides = o.overrides;
   if (!o.estimator.empty()) overrides.push_back("mapper/estimator=" + o.estimator);
+  if (o.maps.localise_only) overrides.emplace_back("mapper/localise_only=true");
   const PipelineConfig config = loadConfig(o.config, {});
   if (overrides.empty()) return config;
   try {
@@ -258,20 +264,22 @@ int run(const Options& o) {
     sequence = asUsage([&] { return withFault(std::move(sequence), o.setup_fault); });
   checkHeights(*sequence, config.mapper.height_input);
   const std::vector<RunOdometry> odometries = odometriesOf(*sequence, o);
-  makeFolder(o.out);
+  const RunMaps maps = mapsOf(o, *sequence, config);
+  makeRunFolder(o.out);
   const std::string evaluate_script = o.report ? findEvaluateScript() : "";
-  std::vector<RunResult> results;
-  {
-    ProgressLine progress("replay", sequence->size());
-    results = runAll(
-        *sequence, config, odometries, o.threads,
-        [&progress](std::size_t done) { progress.update(done); }, speed);
-  }
+  auto progress = std::make_unique<ProgressLine>("replay", sequence->size());
+  std::vector<RunResult> results = runAll(
+      *sequence, config, odometries, o.threads,
+      [&progress](std::size_t done) { progress->update(done); }, speed, maps);
+  progress.reset();  // ends its line
   removeEarlierRun(o.out);
   const auto tell = [](const std::string& text) { std::cerr << "replay: " << text << '\n'; };
   const auto of_runs = reportRuns(*sequence, odometries, results,
                                   {o.out, !o.seeds.empty(), nameOf(config.mapper.estimator), tell});
   faults.insert(faults.end(), of_runs.begin(), of_runs.end());
+  if (const auto& map = results.front().map)
+    std::cout << "map of " << writeMap(o.maps.saved, *map) << " landmarks written to "
+              << o.maps.saved << '\n';
   std::cout << "written to " << o.out << '\n';
   if (o.report) writeRunPage(evaluate_script, o.out);
   for (const std::string& text : faults) tell(text);

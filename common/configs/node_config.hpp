@@ -75,6 +75,7 @@ struct MapperNodeConfig {
   std::string base_frame;  // empty: the odometry's child_frame_id
   double odometry_wait_s = 0.5;
   OutputsConfig outputs;
+  std::string map_file;  // empty: none
   int queue_size = 10;
 };
 
@@ -90,6 +91,11 @@ void visitParameters(MapperNodeConfig& c, Visitor&& visit) {
                     "how long an image waits for its odometry and extrinsics before it is dropped"},
       c.odometry_wait_s);
   visitParameters(c.outputs, visit);
+  visit(ParameterInfo{"map_file", "path", 0, 0,
+                      "of an earlier flight, in whose map this one takes place; a relative path "
+                      "begins in ~/.ros/maps (maps in ROS_HOME), where the service save_map writes "
+                      "(docs/fly_again.md); empty: none"},
+        c.map_file);
   visit(ParameterInfo{"queue_size", "images", 1, 10000, effects::kQueue}, c.queue_size);
 }
 

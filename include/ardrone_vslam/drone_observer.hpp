@@ -49,8 +49,7 @@ class DroneObserver {
   /// Packets wait no longer for an IMU reading.
   static constexpr std::int64_t kLongestWait_ns = 100'000'000;
 
-  /// @throws ConfigError listing every parameter out of its range
-  explicit DroneObserver(const DroneFilterConfig& config);
+  DroneObserver();
   ~DroneObserver();
   DroneObserver(DroneObserver&&) noexcept;             ///< takes all that waits along
   DroneObserver& operator=(DroneObserver&&) noexcept;  ///< likewise

@@ -47,11 +47,13 @@ enum class SlamState {
   kRelocated,        ///< MSCKF: as kLocalised, by landmarks looked for nearly everywhere
   kDistrusted,       ///< MSCKF: camera and odometry contradict each other, the pose is the
                      ///< odometry's (Watchdog)
+  kSearchingMap,     ///< MSCKF: the flight has not been found in the loaded map yet
 };
 /// As in Status and frames.csv, by the enumerators' order.
-constexpr std::array<const char*, 11> kSlamStateNames{
-    "building_map", "localised", "too_few_landmarks", "fix_rejected", "observer_only", "not_finite",
-    "tracking",     "resting",   "rotating",          "relocated",    "distrusted"};
+constexpr std::array<const char*, 12> kSlamStateNames{
+    "building_map",  "localised",  "too_few_landmarks", "fix_rejected",
+    "observer_only", "not_finite", "tracking",          "resting",
+    "rotating",      "relocated",  "distrusted",        "searching_map"};
 
 /// One frame's answer.
 struct FrameResult {

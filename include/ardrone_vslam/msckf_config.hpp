@@ -39,6 +39,7 @@ struct MsckfConfig {
   int max_anchors = 32;
   double fix_min_age_s = 3;
   int fix_independent_landmarks = 10;
+  bool localise_only = false;
   HeightConfig height;
 
   // No parameter, but varied by tests.
@@ -77,6 +78,10 @@ void visitParameters(MsckfConfig& c, Visitor&& visit) {
                       "landmarks of one place err alike: together they are not taken as better "
                       "than so many independent ones"},
         c.fix_independent_landmarks);
+  visit(ParameterInfo{"localise_only", "switch", 0, 0,
+                      "a loaded map is never changed: no landmark is added, moved or dropped, and "
+                      "no fix moves it. Without a loaded map there are no landmarks then"},
+        c.localise_only);
 }
 
 }  // namespace ardrone_vslam

@@ -130,20 +130,6 @@ void visitParameters(OdometryAdapterConfig& c, Visitor&& visit) {
         c.height);
 }
 
-/// What the package's own observer of the AR.Drone needs to know of the drone.
-struct DroneFilterConfig {
-  double command_tilt_deg = 12;
-};
-
-template <class Visitor>
-void visitParameters(DroneFilterConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"navdata_command_tilt_deg", "deg", 0.1, 45,
-                      "tilt at a `cmd_vel` of 1: the driver's `euler_angle_max`. Where navdata has "
-                      "a hole, what the drone was told says how it flew",
-                      ofPart(PagePart::kArDrone)},
-        c.command_tilt_deg);
-}
-
 /// Where heights above the floor come from.
 struct HeightInputConfig {
   bool use_range = false;

@@ -16,7 +16,6 @@ namespace ardrone_vslam {
 enum class PagePart {
   kUser,      ///< on its first part
   kAdvanced,  ///< behind it
-  kArDrone,   ///< of the AR.Drone's own sensors alone
   kThesis     ///< of `estimator: thesis` alone
 };
 

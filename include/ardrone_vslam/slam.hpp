@@ -9,6 +9,7 @@
 #include "ardrone_vslam/frame_result.hpp"
 #include "ardrone_vslam/landmark.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/saved_map.hpp"
 #include "ardrone_vslam/setup_watch.hpp"
 #include "ardrone_vslam/slam_config.hpp"
 #include "ardrone_vslam/stages.hpp"
@@ -49,6 +50,20 @@ class Slam {
 
   /// False with `extrinsics_sigma_deg`, which is the error of one camera's mounting.
   bool canChangeCamera() const;
+
+  /// Why a configuration can neither load nor save maps; empty when it can.
+  static std::string faultOfMaps(const SlamConfig& config);
+  /// The flight takes place in this map, where it is looked for from the first frame on. Until it
+  /// is found (FrameResult::state kSearchingMap) the pose is beside a map of its own, and its
+  /// covariance says that the place is unknown.
+  /// @throws std::invalid_argument with the faultOfMaps
+  /// @pre there was no frame yet (asserted)
+  void load(SavedMap map);
+  /// Whether a loaded map is there in which the flight has not been found.
+  bool isSearching() const;
+  /// The map for a file, up to the last frame. While isSearching() it is the flight's own alone.
+  /// @throws std::invalid_argument with the faultOfMaps
+  SavedMap save() const;
 
   /// The map, up to the last frame.
   const std::vector<Landmark>& landmarks() const;

@@ -183,7 +183,6 @@ struct SlamConfig {
   double image_time_offset_s = 0;
   OdometryBufferConfig odometry;
   OdometryAdapterConfig odometry_adapter;
-  DroneFilterConfig drone_filter;
   HeightInputConfig height_input;
   AssociationConfig association;
   ThesisFilterConfig thesis_filter;
@@ -217,7 +216,6 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
       c.planar);
   visitParameters(c.odometry, visit);
   visitParameters(c.odometry_adapter, visit);
-  visitParameters(c.drone_filter, visit);
   visitParameters(c.height_input, visit);
   visitParameters(c.association, visit);
   visitParameters(c.thesis_filter, visit);

@@ -31,6 +31,8 @@ std::uint8_t stateOf(SlamState state) {
       return Status::DISTRUSTED;
     case SlamState::kRelocated:
       return Status::RELOCATED;
+    case SlamState::kSearchingMap:
+      return Status::SEARCHING_MAP;
   }
   assert(false && "a SlamState that Status.msg does not know");
   return Status::OBSERVER_ONLY;

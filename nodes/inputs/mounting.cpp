@@ -24,8 +24,8 @@ Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
 Mounting::Mounting(const ros::NodeHandle& nh) : tf_(nh) {}
 
 std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
-                                                const std::string& camera_frame,
-                                                std::string& fault) {
+                                                const std::string& camera_frame) {
+  fault_.clear();
   if (base_frame != base_frame_) T_base_cam_.clear();
   base_frame_ = base_frame;
   const auto known = T_base_cam_.find(camera_frame);
@@ -35,12 +35,12 @@ std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
         tf_.buffer().core().lookupTransform(base_frame, camera_frame, ros::Time(0)).transform);
     const std::string wrong = extrinsicsFault(T_base_cam);
     if (wrong.empty()) return T_base_cam_[camera_frame] = T_base_cam;
-    fault = "transform from " + base_frame + " to " + camera_frame + ": " + wrong;
+    fault_ = "transform from " + base_frame + " to " + camera_frame + ": " + wrong;
   } catch (const tf2::TransformException& e) {
-    fault = "no transform from " + base_frame + " to " + camera_frame + " (" + e.what() +
-            "): publish the camera's mounting, for example by `rosrun tf2_ros "
-            "static_transform_publisher x y z yaw pitch roll " +
-            base_frame + " " + camera_frame + "`";
+    fault_ = "no transform from " + base_frame + " to " + camera_frame + " (" + e.what() +
+             "): publish the camera's mounting, for example by `rosrun tf2_ros "
+             "static_transform_publisher x y z yaw pitch roll " +
+             base_frame + " " + camera_frame + "`";
   }
   return std::nullopt;
 }

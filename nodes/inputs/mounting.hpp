@@ -20,10 +20,14 @@ class Mounting {
   explicit Mounting(const ros::NodeHandle& nh);
 
   /// The latest transform, whatever its stamp: drivers stamp the mounting later than the image.
-  /// @param fault  set, with the remedy, when there is none or none that can be (extrinsicsFault)
-  /// @return T_base_cam
+  /// @return T_base_cam; nothing when there is none or none that can be (extrinsicsFault): then
+  /// there is a fault()
   std::optional<Eigen::Isometry3d> find(const std::string& base_frame,
-                                        const std::string& camera_frame, std::string& fault);
+                                        const std::string& camera_frame);
+  /// The mounting cannot be asked for yet. @param fault  why
+  void wait(const std::string& fault) { fault_ = fault; }
+  /// What is missing and how to mend it; empty once the mounting is known.
+  const std::string& fault() const { return fault_; }
 
   /// Of the drone, as tf itself has it at this time, else the latest; nothing: it does not know.
   std::optional<Eigen::Isometry3d> T_odom_base(const std::string& odom_frame,
@@ -36,6 +40,7 @@ class Mounting {
  private:
   TfInput tf_;
   std::string base_frame_;
+  std::string fault_;
   std::map<std::string, Eigen::Isometry3d> T_base_cam_;  // by camera frame
 };
 

@@ -24,12 +24,10 @@ std::string explain(OdometryBuffer::Push answer) {
 
 // roscpp and rospy compare only the MD5 sums of the two sides, which are equal for
 // ardrone_autonomy's type and this package's, whatever their names.
-NavdataInput::NavdataInput(ros::NodeHandle nh, const DroneFilterConfig& config, Frames frames,
-                           Take take, Refuse refuse)
+NavdataInput::NavdataInput(ros::NodeHandle nh, Frames frames, Take take, Refuse refuse)
     : frames_(std::move(frames)),
       take_(std::move(take)),
       refuse_(std::move(refuse)),
-      observer_(config),
       odometry_pub_(nh.advertise<nav_msgs::Odometry>("observer_odometry", kNavdataQueue)),
       command_sub_(nh.subscribe("cmd_vel", kNavdataQueue, &NavdataInput::onCommand, this,
                                 ros::TransportHints().tcpNoDelay())),

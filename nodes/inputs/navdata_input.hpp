@@ -29,8 +29,7 @@ class NavdataInput {
   using Refuse = std::function<void(const std::string& topic, const std::string& fault)>;
 
   /// Callbacks run in the queue of `nh`.
-  NavdataInput(ros::NodeHandle nh, const DroneFilterConfig& config, Frames frames, Take take,
-               Refuse refuse);
+  NavdataInput(ros::NodeHandle nh, Frames frames, Take take, Refuse refuse);
 
   /// Of navdata.
   const ros::Subscriber& subscriber() const { return navdata_sub_; }

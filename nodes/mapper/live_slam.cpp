@@ -11,10 +11,37 @@ void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& 
     slam_->changeCamera(T_base_cam);
   } else {
     slam_ = std::make_unique<Slam>(config_, T_base_cam);
+    load(camera);
   }
   setup_.useCamera(T_base_cam, base, frame);
   camera_ = camera;
   T_base_cam_ = T_base_cam;
+}
+
+void LiveSlam::useMap(std::shared_ptr<const SavedMap> loaded) {
+  const std::string fault = Slam::faultOfMaps(config_);
+  if (loaded && !fault.empty()) throw MapFileError(fault);
+  loaded_ = std::move(loaded);
+}
+
+void LiveSlam::load(const CameraIdentity& camera) {
+  if (!loaded_) return;
+  const MapCamera now{static_cast<int>(camera.width_px), static_cast<int>(camera.height_px),
+                      camera.focal_length_px};
+  const std::string difference = cameraDifference(loaded_->camera, now);
+  if (difference.empty()) {
+    slam_->load(*loaded_);
+  } else {
+    warnings_.limited("the loaded map is not used: " + difference);
+  }
+}
+
+SavedMap LiveSlam::save() const {
+  if (!slam_ || slam_->landmarks().empty())
+    throw MapFileError("there is no landmark to save: fly first");
+  if (slam_->isSearching())
+    throw MapFileError(std::string("nothing is saved: ") + explain(SlamState::kSearchingMap));
+  return slam_->save();
 }
 
 void LiveSlam::endMap() {

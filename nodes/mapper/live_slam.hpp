@@ -4,6 +4,7 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
 #include <memory>
+#include <utility>
 
 #include "ardrone_vslam/slam.hpp"
 #include "conversions/conversions.hpp"
@@ -18,7 +19,7 @@ namespace ardrone_vslam {
 class LiveSlam {
  public:
   LiveSlam(const SlamConfig& config, Warnings& warnings)
-      : config_(config), setup_(config.image_time_offset_s, warnings) {}
+      : config_(config), warnings_(warnings), setup_(config.image_time_offset_s, warnings) {}
 
   bool hasMap() const { return slam_ != nullptr; }
   /// As useCamera() was told last.
@@ -28,6 +29,11 @@ class LiveSlam {
   /// @param base, frame  names of the drone's and the camera's frames in tf
   void useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam,
                  const std::string& base, const std::string& frame);
+  /// What begins from now on begins in this map of an earlier flight; nothing: in an empty one.
+  /// @throws MapFileError when the estimator has no use for maps
+  void useMap(std::shared_ptr<const SavedMap> loaded);
+  /// The map for a file. @throws MapFileError when there is none, or none of the loaded map's frame
+  SavedMap save() const;
   void countCameraChange() { ++counts_.camera_changes; }
   void endMap();
 
@@ -58,7 +64,11 @@ class LiveSlam {
   void fill(Status& status) const;
 
  private:
+  void load(const CameraIdentity& camera);
+
   SlamConfig config_;
+  Warnings& warnings_;
+  std::shared_ptr<const SavedMap> loaded_;
   std::unique_ptr<Slam> slam_;
   SetupReport setup_;
   CameraIdentity camera_;

@@ -2,6 +2,7 @@
 #include "mapper/mapper_nodelet.hpp"
 
 #include <pluginlib/class_list_macros.hpp>
+#include <utility>
 
 #include "conversions/frame_names.hpp"
 #include "from_ros/params.hpp"
@@ -22,11 +23,11 @@ void MapperNodelet::onInit() {
   outputs_ = std::make_unique<MapperOutputs>(getNodeHandle(), settings_.node.outputs);
   mounting_ = std::make_unique<Mounting>(getNodeHandle());
   slam_ = std::make_unique<LiveSlam>(settings_.slam, warnings_);
+  makeMaps();
   makeInputs();
   status_ = std::make_unique<MapperStatus>(
       getNodeHandle(), getPrivateNodeHandle(), getName(),
-      MapperStatus::Parts{*features_, *odometry_, *heights_, *mounting_, *matcher_, *slam_,
-                          extrinsics_fault_},
+      MapperStatus::Parts{*features_, *odometry_, *heights_, *mounting_, *matcher_, *slam_},
       warnings_);
   start();  // last: callbacks run at once, in another thread
 }
@@ -53,6 +54,24 @@ void MapperNodelet::readParameters() {
                       << (settings_.tf_prefix.empty() ? "" : " tf_prefix=" + settings_.tf_prefix));
 }
 
+void MapperNodelet::makeMaps() {
+  maps_ = std::make_unique<MapServices>(
+      getPrivateNodeHandle(), MapServices::Calls{[this] { return slam_->save(); },
+                                                 [this](std::shared_ptr<const SavedMap> map) {
+                                                   const std::string why = map ? "a map was loaded"
+                                                                               : "reset was called";
+                                                   slam_->useMap(std::move(map));
+                                                   if (slam_->hasMap()) beginMapAnew(why);
+                                                 }});
+  if (settings_.node.map_file.empty()) return;
+  try {
+    slam_->useMap(MapServices::open(settings_.node.map_file));
+  } catch (const MapFileError& e) {
+    NODELET_FATAL_STREAM(getName() << ": " << e.what());
+    throw;
+  }
+}
+
 void MapperNodelet::makeInputs() {
   ros::NodeHandle& nh = getNodeHandle();
   odometry_ = std::make_unique<OdometryTopic>(
@@ -77,7 +96,10 @@ void MapperNodelet::makeInputs() {
 
 void MapperNodelet::start() {
   ros::NodeHandle& nh = getNodeHandle();
-  timers_.every(nh, kTick_s, [this] { processReady(); });
+  timers_.every(nh, kTick_s, [this] {
+    maps_->serve();
+    processReady();
+  });
   timers_.every(nh, 1.0, [this] { onSecond(); });
   timers_.every(nh, MapperOutputs::kMapPeriod_s, [this] {
     if (slam_->hasMap()) outputs_->publishMap(slam_->slam().landmarks(), odometry_->frames().map);
@@ -96,14 +118,13 @@ bool MapperNodelet::prepareSlam(const Features& features) {
   if (slam_->hasMap() && camera == slam_->camera()) return true;
   const std::string fault = odometry_->framesFault();
   if (!fault.empty()) {
-    extrinsics_fault_ = fault;
+    mounting_->wait(fault);
     return false;
   }
   const Frames& frames = odometry_->frames();
   const std::string frame = withTfPrefix(settings_.tf_prefix, camera.frame);
-  const auto T_base_cam = mounting_->find(frames.base, frame, extrinsics_fault_);
+  const auto T_base_cam = mounting_->find(frames.base, frame);
   if (!T_base_cam) return false;
-  extrinsics_fault_.clear();
   useCamera(camera, *T_base_cam, frame);
   NODELET_INFO_STREAM("frames: " << frames.map << " -> " << frames.odom << " -> " << frames.base
                                  << " -> " << frame << ", camera at ("

@@ -11,6 +11,7 @@
 #include "inputs/mounting.hpp"
 #include "mapper/features_topic.hpp"
 #include "mapper/live_slam.hpp"
+#include "mapper/map_services.hpp"
 #include "mapper/mapper_settings.hpp"
 #include "mapper/mapper_status.hpp"
 #include "mapper/odometry_topic.hpp"
@@ -26,6 +27,7 @@ class MapperNodelet : public nodelet::Nodelet {
  private:
   void onInit() override;
   void readParameters();
+  void makeMaps();
   void makeInputs();
   void start();
 
@@ -47,8 +49,8 @@ class MapperNodelet : public nodelet::Nodelet {
   Warnings warnings_{[this](const std::string& sentence) { NODELET_WARN_STREAM(sentence); }};
   std::unique_ptr<MapperOutputs> outputs_;
   std::unique_ptr<Mounting> mounting_;
-  std::string extrinsics_fault_;  // what tf says while the mounting is unknown
   std::unique_ptr<LiveSlam> slam_;
+  std::unique_ptr<MapServices> maps_;
   std::unique_ptr<FrameMatcher> matcher_;
   std::unique_ptr<MapperStatus> status_;
   // Last, as they call: they end first.

@@ -75,10 +75,10 @@ void MapperStatus::publishWaiting(bool has_features) {
     status.reason = "no features on " + parts_.features.name() +
                     ": is the tracker running, and does it get images and camera_info? Its log "
                     "and diagnostics say";
-  } else if (!parts_.extrinsics_fault.empty()) {
+  } else if (!parts_.mounting.fault().empty()) {
     status.state = Status::WAITING_FOR_EXTRINSICS;
     status.state_name = "waiting_for_extrinsics";
-    status.reason = parts_.extrinsics_fault;
+    status.reason = parts_.mounting.fault();
   } else {
     status.state = Status::WAITING_FOR_ODOMETRY;
     status.state_name = "waiting_for_odometry";

@@ -24,7 +24,6 @@ class MapperStatus {
     const Mounting& mounting;
     const FrameMatcher& matcher;
     const LiveSlam& slam;
-    const std::string& extrinsics_fault;  ///< what tf says while the mounting is unknown
   };
 
   MapperStatus(ros::NodeHandle nh, const ros::NodeHandle& private_nh, const std::string& name,

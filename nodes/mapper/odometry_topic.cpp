@@ -36,7 +36,7 @@ void OdometryTopic::subscribe(ros::NodeHandle& nh) {
     return;
   }
   navdata_ = std::make_unique<NavdataInput>(
-      nh, settings_.slam.drone_filter,
+      nh,
       NavdataInput::Frames{settings_.node.odom_frame, settings_.node.base_frame,
                            settings_.tf_prefix},
       [this](const nav_msgs::OdometryConstPtr& odometry) { onOdometry(odometry); },

@@ -16,6 +16,8 @@ constexpr double kHole_s = 0.1;   // in which nobody knows what was done
 constexpr double kCommandsKept_s = 5;
 constexpr double kCommandHolds_s = 0.5;  // the drone hovers when it is told nothing for longer
 constexpr double kRadPerDeg = M_PI / 180;
+constexpr double kCommandTilt_deg =
+    12;  // at a cmd_vel of 1: the driver's euler_angle_max as it comes
 constexpr double kCommandTime_s = 0.12;  // in which roll and pitch follow, twice over
 constexpr double kLongestHole_s = 1;     // as the OdometryAdapter's
 constexpr double kLostSpeed_m_s = 1;     // that a drone may have flown at beyond it
@@ -119,7 +121,7 @@ void DroneFlight::bridge(const NavdataReading& packet, double flown_s) {
   auto next = std::find_if(commands_.begin(), commands_.end(),
                            [&](const DroneCommandReading& c) { return c.stamp_ns >= oldest_ns; });
   const bool is_told = next != commands_.end() && next->stamp_ns < packet.stamp_ns;
-  CommandedFlight commanded(last_->measured, config_.command_tilt_deg * kRadPerDeg, kCommandTime_s);
+  CommandedFlight commanded(last_->measured, kCommandTilt_deg * kRadPerDeg, kCommandTime_s);
   const int steps = static_cast<int>(std::ceil(flown_s / kStep_s - 1e-9));
   const double dt_s = flown_s / steps;
   DroneCommandReading command{oldest_ns, Eigen::Vector2d::Zero()};

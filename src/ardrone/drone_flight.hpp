@@ -17,8 +17,7 @@ namespace ardrone_vslam {
 class DroneFlight {
  public:
   /// @param faults  counts what is wrong with the samples; outlives the flight
-  DroneFlight(const DroneFilterConfig& config, OdometryFaultCounts& faults)
-      : config_(config), faults_(faults) {}
+  explicit DroneFlight(OdometryFaultCounts& faults) : faults_(faults) {}
 
   /// The next sample is the first of a new flight.
   void reset();
@@ -33,7 +32,6 @@ class DroneFlight {
   void bridge(const NavdataReading& packet, double flown_s);
   void useHeight(const NavdataReading& packet, double dt_s);
 
-  DroneFilterConfig config_;
   OdometryFaultCounts& faults_;
   DroneFilter filter_;
   FloorWatch floor_{kTableStep_m};

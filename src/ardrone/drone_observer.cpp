@@ -39,7 +39,7 @@ Push check(const DroneImu& imu) {
 /// What waits, and what flies; never moved, as the flight counts into it.
 class DroneObserver::State {
  public:
-  explicit State(const DroneFilterConfig& config) : flight_(config, faults_) { validate(config); }
+  State() : flight_(faults_) {}
 
   Push push(const NavdataReading& packet, std::vector<OdometryState>& ready) {
     using Added = NavdataSync::Added;
@@ -90,8 +90,7 @@ class DroneObserver::State {
   DroneFlight flight_;
 };
 
-DroneObserver::DroneObserver(const DroneFilterConfig& config)
-    : state_(std::make_unique<State>(config)) {}
+DroneObserver::DroneObserver() : state_(std::make_unique<State>()) {}
 
 DroneObserver::~DroneObserver() = default;
 DroneObserver::DroneObserver(DroneObserver&&) noexcept = default;

@@ -131,6 +131,8 @@ constexpr OldName kTable[] = {
     constant("mapper", "navdata_height_noise_m", kSensor),
     constant("mapper", "navdata_table_step_m", kSensor),
     constant("mapper", "navdata_command_time_s", kSensor),
+    constant("mapper", "navdata_command_tilt_deg",
+             "it is the driver's euler_angle_max as it comes, and only fills holes in navdata"),
     // Of odometry_fusion.
     renamed("odometry_fusion", "observer_mode", "odometry_mode"),
     renamed("odometry_fusion", "observer_height", "odometry_height"),

@@ -7,12 +7,14 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/frame_result.hpp"
+#include "ardrone_vslam/saved_map.hpp"
 #include "ardrone_vslam/setup_watch.hpp"
 #include "map/association.hpp"
 #include "map/landmark_locator.hpp"
 #include "map/landmark_map.hpp"
 #include "matching/frame_view.hpp"
 #include "odometry/odometry_step.hpp"
+#include "window/map_entry.hpp"
 
 namespace ardrone_vslam {
 
@@ -83,6 +85,13 @@ class Estimator {
   virtual void heed(const SetupFinding& finding) = 0;
   /// Whether changeCamera() may be called.
   virtual bool canChangeCamera() const { return true; }
+  /// Where the flight is in a loaded map, of which it then goes on; between predict() and
+  /// correct(). @pre the estimator keeps anchors, as faultOfMaps() asks for (asserted)
+  virtual void enterMap(const MapEntry& entry, const SavedMap& loaded, const FrameView& view,
+                        LandmarkMap& map);
+  /// The map as it is, for a file: anchors, and the landmarks that belong to them.
+  /// @pre as enterMap()
+  virtual SavedMap save(const LandmarkMap& map) const;
   /// The next frame is another camera's, on the same base.
   virtual void changeCamera(const Eigen::Isometry3d& T_base_cam) = 0;
 };

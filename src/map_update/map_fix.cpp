@@ -117,7 +117,12 @@ MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_rig,
     Eigen::Matrix<double, 2, 14> H;
     // The covariance's dilation is that of the predicted position: seen from the agreed one, the
     // fix would seem to tell the scale.
-    H.col(0) = -ray->point * (from_anchor - moved.head<3>());
+    // What is loaded has been scaled by another flight.
+    if (anchor.is_loaded) {
+      H.col(0).setZero();
+    } else {
+      H.col(0) = -ray->point * (from_anchor - moved.head<3>());
+    }
     H.middleCols<6>(1) = ray->pose;
     H.middleCols<3>(7) = ray->point;
     H.middleCols<3>(10) = -ray->point * skew(from_anchor);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "map_update/level_pose.hpp"
 #include "map_update/observation_rays.hpp"
 #include "window/rays.hpp"
 
@@ -18,16 +19,22 @@ constexpr double kParallelSine = 0.03;  // of two rays that tell no distance
 constexpr double kMostByChance = 1e-6;  // a lost drone asks in every frame
 constexpr std::size_t kFewest = 4;      // three of them are taken by the pose
 
+enum class Heading { kPredicted, kUnknown };
+
 class Relocator {
  public:
   Relocator(const Clone& predicted, const Eigen::Vector3d& camera_rig,
-            const std::vector<MapObservation>& observations, double sigma_a, double attitude_rad)
+            const std::vector<MapObservation>& observations, double sigma_a, double attitude_rad,
+            Heading heading = Heading::kPredicted)
       : predicted_(predicted),
         camera_rig_(camera_rig),
         observations_(observations),
         sigma_a_(sigma_a),
-        attitude_rad_(std::max(attitude_rad, kLeastAttitude_rad)) {}
+        attitude_rad_(std::max(attitude_rad, kLeastAttitude_rad)),
+        heading_(heading) {}
 
+  /// The pose that most observations agree with, and which; nothing when chance explains it.
+  std::optional<ObservationConsensus> consensus() const;
   /// @return the pose that most observations agree with
   std::optional<Clone> search() const;
   std::vector<std::size_t> agreeing(const Clone& pose, double slack_rad) const;
@@ -35,6 +42,7 @@ class Relocator {
   double shareByChance(const Clone& pose) const;
 
  private:
+  std::vector<Clone> posesOf(std::size_t a, std::size_t b) const;
   std::optional<Clone> poseOf(std::size_t a, std::size_t b) const;
   Clone refined(Clone pose) const;
   double off(const Clone& pose, std::size_t i, double slack_rad) const {
@@ -53,7 +61,28 @@ class Relocator {
   const std::vector<MapObservation>& observations_;
   double sigma_a_;
   double attitude_rad_;
+  Heading heading_;
 };
+
+std::vector<Clone> Relocator::posesOf(std::size_t a, std::size_t b) const {
+  std::vector<Clone> poses;
+  if (heading_ == Heading::kPredicted) {
+    if (const auto pose = poseOf(a, b)) poses.push_back(*pose);
+    return poses;
+  }
+  const MapObservation& one = observations_[a];
+  const MapObservation& other = observations_[b];
+  for (const LevelPose& level :
+       posesOfPair(predicted_.R_map_rig * one.bearing_rig, one.point_map,
+                   predicted_.R_map_rig * other.bearing_rig, other.point_map)) {
+    Clone pose = predicted_;
+    pose.R_map_rig =
+        Eigen::AngleAxisd(level.heading_rad, Eigen::Vector3d::UnitZ()) * predicted_.R_map_rig;
+    pose.position_map = level.camera_map - pose.R_map_rig * camera_rig_;
+    poses.push_back(pose);
+  }
+  return poses;
+}
 
 std::optional<Clone> Relocator::poseOf(std::size_t a, std::size_t b) const {
   const Eigen::Vector3d ray_a = predicted_.R_map_rig * observations_[a].bearing_rig;
@@ -71,13 +100,15 @@ std::optional<Clone> Relocator::poseOf(std::size_t a, std::size_t b) const {
 
 Clone Relocator::refined(Clone pose) const {
   // The prediction's attitude errs alike for all, so it is found; then what agrees is told better.
+  const Eigen::Matrix3d R_prior = pose.R_map_rig;
   for (const double slack_rad : {attitude_rad_, 0.5 * attitude_rad_, kSlack_rad, kSlack_rad}) {
     Matrix6d matrix = Matrix6d::Zero();
     Vector6d vector = Vector6d::Zero();
     const double attitude_weight = 1 / (attitude_rad_ * attitude_rad_);
-    matrix.diagonal().tail<3>().setConstant(attitude_weight);
-    vector.tail<3>() =
-        attitude_weight * rotationVectorOf(predicted_.R_map_rig * pose.R_map_rig.transpose());
+    Eigen::Vector3d weights = Eigen::Vector3d::Constant(attitude_weight);
+    if (heading_ == Heading::kUnknown) weights.z() = 0;
+    matrix.diagonal().tail<3>() = weights;
+    vector.tail<3>() = weights.cwiseProduct(rotationVectorOf(R_prior * pose.R_map_rig.transpose()));
     for (const std::size_t i : agreeing(pose, slack_rad)) {
       const MapObservation& s = observations_[i];
       const auto ray = rayResidual(pose, camera_rig_, s.bearing_rig, s.point_map);
@@ -114,20 +145,20 @@ std::optional<Clone> Relocator::search() const {
     const std::size_t a = draws.below(observations_.size());
     const std::size_t b = draws.below(observations_.size());
     if (a == b) continue;
-    const auto pose = poseOf(a, b);
-    if (!pose) continue;
-    const double rough = score(*pose, attitude_rad_);
-    if (rough <= best_rough) continue;
-    best_rough = rough;
-    const Clone better = refined(*pose);
-    const double its_score = score(better, kSlack_rad);
-    if (its_score <= best_score) continue;
-    best_score = its_score;
-    best = better;
-    // Until two right ones have been drawn with a probability of 0.999; of these every other pair
-    // lies well.
-    const double share = its_score / static_cast<double>(observations_.size());
-    samples = std::min(samples, std::log(0.001) / std::log1p(-0.5 * share * share));
+    for (const Clone& pose : posesOf(a, b)) {
+      const double rough = score(pose, attitude_rad_);
+      if (rough <= best_rough) continue;
+      best_rough = rough;
+      const Clone better = refined(pose);
+      const double its_score = score(better, kSlack_rad);
+      if (its_score <= best_score) continue;
+      best_score = its_score;
+      best = better;
+      // Until two right ones have been drawn with a probability of 0.999; of these every other pair
+      // lies well.
+      const double share = its_score / static_cast<double>(observations_.size());
+      samples = std::min(samples, std::log(0.001) / std::log1p(-0.5 * share * share));
+    }
   }
   return best;
 }
@@ -181,24 +212,35 @@ bool chanceExplains(const Clone& pose, const Eigen::Vector3d& camera_rig,
          most_by_chance;
 }
 
-std::optional<ObservationConsensus> relocate(const Clone& predicted,
-                                             const Eigen::Vector3d& camera_rig,
-                                             const std::vector<MapObservation>& observations,
-                                             double angle_sigma_rad, double attitude_sigma_rad) {
-  if (observations.size() < kFewest) return std::nullopt;
-  const Relocator relocator(predicted, camera_rig, observations, angle_sigma_rad,
-                            attitude_sigma_rad);
-  const auto pose = relocator.search();
+std::optional<ObservationConsensus> Relocator::consensus() const {
+  if (observations_.size() < kFewest) return std::nullopt;
+  const auto pose = search();
   if (!pose) return std::nullopt;
-  const std::vector<std::size_t> agreeing = relocator.agreeing(*pose, kSlack_rad);
-  if (chanceExplains(*pose, camera_rig, observations, agreeing.size(), angle_sigma_rad,
-                     kMostByChance))
+  const std::vector<std::size_t> indices = agreeing(*pose, kSlack_rad);
+  if (chanceExplains(*pose, camera_rig_, observations_, indices.size(), sigma_a_, kMostByChance))
     return std::nullopt;
   ObservationConsensus consensus;
   consensus.position_map = pose->position_map;
   consensus.R_map_rig = pose->R_map_rig;
-  for (const std::size_t i : agreeing) consensus.observations.push_back(observations[i]);
+  for (const std::size_t i : indices) consensus.observations.push_back(observations_[i]);
   return consensus;
+}
+
+std::optional<ObservationConsensus> relocate(const Clone& predicted,
+                                             const Eigen::Vector3d& camera_rig,
+                                             const std::vector<MapObservation>& observations,
+                                             double angle_sigma_rad, double attitude_sigma_rad) {
+  return Relocator(predicted, camera_rig, observations, angle_sigma_rad, attitude_sigma_rad)
+      .consensus();
+}
+
+std::optional<ObservationConsensus> relocateAnywhere(
+    const Clone& gravity, const Eigen::Vector3d& camera_rig,
+    const std::vector<MapObservation>& observations, double angle_sigma_rad,
+    double tilt_sigma_rad) {
+  return Relocator(gravity, camera_rig, observations, angle_sigma_rad, tilt_sigma_rad,
+                   Heading::kUnknown)
+      .consensus();
 }
 
 }  // namespace ardrone_vslam

@@ -22,6 +22,12 @@ std::optional<ObservationConsensus> relocate(const Clone& predicted,
                                              const std::vector<MapObservation>& observations,
                                              double angle_sigma_rad, double attitude_sigma_rad);
 
+/// The same where nothing is known of the position and the heading: a pair of rays gives both, as
+/// gravity is known (posesOfPair). @param gravity  any pose of the right roll and pitch
+std::optional<ObservationConsensus> relocateAnywhere(
+    const Clone& gravity, const Eigen::Vector3d& camera_rig,
+    const std::vector<MapObservation>& observations, double angle_sigma_rad, double tilt_sigma_rad);
+
 /// How many poses, of all that three of the matches may give, so many of them are expected to agree
 /// with if every match is wrong and agrees with the probability `share`: an upper bound (Chernoff's
 /// of the binomial tail).

@@ -44,7 +44,7 @@ void Anchors::joinNearest(WindowState& state) {
   double shortest_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < anchors.size(); ++i) {
     const double distance_m = (anchors[i].position_map - anchors[i - 1].position_map).norm();
-    if (distance_m >= shortest_m) continue;
+    if (distance_m >= shortest_m || anchors[i].is_loaded != anchors[i - 1].is_loaded) continue;
     shortest_m = distance_m;
     nearest = i;
   }

@@ -26,6 +26,10 @@ class Anchors {
   std::uint32_t current() const { return current_id_; }
   /// Points do belong to it.
   void use() { in_use_.insert(current_id_); }
+  /// Landmarks of a loaded map belong to these.
+  void useLoaded(const std::vector<Clone>& loaded) {
+    for (const Clone& anchor : loaded) re_anchoring_.begin(anchor);
+  }
   /// A frame leaves the window: as an anchor when points belong to it.
   /// @param frame  index into state.frames()
   void retire(std::size_t frame, WindowState& state);

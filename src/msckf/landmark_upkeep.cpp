@@ -93,6 +93,14 @@ void applyCorrections(const std::vector<AnchorCorrection>& corrections, const Fr
   }
 }
 
+void followTracks(const FrameView& view, const std::vector<Association>& matches,
+                  LandmarkMap& map) {
+  for (const Association& match : matches) {
+    map.atPlace(static_cast<std::size_t>(match.target)).track_id =
+        view.features().track_id[static_cast<std::size_t>(match.feature)];
+  }
+}
+
 std::vector<int> takeFailed(const AssociationResult& matches,
                             const std::vector<Association>& trusted,
                             const std::vector<ObservationVerdict>& verdicts, bool is_relocated,
@@ -128,8 +136,10 @@ int UnconfirmedLandmarks::judge(LandmarkMap& map) {
   if (setup_.is_confirmed) confirmed_id_ = newest_id_;
   if (setup_.fault == SetupFault::kNone) return 0;
   const std::size_t before = map.size();
-  for (std::size_t i = before; i-- > 0;)
-    if (map.all()[i].id > confirmed_id_) map.remove(map.all()[i].id);
+  for (std::size_t i = before; i-- > 0;) {
+    const std::uint32_t id = map.all()[i].id;
+    if (id > confirmed_id_ && !isLoaded(id)) map.remove(id);
+  }
   return static_cast<int>(before - map.size());
 }
 

@@ -32,6 +32,9 @@ void renew(const UsedTrack& one, const FrameView& view, const MsckfConfig& confi
 void applyCorrections(const std::vector<AnchorCorrection>& corrections, const FrameView& view,
                       LandmarkMap& map);
 
+/// Where the map is not to change: matched landmarks only learn which track is theirs.
+void followTracks(const FrameView& view, const std::vector<Association>& matches, LandmarkMap& map);
+
 /// Landmarks that this frame speaks against: not found though others of their place are, or off an
 /// accepted fix. The latter are no longer counted as seen in it.
 /// @param verdicts  of the matches
@@ -51,9 +54,21 @@ class UnconfirmedLandmarks {
   int judge(LandmarkMap& map);
   /// A new landmark.
   void add(std::uint32_t id) { newest_id_ = id; }
+  /// A landmark of a loaded map, which this flight's set-up did not make. Their ids follow each
+  /// other.
+  void addLoaded(std::uint32_t id) {
+    if (first_loaded_id_ == 0) first_loaded_id_ = id;
+    last_loaded_id_ = id;
+  }
 
  private:
   SetupFinding setup_;
+  bool isLoaded(std::uint32_t id) const {
+    return first_loaded_id_ != 0 && id >= first_loaded_id_ && id <= last_loaded_id_;
+  }
+
+  std::uint32_t first_loaded_id_ = 0;  // 0: none
+  std::uint32_t last_loaded_id_ = 0;
   std::uint32_t newest_id_ = 0;
   std::uint32_t confirmed_id_ = 0;  // the newest when the set-up was last confirmed
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linear/scalars.hpp"
+#include "window/map_entry.hpp"
 #include "zero_motion/scene_limit.hpp"
 
 namespace ardrone_vslam {
@@ -36,7 +37,15 @@ void Msckf::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   track_update_.changeCamera(T_rig_cam_.translation());
   T_rig_cam_ = T_base_cam;
   tracks_.changeCamera(T_rig_cam_.linear());
-  zero_motion_.changeCamera(state_);
+  zero_motion_.beginAnew(state_);
+}
+
+void Msckf::enterMap(const MapEntry& entry, const LoadedAnchors& loaded) {
+  zero_motion_.beginAnew(state_);  // it remembers odometry in the old frame
+  MapEntrance(state_).enter(entry, loaded, config_.localise_only);
+  propagator_.moveOdometry(entry.T_loaded_flight);
+  watchdog_.moveInto(entry.T_loaded_flight);
+  anchors_.useLoaded(loaded.anchors);
 }
 
 void Msckf::predict(const OdometryState& odometry, const std::optional<OdometryStep>& step) {
@@ -91,7 +100,7 @@ const std::vector<UsedTrack>& Msckf::track(const ImageFeatures& features) {
   const bool is_full = static_cast<int>(state_.frames().size()) - others > config_.max_clones;
   track_update_.apply(tracks_.takeFinished(state_.frames(), is_full), T_rig_cam_.translation(),
                       features.focal_length_px, anchors_.current(), tracks_, state_);
-  if (!track_update_.used().empty()) anchors_.use();
+  if (!track_update_.used().empty() && !config_.localise_only) anchors_.use();
   if (is_full) dropOldest();
   return track_update_.used();
 }

@@ -14,6 +14,7 @@
 #include "msckf/anchors.hpp"
 #include "msckf/track_update.hpp"
 #include "msckf/watchdog.hpp"
+#include "window/map_entry.hpp"
 #include "window/propagator.hpp"
 #include "window/track_window.hpp"
 #include "window/window_state.hpp"
@@ -58,6 +59,10 @@ class Msckf {
   std::vector<AnchorCorrection> takeCorrections(double focal_length_px) {
     return anchors_.takeCorrections(state_, track_update_.pointDistance_m(), focal_length_px);
   }
+
+  /// The flight has been found in a loaded map: all of it moves there, and odometry is given in its
+  /// frame from now on.
+  void enterMap(const MapEntry& entry, const LoadedAnchors& loaded);
 
   /// The newest frame, the error of the extrinsics included: see WindowState.
   const Clone& newest() const { return state_.newest(); }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "association/associator.hpp"
+#include "msckf/map_snapshot.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -38,9 +39,32 @@ void MsckfEstimator::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 void MsckfEstimator::predict(const OdometryState& odometry,
                              const std::optional<OdometryStep>& step) {
   time_since_fix_.see(odometry.stamp_ns);
-  started_ ? filter_.predict(odometry, step) : filter_.start(odometry);
-  started_ = true;
   T_odom_base_ = odometry.T_odom_base;
+  OdometryState moved = odometry;
+  moved.T_odom_base = T_filter_odom_ * odometry.T_odom_base;
+  std::optional<OdometryStep> moved_step = step;
+  if (moved_step) {
+    moved_step->jump_odom_m = T_filter_odom_.linear() * step->jump_odom_m;
+    moved_step->motion_odom_m = T_filter_odom_.linear() * step->motion_odom_m;
+  }
+  started_ ? filter_.predict(moved, moved_step) : filter_.start(moved);
+  started_ = true;
+}
+
+void MsckfEstimator::enterMap(const MapEntry& entry, const SavedMap& loaded, const FrameView& view,
+                              LandmarkMap& map) {
+  const LoadedAnchors anchors = anchorsOf(loaded);
+  filter_.enterMap(entry, anchors);
+  T_filter_odom_ = entry.T_loaded_flight * T_filter_odom_;
+  // What this flight has made so far goes along with its anchors.
+  applyCorrections(filter_.takeCorrections(view.focalLength_px()), view, map);
+  for (const Landmark& landmark :
+       landmarksOf(loaded, anchors, filter_.newest().stamp_ns, config_.msckf.fix_min_age_s))
+    unconfirmed_.addLoaded(map.add(landmark));
+}
+
+SavedMap MsckfEstimator::save(const LandmarkMap& map) const {
+  return savedMapOf(filter_.state(), map.all());
 }
 
 CameraPose MsckfEstimator::camera() {
@@ -128,7 +152,19 @@ MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView
   if (!is_located && filter_.motion() == CameraMotion::kRotating)
     changes.state = SlamState::kRotating;
   moveTo(camera(), view);
+  if (config_.msckf.localise_only) {
+    followTracks(view, trusted_, map);
+  } else {
+    changeLandmarks(matches, used_tracks, view, map, changes);
+  }
+  changes.feature_candidates = filter_.candidates();
+  changes.feature_matches = filter_.used();
+  return changes;
+}
 
+void MsckfEstimator::changeLandmarks(const AssociationResult& matches,
+                                     const std::vector<UsedTrack>& used, const FrameView& view,
+                                     LandmarkMap& map, MapChanges& changes) {
   applyCorrections(filter_.takeCorrections(view.focalLength_px()), view, map);
   Mapper::remember(view, trusted_, map);
   for (const Association& match : trusted_) {
@@ -138,7 +174,7 @@ MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView
   const bool is_relocated = state_ == SlamState::kRelocated;
   changes.removed_landmarks += mapper_.countFailed(
       takeFailed(matches, trusted_, filter_.verdicts(), is_relocated, map), map);
-  for (const UsedTrack& one : used_tracks) {
+  for (const UsedTrack& one : used) {
     if (const Landmark* landmark = map.find(one.track.landmark_id)) {
       renew(one, view, config_.msckf, *landmark, map);
     } else if (isWellKnown(one, view)) {
@@ -148,9 +184,6 @@ MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView
       ++changes.new_landmarks;
     }
   }
-  changes.feature_candidates = filter_.candidates();
-  changes.feature_matches = filter_.used();
-  return changes;
 }
 
 Estimate MsckfEstimator::estimate() const {

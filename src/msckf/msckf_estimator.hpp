@@ -27,11 +27,16 @@ class MsckfEstimator final : public Estimator {
   Estimate estimate() const override;
   void heed(const SetupFinding& finding) override;
   bool canChangeCamera() const override;
+  void enterMap(const MapEntry& entry, const SavedMap& loaded, const FrameView& view,
+                LandmarkMap& map) override;
+  SavedMap save(const LandmarkMap& map) const override;
   void changeCamera(const Eigen::Isometry3d& T_base_cam) override;
 
  private:
   SlamState fix(const AssociationResult& matches, const FrameView& view, const LandmarkMap& map);
   void judge(const AssociationResult& matches, const LandmarkMap& map);
+  void changeLandmarks(const AssociationResult& matches, const std::vector<UsedTrack>& used,
+                       const FrameView& view, LandmarkMap& map, MapChanges& changes);
 
   SlamConfig config_;
   Eigen::Isometry3d T_rig_cam_;
@@ -41,6 +46,8 @@ class MsckfEstimator final : public Estimator {
   TimeSinceFix time_since_fix_;
   bool started_ = false;
   Eigen::Isometry3d T_odom_base_ = Eigen::Isometry3d::Identity();
+  /// Odometry that begins in a loaded map is given to the filter as if it had begun there.
+  Eigen::Isometry3d T_filter_odom_ = Eigen::Isometry3d::Identity();
   SlamState state_ = SlamState::kBuildingMap;  // of the newest frame, by landmarks
   UnconfirmedLandmarks unconfirmed_;
   std::vector<Association> trusted_;  // the newest frame's matches that may be right

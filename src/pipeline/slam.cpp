@@ -2,16 +2,16 @@
 #include "ardrone_vslam/slam.hpp"
 
 #include <cassert>
-#include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "association/associator.hpp"
 #include "config/slam_config_faults.hpp"
 #include "map/landmark_map.hpp"
+#include "map_search/map_search.hpp"
 #include "matching/frame_view.hpp"
 #include "odometry/odometry_step.hpp"
+#include "pipeline/frame_results.hpp"
 #include "pipeline/make_estimator.hpp"
 
 namespace ardrone_vslam {
@@ -21,61 +21,17 @@ bool isFinite(const Estimate& estimate) {
   return estimate.T_map_base.matrix().allFinite() && estimate.covariance.allFinite();
 }
 
-FrameResult resultOf(const Estimate& estimate, const Correction& correction,
-                     const MapChanges& changes) {
-  FrameResult result;
-  result.state = changes.state.value_or(correction.state);
-  result.T_map_base = estimate.T_map_base;
-  result.covariance = estimate.covariance;
-  result.sigma_m = std::sqrt(estimate.covariance.topLeftCorner<3, 3>().trace() / 3);
-  result.fix_nis = estimate.fix_nis;
-  result.track_nis = estimate.track_nis;
-  result.velocity_bias_sigma_m_s = estimate.velocity_bias_sigma_m_s;
-  result.scale_error = estimate.scale_error;
-  result.scale_sigma = estimate.scale_sigma;
-  result.height = estimate.height;
-  if (correction.by_landmarks) {
-    result.landmark_position_map = correction.by_landmarks->position_map;
-    result.landmark_sigma_m = std::sqrt(correction.by_landmarks->covariance.trace() / 3);
-  }
-  result.feature_candidates = changes.feature_candidates;
-  result.feature_matches = changes.feature_matches;
-  result.new_landmarks = changes.new_landmarks;
-  result.removed_landmarks = changes.removed_landmarks;
-  result.map_features = changes.map_features;
-  return result;
-}
-
-void noteMatches(const AssociationResult& matches, FrameResult& result) {
-  result.match_method = matches.method;
-  result.landmarks_in_view = matches.in_view;
-  result.landmark_candidates = matches.candidates;
-  result.landmark_matches = static_cast<int>(matches.matches.size());
-}
-
 void refuseExtrinsics(const Eigen::Isometry3d& T_base_cam) {
   const std::string fault = extrinsicsFault(T_base_cam);
   if (!fault.empty()) throw std::invalid_argument("the camera's mounting: " + fault);
 }
 
+void refuseMaps(const SlamConfig& config) {
+  const std::string fault = Slam::faultOfMaps(config);
+  if (!fault.empty()) throw std::invalid_argument(fault);
+}
+
 }  // namespace
-
-bool isFinite(const FrameResult& r) {
-  return r.T_map_base.matrix().allFinite() && r.T_odom_base.matrix().allFinite() &&
-         (r.T_map_base.translation() - r.T_odom_base.translation()).allFinite() &&
-         r.covariance.allFinite() && std::isfinite(r.sigma_m);
-}
-
-std::string extrinsicsFault(const Eigen::Isometry3d& T_base_cam) {
-  if (!T_base_cam.matrix().allFinite())
-    return "it is not finite; correct the transform from base to camera";
-  const double farthest_m = T_base_cam.translation().cwiseAbs().maxCoeff();
-  if (farthest_m <= kFarthestCamera_m) return {};
-  std::ostringstream fault;
-  fault << "the camera is " << farthest_m << " m from base, beyond " << kFarthestCamera_m
-        << " m; correct the transform (metres are asked for)";
-  return fault.str();
-}
 
 struct Slam::State {
   State(const SlamConfig& c, const Eigen::Isometry3d& T_base_cam)
@@ -91,8 +47,21 @@ struct Slam::State {
   Associator associator;
   AssociationResult matches;
   LandmarkMap map;
+  std::unique_ptr<MapSearch> search;  // until the flight has been found
+  MapCamera seen_by;                  // the last frame
   FrameResult result;
   Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
+
+  /// Where the flight is in a loaded map; once that is known, the frame goes on there.
+  void searchMap(const ImageFeatures& features, CameraPose& camera) {
+    if (!search || !isFinite(estimator->estimate())) return;
+    const auto entry = search->see(features, camera.T_map_cam);
+    if (!entry) return;
+    estimator->enterMap(*entry, search->map(), view, map);
+    search.reset();
+    camera = estimator->camera();
+    view.reset(features, camera.T_map_cam, config.planar);
+  }
 };
 
 Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
@@ -120,6 +89,28 @@ void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   refuseExtrinsics(T_base_cam);
   state_->view.changeCamera();
   state_->estimator->changeCamera(T_base_cam);
+}
+
+std::string Slam::faultOfMaps(const SlamConfig& config) {
+  if (config.estimator == EstimatorKind::kMsckf) return {};
+  return "maps are loaded and saved with estimator msckf alone: set estimator to msckf";
+}
+
+void Slam::load(SavedMap map) {
+  assert(state_->result.stamp_ns == 0 && "a map is loaded before the first frame");
+  refuseMaps(state_->config);
+  state_->search = std::make_unique<MapSearch>(std::move(map), state_->config);
+}
+
+bool Slam::isSearching() const {
+  return state_->search != nullptr;
+}
+
+SavedMap Slam::save() const {
+  refuseMaps(state_->config);
+  SavedMap map = state_->estimator->save(state_->map);
+  map.camera = state_->seen_by;
+  return map;
 }
 
 const std::vector<Landmark>& Slam::landmarks() const {
@@ -154,6 +145,10 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   estimator.predict(odometry, step);
   CameraPose camera = estimator.camera();
   s.view.reset(features, camera.T_map_cam, s.config.planar);
+  s.seen_by = {features.width_px, features.height_px, features.focal_length_px};
+  enter(Stage::kAssociate);
+  s.searchMap(features, camera);
+  enter(Stage::kLocalise);
   moveTo(std::move(camera), s.view);
   s.matches = {};
   // Of what is not finite nothing may reach the map; the result says so.
@@ -176,45 +171,13 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   s.result.features = static_cast<int>(features.size());
   s.result.landmarks = static_cast<int>(s.map.size());
   noteMatches(s.matches, s.result);
+  if (s.search) {
+    s.result.state = SlamState::kSearchingMap;
+    forgetPlace(s.result);
+  }
   if (!isFinite(s.result)) s.result.state = SlamState::kNotFinite;
   enter(Stage::kIdle);
   return s.result;
-}
-
-const char* explain(SlamState state) {
-  switch (state) {
-    case SlamState::kBuildingMap:
-      return "no landmark yet: they appear when the camera has moved sideways by a few hundredths "
-             "of the distance to what it sees";
-    case SlamState::kLocalised:
-      return "";
-    case SlamState::kTooFewLandmarks:
-      return "fewer landmarks recognised than min_landmarks: the view is new, blurred, dark or "
-             "plain; the pose follows the odometry";
-    case SlamState::kFixRejected:
-      return "the landmarks' position disagrees with the odometry by more than both "
-             "claim; the pose follows the odometry";
-    case SlamState::kOdometryOnly:
-      return "estimator is set to odometry: the odometry is passed on without correction";
-    case SlamState::kTracking:
-      return "no place seen before is in view: the tracks correct the pose, its drift stays";
-    case SlamState::kResting:
-      return "the image is still, so the position is held; no place seen before is in view";
-    case SlamState::kRotating:
-      return "the camera turns on the spot, so the position is held; that shows no distances, so "
-             "there are no new landmarks";
-    case SlamState::kRelocated:
-      return "a place seen before was found again after the pose had become uncertain; the pose "
-             "may have jumped there";
-    case SlamState::kDistrusted:
-      return "camera and odometry contradict each other by far more than configured, so the "
-             "pose follows the odometry for 10 s, each time twice as long: check calibration and "
-             "mounting, whether the scene itself moves, and velocity_bias_m_s";
-    case SlamState::kNotFinite:
-      return "the pose is not finite and is not published; the map begins anew: check odometry, "
-             "calibration and mounting for absurd values";
-  }
-  return "";
 }
 
 }  // namespace ardrone_vslam

@@ -10,8 +10,9 @@ namespace ardrone_vslam {
 
 /// A pose of base that the filter estimates: a frame of the window, or an anchor of landmarks.
 struct Clone {
-  std::uint32_t id = 0;       ///< ascending, never used again in one run
-  std::int64_t stamp_ns = 0;  ///< of the image
+  std::uint32_t id = 0;  ///< ascending, never used again in one run; of a loaded map's from the
+                         ///< largest number downwards
+  std::int64_t stamp_ns = 0;                                ///< of the image
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();   ///< of base
   Eigen::Matrix3d R_map_rig = Eigen::Matrix3d::Identity();  ///< of the rig, which is base but for
                                                             ///< the extrinsics' error (WindowState)
@@ -20,6 +21,7 @@ struct Clone {
   Eigen::Vector3d stretch_by_bias_s_m = Eigen::Vector3d::Zero();
   std::optional<double> height_m;  ///< above the floor, measured
   double stretch = 1;              ///< by corrections of scale and bias, of what belongs to it
+  bool is_loaded = false;  ///< of an earlier flight: this one's scale and bias did not make it
 };
 
 /// Place of the pose of this id among them; nothing when there is none. O(poses).

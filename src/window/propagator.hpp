@@ -35,6 +35,11 @@ class Propagator {
   /// what was learned of the odometry's velocity and attitude is forgotten. What the frame moves by
   /// counts as its deviation. There must be no other frame.
   void returnTo(const Eigen::Isometry3d& T_map_odom, WindowState& state);
+  /// Its states from now on will be in another frame: the last one goes along.
+  void moveOdometry(const Eigen::Isometry3d& T_new_odom) {
+    odometry_.T_odom_base = T_new_odom * odometry_.T_odom_base;
+    position_odom_m_ = T_new_odom * position_odom_m_;
+  }
   /// Takes the odometry's velocity for so many times worse, in variance, as it was learned.
   void inflate(double factor, WindowState& state);
 

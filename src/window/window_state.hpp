@@ -103,7 +103,8 @@ class WindowState {
   }
 
  private:
-  friend class Propagator;  // writes mean and covariance by the odometry
+  friend class Propagator;   // writes mean and covariance by the odometry
+  friend class MapEntrance;  // and moves them into a loaded map
 
   void inject(const Eigen::VectorXd& error);
   /// What an error of bias and scale, the columns, adds to the coordinates after a correction.
@@ -115,6 +116,7 @@ class WindowState {
   Eigen::Vector3d velocity_bias_m_s_ = Eigen::Vector3d::Zero();
   double scale_error_ = 0;
   double floor_map_m_ = 0;
+  int fixed_anchors_ = 0;  // the first of anchors_
   std::vector<Clone> frames_;
   std::vector<Clone> anchors_;
   CovarianceMatrix covariance_;

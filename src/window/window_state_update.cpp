@@ -39,8 +39,11 @@ bool WindowState::update(const Information& information) {
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
   if (inner.info() != Eigen::Success) return false;
   inner.matrixU().solveInPlace<Eigen::OnTheRight>(G);
-  const Eigen::VectorXd error = G * inner.matrixL().solve(root.measured);
+  Eigen::VectorXd error = G * inner.matrixL().solve(root.measured);
   if (!error.allFinite()) return false;
+  const int fixed = kAnchor * fixed_anchors_;
+  error.segment(kGlobals, fixed).setZero();
+  const Eigen::MatrixXd P_fixed = P.block(kGlobals, kGlobals, fixed, fixed);
 
   // P - G G', of which then the dilation is turned: (I - T S) (P - G G') (I - T S)', S picking
   // bias and scale.
@@ -52,6 +55,7 @@ bool WindowState::update(const Information& information) {
   left << G, T, V;
   right << G, V, T;
   subtractSymmetricProduct(left, right, P);
+  P.block(kGlobals, kGlobals, fixed, fixed) = P_fixed;
   inject(error);
   return true;
 }
@@ -65,7 +69,7 @@ void WindowState::inject(const Eigen::VectorXd& error) {
   const auto correct = [&](Clone& pose, int at, double stretched) {
     pose.position_map += error.segment<3>(at);
     pose.R_map_rig = rotationOf(error.segment<3>(at + 3)) * pose.R_map_rig;
-    pose.stretch *= 1 - error(kScale) - stretched;
+    pose.stretch *= 1 - (pose.is_loaded ? 0 : error(kScale)) - stretched;
   };
   for (std::size_t i = 0; i < anchors_.size(); ++i) {
     const int at = anchorCoordinate(i);
@@ -83,7 +87,9 @@ WindowState::Stretch WindowState::stretchBy(const Eigen::VectorXd& error) const 
   Stretch T = Stretch::Zero(error.size(), 4);
   const auto scaled = [&](int at) { T.block<3, 1>(at, kScale - kBias) = error.segment<3>(at); };
   T(kFloor, kScale - kBias) = error(kFloor);
-  for (std::size_t i = 0; i < anchors_.size(); ++i) scaled(anchorCoordinate(i));
+  for (std::size_t i = 0; i < anchors_.size(); ++i) {
+    if (!anchors_[i].is_loaded) scaled(anchorCoordinate(i));
+  }
   scaled(frameCoordinate(frames_.size() - 1));
   for (std::size_t i = frames_.size() - 1; i-- > 0;) {
     const int at = frameCoordinate(i);

@@ -67,7 +67,7 @@ void ZeroMotionUpdate::dropReference(WindowState& state) const {
     state.removeFrame(*reference);
 }
 
-void ZeroMotionUpdate::changeCamera(WindowState& state) {
+void ZeroMotionUpdate::beginAnew(WindowState& state) {
   dropReference(state);
   reset();
 }

@@ -46,8 +46,8 @@ class ZeroMotionUpdate {
   bool keepsExtraFrame(const WindowState& state) const {
     return !reference_is_keyframe_ && indexOf(state.frames(), reference_id_);
   }
-  /// Begins anew, as another camera's images follow; a frame that was only the reference leaves.
-  void changeCamera(WindowState& state);
+  /// Begins anew; a frame that was only the reference leaves.
+  void beginAnew(WindowState& state);
   /// Begins anew; whoever calls it has removed the frames.
   void reset();
 

@@ -34,10 +34,9 @@ bool push(const rosbag::MessageInstance& instance, DroneObserver& observer, BagO
 
 }  // namespace
 
-BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
-                        const DroneFilterConfig& config, BagFindings& findings) {
+BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics, BagFindings& findings) {
   BagOdometry odometry;
-  DroneObserver observer(config);
+  DroneObserver observer;
   std::size_t refused = 0;
   std::vector<std::string> wanted{topics.navdata};
   for (const std::string& topic : {topics.imu, topics.command}) {

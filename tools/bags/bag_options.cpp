@@ -48,8 +48,7 @@ BagReadOptions BagOptions::read(const PipelineConfig& config) const {
   options.rescale_calibration = config.rescale_calibration;
   options.use_range = config.mapper.height_input.use_range;
   options.use_navdata_height = config.mapper.height_input.use_navdata_height;
-  if (config.mapper.odometry_adapter.mode == OdometryMode::kNavdata)
-    options.drone_filter = config.mapper.drone_filter;
+  options.is_odometry_of_navdata = config.mapper.odometry_adapter.mode == OdometryMode::kNavdata;
   if (options.base_frame.empty()) options.base_frame = config.base_frame;
   if (!camera_yaml_.empty()) options.camera = readCameraYaml(camera_yaml_);
   return options;

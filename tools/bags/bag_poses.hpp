@@ -26,8 +26,7 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic, BagFi
 
 /// What the package's own observer makes of the AR.Drone's navdata and, where they are, IMU and
 /// commands, as the mapper nodelet does. `findings` says how many messages it refused.
-BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics,
-                        const DroneFilterConfig& config, BagFindings& findings);
+BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics, BagFindings& findings);
 
 /// All whose stamps are in order, the ones without an echo, too.
 std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& topic,

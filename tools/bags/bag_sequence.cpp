@@ -44,8 +44,8 @@ class BagFile : public BagSequence {
     const ChosenTopics topics = chooseTopics(path, topicTypes(bag_), options);
     BagCameras cameras(bag_, topics.camera_info, options, findings_);
     images_ = std::make_unique<BagImages>(bag_, topics, cameras, findings_);
-    BagOdometry odometry = options.drone_filter
-                               ? readNavdata(bag_, topics, *options.drone_filter, findings_)
+    BagOdometry odometry = options.is_odometry_of_navdata
+                               ? readNavdata(bag_, topics, findings_)
                                : readOdometry(bag_, topics.odometry, findings_);
     ranges_ = options.use_range ? readRanges(bag_, topics.range, findings_)
                                 : readNavdataHeights(bag_, topics.navdata);

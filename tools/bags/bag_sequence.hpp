@@ -18,8 +18,8 @@ struct BagReadOptions {
   std::string camera_info_topic;
   std::string odometry_topic;  ///< nav_msgs/Odometry
   /// odometry_mode navdata: instead of odometry, the package's own observer of these.
-  std::optional<DroneFilterConfig> drone_filter;
-  std::string navdata_topic;  ///< ardrone_autonomy/Navdata; read with drone_filter or for heights
+  bool is_odometry_of_navdata = false;
+  std::string navdata_topic;  ///< ardrone_autonomy/Navdata; read as odometry or for heights
   std::string imu_topic;      ///< sensor_msgs/Imu; there may be none
   std::string command_topic;  ///< geometry_msgs/Twist; there may be none
   std::string truth_topic;    ///< PoseStamped, PoseWithCovarianceStamped or Odometry, of base

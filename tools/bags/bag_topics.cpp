@@ -147,7 +147,7 @@ void chooseNavdata(const TopicChooser& chooser, const BagReadOptions& options,
   const Role navdata{
       "navdata", "--navdata-topic", {"ardrone_autonomy/Navdata", "ardrone_vslam/Navdata"}};
   topics.navdata = chooser.choose(navdata, options.navdata_topic, any);
-  if (!options.drone_filter) return;  // only for heights, without which it goes on
+  if (!options.is_odometry_of_navdata) return;  // only for heights, without which it goes on
   if (topics.navdata.empty()) {
     chooser.refuseMissing(navdata, "record the driver's, or set odometry_mode to twist or pose");
   }
@@ -188,9 +188,10 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
   topics.truth = chooser.choose(truth, options.truth_topic, [](const std::string& topic) {
     return topic.find("truth") != std::string::npos;
   });
-  if (options.drone_filter || options.use_navdata_height) chooseNavdata(chooser, options, topics);
+  if (options.is_odometry_of_navdata || options.use_navdata_height)
+    chooseNavdata(chooser, options, topics);
   const Role odometry{"odometry", "--odometry-topic", {kOdometry}};
-  if (!options.drone_filter)
+  if (!options.is_odometry_of_navdata)
     topics.odometry =
         chooser.choose(odometry, options.odometry_topic, [&topics](const std::string& topic) {
           // What the mapper publishes is no odometry.

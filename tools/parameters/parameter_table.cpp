@@ -185,7 +185,6 @@ std::string parameterTable() {
   };
   writeTable("What to turn first", rows, out, part(PagePart::kUser));
   writeTable("Advanced", rows, out, part(PagePart::kAdvanced));
-  writeTable("AR.Drone: odometry_mode navdata", rows, out, part(PagePart::kArDrone));
   writeTable("Thesis: estimator thesis", rows, out, part(PagePart::kThesis));
   writeTable("fake_driver", rows, out, program("fake_driver"));
   writeTable("onboard: vslam_onboard (docs/onboard.md)", rows, out, program("onboard"));

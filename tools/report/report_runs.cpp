@@ -20,7 +20,11 @@ std::vector<std::string> reportRuns(const Sequence& sequence,
   std::vector<std::string> faults;
   for (std::size_t i = 0; i < results.size(); ++i) {
     bool truth_moved = false;
-    const Trajectory truth = truthFromOdometryStart(sequence.truth(), odometries[i], truth_moved);
+    // In a loaded map the odometry begins anywhere: there the truth is that map's.
+    const Trajectory truth =
+        results[i].is_in_loaded_map
+            ? sequence.truth()
+            : truthFromOdometryStart(sequence.truth(), odometries[i], truth_moved);
     const RunEvaluation evaluation = evaluate(results[i], truth);
     const RunVerdict verdict = judgeRun(sequence.name(), results[i], evaluation, truth_moved);
     for (const std::string& text : verdict.warnings) options.warn(text);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/run_files.hpp"
 
+#include <unistd.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -76,6 +78,14 @@ void writeLandmarks(std::ostream& out, const RunResult& run) {
 }
 
 }  // namespace
+
+void makeRunFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || access(folder.c_str(), W_OK) != 0) {
+    throw std::runtime_error(folder + ": cannot be written; choose another --out");
+  }
+}
 
 std::string seedFolder(const std::string& folder, std::uint64_t seed) {
   return folder + "/seed_" + std::to_string(seed);

@@ -18,6 +18,10 @@ constexpr std::array<const char*, 6> kRunFiles{"odometry.tum", "fused.tum",     
 constexpr std::array<const char*, 2> kPageFiles{"report.html", "evaluation.json"};
 
 /// Where the files of one of several seeds go.
+/// Made before the work, so that a folder that cannot be written does not cost a run.
+/// @throws std::runtime_error
+void makeRunFolder(const std::string& folder);
+
 std::string seedFolder(const std::string& folder, std::uint64_t seed);
 
 /// Writes kRunFiles (truth.tum if it is known) into the folder, which is made. @throws

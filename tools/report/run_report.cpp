@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ardrone_vslam/instruction_set.hpp"
+#include "report/map_summary.hpp"
 #include "trajectory/metrics.hpp"
 
 namespace ardrone_vslam {
@@ -161,18 +162,21 @@ bool isNotFinite(const Landmark& landmark) {
 RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
   constexpr std::int64_t kLongestTruthGap_ns = 1'000'000'000;
   RunEvaluation e;
+  e.found_frame = static_cast<std::size_t>(countSearching(run));
+  const Eigen::Isometry3d T_map_odom = T_map_odomWhenFound(run, e.found_frame);
   for (const RunFrame& frame : run.frames) {
     const FrameResult& r = frame.result;
     const std::int64_t exposed_ns = r.stamp_ns + std::llround(run.image_time_offset_s * 1e9);
     const StampedPose fused{exposed_ns, r.T_map_base};
-    const StampedPose odometry{exposed_ns, r.T_odom_base};
+    const StampedPose odometry{exposed_ns, T_map_odom * r.T_odom_base};
     e.fused.append(fused);
     e.odometry.append(odometry);
     double camera_error = kNotKnown;
     double fused_nees = kNotKnown;
     double fused_error = kNotKnown;
     double odometry_error = kNotKnown;
-    if (truth.covers(exposed_ns, kLongestTruthGap_ns)) {
+    if (r.state == SlamState::kSearchingMap) {  // nowhere
+    } else if (truth.covers(exposed_ns, kLongestTruthGap_ns)) {
       const Eigen::Isometry3d T_map_base = truth.at(exposed_ns);
       e.truth.append({exposed_ns, T_map_base});
       e.fused_at_truth.append(fused);
@@ -180,7 +184,7 @@ RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
       const Eigen::Vector3d position = T_map_base.translation();
       const Eigen::Vector3d error = r.T_map_base.translation() - position;
       fused_error = error.norm();
-      odometry_error = (r.T_odom_base.translation() - position).norm();
+      odometry_error = (odometry.T_map_base.translation() - position).norm();
       fused_nees = nees(error, r.covariance.topLeftCorner<3, 3>());
       if (!std::isfinite(fused_error + odometry_error)) ++e.frames_error_not_finite;
       if (r.landmark_position_map) camera_error = (*r.landmark_position_map - position).norm();
@@ -218,6 +222,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
           ? Json(nullptr)
           : Json(static_cast<double>(run.setup_fault_ns - run.frames.front().result.stamp_ns) *
                  1e-9);
+  addMap(run, evaluation.found_frame, summary);
   summary["odometry_steps"] =
       std::count_if(run.frames.begin(), run.frames.end(),
                     [](const RunFrame& f) { return f.result.odometry_step_m > 0; });

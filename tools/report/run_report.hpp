@@ -18,19 +18,20 @@ constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 /// What a run was made of; goes into every summary.
 struct RunLabel {
   std::string sequence;
-  std::string profile;                ///< "recorded": the bag's or folder's own odometry
+  std::string profile;                ///< "recorded": the input's own odometry
   std::optional<std::uint64_t> seed;  ///< nothing for a real odometry
   std::string estimator;
 };
 
-/// A run's trajectories at the images' exposures (stamps plus image_time_offset_s) and its errors;
-/// these have an entry for each frame, NaN where there is no truth.
+/// A run's trajectories at the exposures (stamps plus image_time_offset_s) and its errors: an entry
+/// for each frame, NaN where there is no truth.
 struct RunEvaluation {
   Trajectory fused;
-  Trajectory odometry;        ///< T_odom_base; map equals odom at the start
+  Trajectory odometry;        ///< map equals odom at the start, or where a loaded map was found
   Trajectory truth;           ///< at the frames that it covers
   Trajectory fused_at_truth;  ///< at the same frames
   Trajectory odometry_at_truth;
+  std::size_t found_frame = 0;   ///< the errors leave out those before: a loaded map was searched
   int frames_without_truth = 0;  ///< before, after, or in gaps of the truth of more than a second
   /// The truth is known, but fused or odometry error is not finite; left out of all means.
   int frames_error_not_finite = 0;

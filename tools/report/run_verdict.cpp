@@ -63,6 +63,10 @@ std::vector<std::string> faultsOf(const std::string& name, const RunResult& run,
   std::vector<std::string> faults;
   const std::string standstill = standstillFault(name, run, evaluation.truth);
   if (!standstill.empty()) faults.push_back(standstill);
+  if (run.is_in_loaded_map && evaluation.found_frame == run.frames.size()) {
+    faults.push_back(name + ": the flight was not found in the loaded map, and no map is saved: " +
+                     explain(SlamState::kSearchingMap));
+  }
   const auto left_out = static_cast<std::size_t>(run.frames_without_odometry);
   const std::size_t all = left_out + run.frames.size();
   if (static_cast<double>(left_out) > kMuchLost * static_cast<double>(all)) {

@@ -20,6 +20,11 @@ BackEnd::BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
   run_.image_time_offset_s = config.image_time_offset_s;
 }
 
+void BackEnd::load(const SavedMap& map) {
+  slam_.load(map);
+  run_.is_in_loaded_map = true;
+}
+
 void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   if (!slam_.canChangeCamera())
     throw std::runtime_error(
@@ -64,7 +69,8 @@ void BackEnd::watchSetup(const ImageFeatures& features) {
   if (is_fault && run_.setup_fault_ns == 0) run_.setup_fault_ns = features.stamp_ns;
 }
 
-RunResult BackEnd::finish() {
+RunResult BackEnd::finish(bool is_map_saved) {
+  if (is_map_saved && !slam_.isSearching()) run_.map = slam_.save();
   run_.time_offset = time_offset_.estimate();
   run_.images_travel = watch_.isStuck();
   run_.absurd_speed_m_s = odometry_.absurdSpeed_m_s();
@@ -77,10 +83,21 @@ RunResult BackEnd::finish() {
   return std::move(run_);
 }
 
+namespace {
+
+std::int64_t countOf(const RunResult& run, SlamState state) {
+  return std::count_if(run.frames.begin(), run.frames.end(),
+                       [state](const RunFrame& frame) { return frame.result.state == state; });
+}
+
+}  // namespace
+
 std::int64_t countDistrusted(const RunResult& run) {
-  return std::count_if(run.frames.begin(), run.frames.end(), [](const RunFrame& frame) {
-    return frame.result.state == SlamState::kDistrusted;
-  });
+  return countOf(run, SlamState::kDistrusted);
+}
+
+std::int64_t countSearching(const RunResult& run) {
+  return countOf(run, SlamState::kSearchingMap);
 }
 
 }  // namespace ardrone_vslam

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/saved_map.hpp"
 #include "ardrone_vslam/setup_watch.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/time_offset.hpp"
@@ -29,6 +30,8 @@ struct RunFrame {
 struct RunResult {
   std::vector<RunFrame> frames;
   std::vector<Landmark> landmarks;
+  bool is_in_loaded_map = false;  ///< frames before it was found there are kSearchingMap
+  std::optional<SavedMap> map;    ///< when it was asked for, and is not that of another origin
   int frames_without_odometry =
       0;  ///< no odometry at the image's stamp: before the first state, in a gap, or after the last
   int frames_dropped_slow = 0;      ///< that the emulated slower computer had no time for
@@ -53,6 +56,15 @@ struct RunResult {
 /// Images at which the camera was left out, by a fault of the set-up or by the watchdog.
 std::int64_t countDistrusted(const RunResult& run);
 
+/// The maps of a run.
+struct RunMaps {
+  std::optional<SavedMap> loaded;  ///< in which the flight takes place
+  bool is_saved = false;           ///< into RunResult::map
+};
+
+/// Images before the flight was found in a loaded map.
+std::int64_t countSearching(const RunResult& run);
+
 /// Called with the number of images done, from the calling thread.
 using Progress = std::function<void(std::size_t)>;
 
@@ -63,10 +75,13 @@ class BackEnd {
  public:
   BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
           const std::vector<OdometryState>& odometry, std::vector<RangeReading> ranges = {});
+  /// Before the first frame. @throws std::invalid_argument as Slam::load
+  void load(const SavedMap& map);
   /// @throws std::runtime_error when the camera changes and extrinsics_sigma_deg forbids it
   /// @return what the image has cost, front end included [ms]
   double process(const TrackedFrame& frame);
-  RunResult finish();
+  /// @param is_map_saved  the map goes along. @throws std::invalid_argument as Slam::save
+  RunResult finish(bool is_map_saved = false);
 
  private:
   void changeCamera(const Eigen::Isometry3d& T_base_cam);

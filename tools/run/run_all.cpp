@@ -25,8 +25,11 @@ void forEach(std::size_t count, int threads, const Work& work) {
 }  // namespace
 
 void BackEnds::add(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
-                   const RunOdometry& odometry, const std::vector<RangeReading>& ranges) {
+                   const RunOdometry& odometry, const std::vector<RangeReading>& ranges,
+                   const RunMaps& maps) {
   back_ends_.push_back(std::make_unique<BackEnd>(config, T_base_cam, odometry.run.states, ranges));
+  if (maps.loaded) back_ends_.back()->load(*maps.loaded);
+  are_maps_saved_ = maps.is_saved;
   scale_errors_.push_back(odometry.run.scale_error);
 }
 
@@ -40,7 +43,7 @@ double BackEnds::process(const TrackedFrame& frame) {
 std::vector<RunResult> BackEnds::finish() {
   std::vector<RunResult> results;
   for (std::size_t i = 0; i < back_ends_.size(); ++i) {
-    results.push_back(back_ends_[i]->finish());
+    results.push_back(back_ends_[i]->finish(are_maps_saved_));
     results.back().scale_error = scale_errors_[i];
   }
   return results;
@@ -48,10 +51,11 @@ std::vector<RunResult> BackEnds::finish() {
 
 std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
                               const std::vector<RunOdometry>& odometries, int threads,
-                              const Progress& progress, const std::optional<ComputerSpeed>& speed) {
+                              const Progress& progress, const std::optional<ComputerSpeed>& speed,
+                              const RunMaps& maps) {
   BackEnds back_ends(threads);
   for (const RunOdometry& odometry : odometries)
-    back_ends.add(config.mapper, sequence.T_base_cam(), odometry, sequence.ranges());
+    back_ends.add(config.mapper, sequence.T_base_cam(), odometry, sequence.ranges(), maps);
   SlowComputer computer(speed.value_or(ComputerSpeed{}));
   NextImage next_image;
   double cost_ms = 0;

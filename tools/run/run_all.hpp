@@ -20,7 +20,8 @@ class BackEnds {
   explicit BackEnds(int threads) : threads_(threads) {}
   /// @param odometry  must outlive this
   void add(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
-           const RunOdometry& odometry, const std::vector<RangeReading>& ranges = {});
+           const RunOdometry& odometry, const std::vector<RangeReading>& ranges = {},
+           const RunMaps& maps = {});
   /// @return what the image has cost where it cost most [ms]
   double process(const TrackedFrame& frame);
   /// In the order of add().
@@ -28,6 +29,7 @@ class BackEnds {
 
  private:
   int threads_;
+  bool are_maps_saved_ = false;
   std::vector<std::unique_ptr<BackEnd>> back_ends_;
   std::vector<double> scale_errors_;
 };
@@ -38,6 +40,7 @@ class BackEnds {
 std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
                               const std::vector<RunOdometry>& odometries, int threads,
                               const Progress& progress,
-                              const std::optional<ComputerSpeed>& speed = {});
+                              const std::optional<ComputerSpeed>& speed = {},
+                              const RunMaps& maps = {});
 
 }  // namespace ardrone_vslam

@@ -60,6 +60,16 @@ RunOdometry simulatedOdometry(const Sequence& sequence, const std::string& profi
                            seed)};
 }
 
+void beginAtOrigin(RunOdometry& odometry) {
+  if (odometry.run.states.empty()) return;
+  const Eigen::Isometry3d first = odometry.run.states.front().T_odom_base;
+  const Eigen::Vector3d forward = first.linear().col(0);
+  const Eigen::AngleAxisd back(-std::atan2(forward.y(), forward.x()), Eigen::Vector3d::UnitZ());
+  const Eigen::Isometry3d T_new_old = back * Eigen::Translation3d(-first.translation());
+  for (OdometryState& state : odometry.run.states)
+    state.T_odom_base = T_new_old * state.T_odom_base;
+}
+
 Trajectory truthFromOdometryStart(const Trajectory& truth, const RunOdometry& odometry,
                                   bool& moved) {
   moved = false;

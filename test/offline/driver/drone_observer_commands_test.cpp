@@ -21,7 +21,7 @@ double errorBeyondHole_m(int hole_at, bool is_told) {
   drone.takeOff();
   drone.advance(6, {});
   const Eigen::Vector3d begin_m = drone.state().T_world_body.translation();
-  DroneObserver observer{DroneFilterConfig{}};
+  DroneObserver observer;
   std::vector<OdometryState> states;
   NavdataReading reading;
   reading.stamp_ns = kBegin_ns;

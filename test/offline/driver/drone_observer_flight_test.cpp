@@ -46,7 +46,7 @@ std::vector<NavdataReading> readingsOf(const DroneFlight& flight) {
 class DroneObserverFlight : public ::testing::Test {
  protected:
   void observe(const std::vector<NavdataReading>& readings) {
-    observer_ = DroneObserver{DroneFilterConfig{}};
+    observer_ = DroneObserver{};
     states_.clear();
     refused_ = 0;
     for (const NavdataReading& reading : readings) {
@@ -84,7 +84,7 @@ class DroneObserverFlight : public ::testing::Test {
     return observer_.faults()[static_cast<std::size_t>(fault)];
   }
 
-  DroneObserver observer_{DroneFilterConfig{}};
+  DroneObserver observer_;
   std::vector<OdometryState> states_;
   int refused_ = 0;
 };
@@ -159,7 +159,7 @@ TEST_F(DroneObserverFlight, TheOrderOfNavdataAndImuDoesNotMatter) {
     for (std::size_t k = i; k < i + 5; ++k) readings[k].stamp_ns = readings[i + 5].stamp_ns;
   std::vector<std::vector<OdometryState>> runs;
   for (const std::size_t late : {0, 1, 7}) {
-    DroneObserver observer{DroneFilterConfig{}};
+    DroneObserver observer;
     std::vector<OdometryState> states;
     for (std::size_t i = 0; i < readings.size() + late; ++i) {
       if (i < readings.size()) observer.push(readings[i], states);
@@ -240,7 +240,7 @@ TEST_F(DroneObserverFlight, StampsThatBeginAnewBeginANewFlight) {
   const std::vector<OdometryState> once = states_;
   auto twice = readings;
   twice.insert(twice.end(), readings.begin(), readings.end());
-  DroneObserver observer{DroneFilterConfig{}};
+  DroneObserver observer;
   std::vector<OdometryState> states;
   for (const auto& reading : twice) observer.push(reading, states);
   observer.flush(states);

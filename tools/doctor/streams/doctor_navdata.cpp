@@ -134,7 +134,7 @@ Findings checkStream(const StreamName& name, const std::string& topic,
 
 AdaptedOdometry observeNavdata(const DoctorRecording& recording) {
   AdaptedOdometry observed;
-  DroneObserver observer{DroneFilterConfig()};
+  DroneObserver observer;
   auto imu = recording.imu.begin();
   const auto takeImu = [&](std::int64_t until_ns) {
     for (; imu != recording.imu.end() && imu->time.received_ns <= until_ns; ++imu) {

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ardrone_vslam/landmark.hpp"
+
+namespace ardrone_vslam {
+
+/// A pose of an earlier flight that landmarks belong to: they share its error.
+struct MapAnchor {
+  Eigen::Isometry3d T_map_rig = Eigen::Isometry3d::Identity();  ///< as Clone has it
+  std::int64_t stamp_ns = 0;                                    ///< of its image
+};
+
+/// As much of a camera as a map depends on: descriptors look otherwise to another one.
+struct MapCamera {
+  int width_px = 0;            ///< of the images
+  int height_px = 0;           ///< of the images
+  double focal_length_px = 0;  ///< geometric mean of fx and fy
+};
+
+/// A map as it outlives the flight: what a later one needs to find itself in it and to know how
+/// well (docs/map_files.md has its file).
+struct SavedMap {
+  /// Coordinates of an anchor in the covariance: position [m], attitude (a rotation vector, axes of
+  /// map) [rad], and the share by which the landmarks' distances from it err together [-].
+  static constexpr int kAnchor = 7;
+
+  std::string frame_id = "map";       ///< that the positions are in
+  std::int64_t stamp_ns = 0;          ///< of the last image that it was made of
+  MapCamera camera;                   ///< that saw it last
+  std::vector<MapAnchor> anchors;     ///< oldest first
+  Eigen::MatrixXd anchor_covariance;  ///< of all anchors, kAnchor coordinates each
+  std::vector<Landmark> landmarks;    ///< `anchor_id` is 1 + the index into `anchors`
+};
+
+/// A map file that cannot be read, and why; a file that cannot be written.
+class MapFileError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes the map into a file beside `path` first, and onto the disk, so that there is always the
+/// old map or the new one. The same bytes on every processor. Landmarks with an anchor that is not
+/// there, or with numbers that cannot be (not finite, a negative variance, a view direction of
+/// another length than 1), are left out.
+/// @throws MapFileError naming the file and what is wrong
+/// @return landmarks written
+std::size_t writeMap(const std::string& path, const SavedMap& map);
+
+/// Reads a map file of this or an earlier version and checks all of it before it answers.
+/// @throws MapFileError naming the file, what is wrong and what to do
+SavedMap readMap(const std::string& path);
+
+/// What tells the camera of a map from another one (another calibration of one camera is the same);
+/// empty when nothing does.
+std::string cameraDifference(const MapCamera& of_map, const MapCamera& other);
+
+}  // namespace ardrone_vslam

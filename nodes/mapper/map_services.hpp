@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ardrone_vslam/MapFile.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <std_srvs/Trigger.h>
+
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "ardrone_vslam/saved_map.hpp"
+
+namespace ardrone_vslam {
+
+/// The services save_map, load_map and reset, whose files are in ~/.ros/maps (maps in ROS_HOME).
+/// They are read and written in a thread of its own, so that no pose waits for a disk; what
+/// concerns the map in use is done by serve(), in the mapper's thread.
+class MapServices {
+ public:
+  /// Called in the mapper's thread.
+  struct Calls {
+    std::function<SavedMap()> save;  ///< @throws MapFileError when there is nothing to save
+    std::function<void(std::shared_ptr<const SavedMap>)> use;  ///< nothing: an empty map
+  };
+
+  MapServices(const ros::NodeHandle& private_nh, Calls calls);
+  ~MapServices();
+  MapServices(const MapServices&) = delete;
+  MapServices& operator=(const MapServices&) = delete;
+
+  /// Does what services wait for. In the mapper's thread, often.
+  void serve();
+
+  /// @param file  a path; relative ones begin in the folder of maps. @throws MapFileError
+  static std::shared_ptr<const SavedMap> open(const std::string& file);
+
+ private:
+  bool onSave(MapFile::Request& request, MapFile::Response& response);
+  bool onLoad(MapFile::Request& request, MapFile::Response& response);
+  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void inMapperThread(const std::function<void()>& work);
+
+  Calls calls_;
+  std::mutex mutex_;
+  std::vector<std::packaged_task<void()>> tasks_;  // for serve()
+  bool has_ended_ = false;
+  ros::CallbackQueue queue_;
+  ros::NodeHandle nh_;
+  std::vector<ros::ServiceServer> servers_;
+  ros::AsyncSpinner spinner_;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <new>
+
+#include "map_file/landmark_record.hpp"
+#include "map_file/map_file_output.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+/// A section that is made in one piece.
+struct SmallSection {
+  SectionTag tag;
+  ByteWriter payload;
+};
+
+/// Sizes of all sections, which stand before their contents.
+struct Layout {
+  SmallSection info{kInfoTag, {}};
+  SmallSection camera{kCameraTag, {}};
+  std::uint64_t anchors = 0;
+  std::uint64_t landmarks = 0;
+  static constexpr std::uint64_t kEnd = 8;
+  static constexpr std::uint32_t kSections = 5;
+
+  std::uint64_t fileSize() const {
+    return kMapHeaderSize + kSections * kSectionFrame + info.payload.size() +
+           camera.payload.size() + anchors + landmarks + kEnd;
+  }
+};
+
+/// @return the fault, and what helps
+std::string mapFault(const SavedMap& map) {
+  std::string fault = cameraFault(map.camera);
+  if (!fault.empty()) return fault;
+  fault = infoFault(map);
+  if (fault.empty()) fault = anchorsFault(map);
+  return fault.empty() ? fault : fault + "; make the map anew";
+}
+
+std::size_t countSavable(const SavedMap& map) {
+  const auto is_good = [&map](const Landmark& landmark) {
+    return landmarkFault(landmark, map.anchors.size()) == nullptr;
+  };
+  return static_cast<std::size_t>(
+      std::count_if(map.landmarks.begin(), map.landmarks.end(), is_good));
+}
+
+Layout layoutOf(const SavedMap& map, std::size_t landmarks) {
+  Layout layout;
+  writeInfo(map, layout.info.payload);
+  writeCamera(map.camera, layout.camera.payload);
+  layout.anchors = anchorsSize(map.anchors.size());
+  layout.landmarks = 4 + std::uint64_t{kLandmarkRecord} * landmarks;
+  return layout;
+}
+
+void writeSmall(const SmallSection& section, MapFileOutput& file) {
+  file.begin(section.tag, section.payload.size());
+  file.buffer().append(section.payload);
+  file.end();
+}
+
+void writeAnchorsSection(const SavedMap& map, std::uint64_t size, MapFileOutput& file) {
+  file.begin(kAnchorsTag, size);
+  writeAnchors(map.anchors, file.buffer());
+  for (Eigen::Index row = 0; row < map.anchor_covariance.rows(); ++row) {
+    writeCovarianceRow(map.anchor_covariance, row, file.buffer());
+    file.pass();
+  }
+  file.end();
+}
+
+void writeLandmarksSection(const SavedMap& map, std::size_t count, std::uint64_t size,
+                           MapFileOutput& file) {
+  file.begin(kLandmarksTag, size);
+  file.buffer().u32(static_cast<std::uint32_t>(count));
+  for (const Landmark& landmark : map.landmarks) {
+    if (landmarkFault(landmark, map.anchors.size()) != nullptr) continue;
+    writeLandmark(landmark, map.stamp_ns, file.buffer());
+    file.pass();
+  }
+  file.end();
+}
+
+/// @throws std::bad_alloc too
+std::size_t writeAll(const std::string& path, const SavedMap& map) {
+  const std::string fault = mapFault(map);
+  if (!fault.empty())
+    throw MapFileError(path + ": the map is not written, it could not be read again: " + fault);
+  const std::size_t count = countSavable(map);
+  const Layout layout = layoutOf(map, count);
+  if (layout.fileSize() > kMostMapBytes)
+    throw MapFileError(path + ": the map is not written, " + std::to_string(count) +
+                       " landmarks would make more than 2 GiB; bound the map (max_landmarks)");
+  MapFileOutput file(path);
+  file.header(Layout::kSections);
+  writeSmall(layout.info, file);
+  writeSmall(layout.camera, file);
+  writeAnchorsSection(map, layout.anchors, file);
+  writeLandmarksSection(map, count, layout.landmarks, file);
+  file.begin(kEndTag, Layout::kEnd);
+  file.buffer().u64(layout.fileSize());
+  file.end();
+  file.commit();
+  return count;
+}
+
+}  // namespace
+
+std::size_t writeMap(const std::string& path, const SavedMap& map) {
+  try {
+    return writeAll(path, map);
+  } catch (const std::bad_alloc&) {
+    throw MapFileError(path + ": there is not enough memory to write the map; bound its anchors " +
+                       "(max_anchors)");
+  }
+}
+
+}  // namespace ardrone_vslam

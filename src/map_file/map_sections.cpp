@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_file/map_sections.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr std::size_t kCameraSize = 16;
+
+bool isControl(char c) {
+  const auto code = static_cast<unsigned char>(c);
+  return code < 0x20 || code == 0x7F;
+}
+
+/// Without what would spoil a terminal.
+std::string shown(std::string name) {
+  std::replace_if(name.begin(), name.end(), isControl, '?');
+  return name;
+}
+
+std::string textOf(const MapCamera& c) {
+  std::ostringstream text;
+  text << c.width_px << " x " << c.height_px << " px, focal length " << c.focal_length_px << " px";
+  return text.str();
+}
+
+}  // namespace
+
+std::string printable(const SectionTag& tag) {
+  std::string text(tag.begin(), tag.end());
+  const auto is_odd = [](char c) { return c < ' ' || c > '~'; };
+  std::replace_if(text.begin(), text.end(), is_odd, '?');
+  return text;
+}
+
+void refuseSection(const SectionTag& tag, const std::string& what) {
+  throw MapFileError("section " + printable(tag) + " cannot be right: " + what +
+                     "; use another copy, or make the map anew");
+}
+
+std::string infoFault(const SavedMap& map) {
+  const std::string& frame = map.frame_id;
+  if (frame.empty() || frame.size() > kMostText)
+    return "the name of the frame has " + std::to_string(frame.size()) + " characters, not 1 to " +
+           std::to_string(kMostText);
+  if (std::any_of(frame.begin(), frame.end(), isControl))
+    return "the name of the frame (" + shown(frame) + ") has characters that cannot be printed";
+  if (map.stamp_ns < 0) return "the stamp is negative";
+  return {};
+}
+
+void writeInfo(const SavedMap& map, ByteWriter& out) {
+  out.text(kDescriptorKind);
+  out.text(map.frame_id);
+  out.i64(map.stamp_ns);
+}
+
+void readInfo(ByteReader in, SavedMap& map) {
+  const std::string kind = in.text(kMostText);
+  if (!in.isShort() && kind != kDescriptorKind)
+    throw MapFileError("its landmarks have descriptors of the kind \"" + shown(kind) +
+                       "\", not \"" + kDescriptorKind + "\"; make the map anew");
+  map.frame_id = in.text(kMostText);
+  map.stamp_ns = in.i64();
+  if (in.isShort() || in.remaining() > 0) refuseSection(kInfoTag, "its size does not fit");
+  const std::string fault = infoFault(map);
+  if (!fault.empty()) refuseSection(kInfoTag, fault);
+}
+
+void writeCamera(const MapCamera& camera, ByteWriter& out) {
+  out.u32(static_cast<std::uint32_t>(camera.width_px));
+  out.u32(static_cast<std::uint32_t>(camera.height_px));
+  out.f64(camera.focal_length_px);
+}
+
+void readCamera(ByteReader in, SavedMap& map) {
+  if (in.remaining() != kCameraSize) refuseSection(kCameraTag, "its size does not fit");
+  // Beyond an int they are negative.
+  map.camera.width_px = static_cast<int>(in.u32());
+  map.camera.height_px = static_cast<int>(in.u32());
+  map.camera.focal_length_px = in.f64();
+  const std::string fault = cameraFault(map.camera);
+  if (!fault.empty()) refuseSection(kCameraTag, fault);
+}
+
+std::string cameraFault(const MapCamera& camera) {
+  if (camera.width_px <= 0 || camera.height_px <= 0) return "the image size is not positive";
+  if (!(camera.focal_length_px > 0) || !std::isfinite(camera.focal_length_px))
+    return "the focal length is not positive";
+  return {};
+}
+
+std::string cameraDifference(const MapCamera& of_map, const MapCamera& other) {
+  constexpr double kSameFocal = 0.05;  // calibrations of one camera differ by less
+  const double difference_px = std::abs(of_map.focal_length_px - other.focal_length_px);
+  if (of_map.width_px == other.width_px && of_map.height_px == other.height_px &&
+      difference_px <= kSameFocal * of_map.focal_length_px)
+    return {};
+  return "the map was made with another camera (" + textOf(of_map) + "; now " + textOf(other) +
+         "): use a map of this camera";
+}
+
+}  // namespace ardrone_vslam

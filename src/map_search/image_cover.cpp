@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_search/image_cover.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kColumns = 4;
+constexpr int kRows = 3;
+constexpr int kFewestInCell = 4;
+// From another side, in other light, most landmarks of the right place are not found, either.
+constexpr double kRecognised = 0.1;
+
+std::size_t cellOf(const Eigen::Vector2f& ideal_px, const FrameView& view) {
+  const Eigen::Array2f size_px = view.upper_px() - view.lower_px();
+  const Eigen::Array2f share = (ideal_px - view.lower_px()).array() / size_px;
+  const auto column = std::clamp(static_cast<int>(share.x() * kColumns), 0, kColumns - 1);
+  const auto row = std::clamp(static_cast<int>(share.y() * kRows), 0, kRows - 1);
+  return static_cast<std::size_t>(kColumns * row + column);
+}
+
+}  // namespace
+
+double ImageCover::of(const FrameView& view, LandmarkMap& map) {
+  std::array<int, kColumns * kRows> visible{};
+  std::array<int, kColumns * kRows> found{};
+  associator_.matchLandmarks(view, map, matches_);
+  const auto countIn = [&](std::array<int, kColumns * kRows>& cells, int landmark) {
+    const Eigen::Vector3d& point = map.all()[static_cast<std::size_t>(landmark)].position_map;
+    Eigen::Vector2f ideal_px;
+    if (view.idealPixel((point - view.origin_map()).normalized(), 0, ideal_px))
+      ++cells[cellOf(ideal_px, view)];
+  };
+  for (const Association& match : matches_.matches) {
+    countIn(visible, match.target);
+    countIn(found, match.target);
+  }
+  for (const int landmark : matches_.missed) countIn(visible, landmark);
+  int shown = 0;
+  int recognised = 0;
+  for (std::size_t i = 0; i < visible.size(); ++i) {
+    if (visible[i] < kFewestInCell) continue;
+    ++shown;
+    if (found[i] >= kRecognised * visible[i]) ++recognised;
+  }
+  return shown == 0 ? 0 : static_cast<double>(recognised) / shown;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/saved_map.hpp"
+#include "ardrone_vslam/slam_config.hpp"
+#include "association/global_matcher.hpp"
+#include "map/landmark_map.hpp"
+#include "map_search/image_cover.hpp"
+#include "map_update/map_fix.hpp"
+#include "window/map_entry.hpp"
+
+namespace ardrone_vslam {
+
+/// Looks for a flight in the map of an earlier one, by images and gravity alone: position and
+/// heading are unknown. Features are matched with all landmarks; the pose that more of them agree
+/// on than chance explains is a sight of the place; the flight is found once several sights, by
+/// images apart in time, agree on where it began.
+class MapSearch {
+ public:
+  MapSearch(SavedMap map, const SlamConfig& config);
+
+  /// An image of a flight that has not been found yet. O(features x landmarks), by an index from
+  /// `index_from_landmarks` on.
+  /// @param T_flight_cam  the camera in the flight's own map: roll and pitch count, and what lies
+  /// between two images
+  /// @return where the flight is, once
+  std::optional<MapEntry> see(const ImageFeatures& features, const Eigen::Isometry3d& T_flight_cam);
+
+  /// The map that is searched.
+  const SavedMap& map() const { return map_; }
+
+ private:
+  /// The pose of one image in the map.
+  struct Sight {
+    std::int64_t stamp_ns = 0;
+    MapEntry entry;
+    double distance_m = 0;                                    // of the landmarks, median
+    Eigen::Vector3d camera_flight = Eigen::Vector3d::Zero();  // its position
+  };
+
+  std::vector<MapObservation> observe(const ImageFeatures& features);
+  std::optional<Sight> look(const ImageFeatures& features, const Eigen::Isometry3d& T_flight_cam);
+  double cover(const ImageFeatures& features, const ObservationConsensus& consensus,
+               double distance_m);
+  bool isConfirmed(const Sight& newest) const;
+
+  SavedMap map_;
+  double angle_sigma_px_;
+  double tilt_sigma_rad_;
+  std::size_t index_from_landmarks_;
+  GlobalMatcher matcher_;
+  ImageCover cover_;
+  LandmarkMap landmarks_;
+  std::int64_t looked_ns_ = 0;
+  std::vector<Sight> sights_;  // the last few
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "ardrone_vslam/frame_result.hpp"
+#include "estimator/estimator.hpp"
+#include "map/association.hpp"
+
+/// What Slam answers, put together of what its parts say.
+namespace ardrone_vslam {
+
+/// All but stamp, odometry and the counts of noteMatches().
+FrameResult resultOf(const Estimate& estimate, const Correction& correction,
+                     const MapChanges& changes);
+/// How landmarks were looked for, and how many were found.
+void noteMatches(const AssociationResult& matches, FrameResult& result);
+/// The flight has not been found in its map: the covariance says so to who asks for it alone.
+void forgetPlace(FrameResult& result);
+
+}  // namespace ardrone_vslam

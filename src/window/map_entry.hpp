@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "window/clone.hpp"
+
+namespace ardrone_vslam {
+
+/// Where a flight has been found in the map of an earlier one. Gravity is down in both, so four
+/// numbers are open: position and heading.
+struct MapEntry {
+  /// Takes what the flight has as map so far to the loaded map; turns about the vertical only.
+  Eigen::Isometry3d T_loaded_flight = Eigen::Isometry3d::Identity();
+  /// About this point of the loaded map the heading is uncertain: where the camera was.
+  Eigen::Vector3d camera_loaded = Eigen::Vector3d::Zero();
+  /// Of the loaded map's anchors, the one whose landmarks most of all say so: with its error
+  /// position and heading err, too.
+  std::size_t anchor = 0;
+  /// Of that position [m] and of the heading [rad] beside that anchor, axes of the loaded map.
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+};
+
+/// The anchors of a loaded map.
+struct LoadedAnchors {
+  std::vector<Clone> anchors;
+  Eigen::MatrixXd covariance;  ///< WindowState::kAnchor coordinates each
+};
+
+class WindowState;
+
+/// Takes all of a flight's state into the frame of an earlier one's map.
+class MapEntrance {
+ public:
+  explicit MapEntrance(WindowState& state) : state_(state) {}
+  /// The flight is moved, and the map's anchors join, ahead of the others. The flight's errors from
+  /// now on have those of the anchor that it was found by. O(coordinates^2).
+  /// @param are_fixed  no update corrects the map's anchors: their errors are considered, not
+  /// estimated (a Schmidt-Kalman filter)
+  void enter(const MapEntry& entry, const LoadedAnchors& loaded, bool are_fixed);
+
+ private:
+  void move(const MapEntry& entry);
+  void share(const MapEntry& entry, std::size_t loaded);
+
+  WindowState& state_;
+};
+
+}  // namespace ardrone_vslam

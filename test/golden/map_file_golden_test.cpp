@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files of schema 1 stay what they are: what was written once is read, and is written the same.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "support/read_file.hpp"
+#include "support/temporary_folder.hpp"
+#include "test_paths.hpp"
+#include "unit/map_file/map_files.hpp"
+
+namespace ardrone_vslam::test {
+namespace {
+
+constexpr char kGolden[] = ARDRONE_VSLAM_TEST_DATA "/maps/version_1.vmap";
+
+TEST(MapFileGolden, AMapIsWrittenAsTheSameBytesEverywhere) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("house.vmap");
+  ASSERT_EQ(writeMap(path, smallMap()), 3U);
+  // test/data/maps/README.md
+  if (std::getenv("VSLAM_WRITE_GOLDEN_MAP") != nullptr) writeMap(kGolden, smallMap());
+  EXPECT_TRUE(readFile(path) == readFile(kGolden)) << "another file than " << kGolden;
+}
+
+TEST(MapFileGolden, TheFileIsReadAndWrittenAgain) {
+  const SavedMap map = readMap(kGolden);
+  EXPECT_EQ(map.frame_id, "house");
+  EXPECT_EQ(map.stamp_ns, 1'000'000'000'000);
+  EXPECT_EQ(cameraDifference(map.camera, mapCamera()), "");
+  ASSERT_EQ(map.anchors.size(), 2U);
+  EXPECT_EQ(map.anchors[1].stamp_ns, 950'000'000'000);
+  EXPECT_EQ(map.anchors[1].T_map_rig.translation(), Eigen::Vector3d(1, -2.5, 0.75));
+  EXPECT_LT((map.anchors[1].T_map_rig * Eigen::Vector3d::UnitX() -
+             Eigen::Vector3d(1 - 0.28, -2.5, 0.75 + 0.96))
+                .norm(),
+            1e-12);
+  EXPECT_EQ(map.anchor_covariance, smallMap().anchor_covariance);
+  ASSERT_EQ(map.landmarks.size(), 3U);
+  const Landmark& last = map.landmarks[2];
+  EXPECT_EQ(last.position_map, Eigen::Vector3d(2.1, 0.2, 0.3));
+  EXPECT_EQ(last.descriptor.words[7], 0x0123456789ABCDEFU + 9);
+  EXPECT_EQ(last.covariance_m2(2, 0), -0.001953125);
+  EXPECT_EQ(last.view_direction_map, Eigen::Vector3d(0, 0, -1));
+  EXPECT_EQ(last.seen_distance_m, 4.5);
+  EXPECT_EQ(last.parallax_rad, 0.0625);
+  EXPECT_EQ(last.anchor_id, 1U);
+  EXPECT_EQ(last.times_seen, 22);
+  EXPECT_EQ(last.times_failed, 2);
+  EXPECT_EQ(last.first_seen_ns, 940'000'000'000);
+  EXPECT_EQ(last.last_seen_ns, 999'998'000'000);
+
+  const TemporaryFolder folder;
+  writeMap(folder.file("again.vmap"), map);
+  EXPECT_TRUE(readFile(folder.file("again.vmap")) == readFile(kGolden));
+}
+
+}  // namespace
+}  // namespace ardrone_vslam::test

@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A map is saved, the map begins anew, and in the loaded one the drone is found from another origin and heading of its
+odometry."""
+import math
+import os
+import sys
+import unittest
+
+import rospy
+import rostest
+from ardrone_vslam.srv import MapFile
+from std_srvs.srv import Trigger
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from drone import STEP_M, TIMEOUT_S, Drone  # noqa: E402
+
+HEADING_RAD = 2.0
+ORIGIN_M = (5.0, -3.0, 1.0)
+
+
+class TurnedDrone(Drone):
+    """Whose odometry may begin elsewhere."""
+    is_turned = False
+
+    def odometry(self):
+        message = super().odometry()
+        if self.is_turned:
+            y = message.pose.pose.position.y
+            position, rotation = message.pose.pose.position, message.pose.pose.orientation
+            position.x = ORIGIN_M[0] - math.sin(HEADING_RAD) * y
+            position.y = ORIGIN_M[1] + math.cos(HEADING_RAD) * y
+            position.z = ORIGIN_M[2]
+            rotation.z, rotation.w = math.sin(HEADING_RAD / 2), math.cos(HEADING_RAD / 2)
+        return message
+
+
+def call(service, kind, *arguments):
+    name = "/vslam/mapper/" + service
+    rospy.wait_for_service(name, TIMEOUT_S)
+    return rospy.ServiceProxy(name, kind)(*arguments)
+
+
+class MapServicesTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("map_services_test")
+        cls.drone = TurnedDrone()
+        cls.drone.connect()
+        cls.drone.mount_camera()
+
+    def status(self):
+        stamp = self.drone.stamp()
+        return self.drone.status.wait(lambda status: status.header.stamp == stamp)
+
+    def test_1_there_must_be_a_map_and_a_name(self):
+        for name, part in (("house.vmap", "no landmark to save"), ("../house.vmap", "out of reach"), ("/tmp/house.vmap", "out of reach"),
+                           ("", "out of reach"), ("..", "out of reach")):
+            answer = call("save_map", MapFile, name)
+            self.assertFalse(answer.success, name)
+            self.assertIn(part, answer.message)
+        answer = call("load_map", MapFile, "none.vmap")
+        self.assertFalse(answer.success)
+        self.assertIn("none.vmap", answer.message)
+
+    def test_2_a_map_outlives_the_reset(self):
+        self.assertIsNotNone(self.drone.fly(60)[-1])
+        landmarks = self.status().landmarks
+        self.assertGreater(landmarks, 100)
+        answer = call("save_map", MapFile, "rostest.vmap")
+        self.assertTrue(answer.success, answer.message)
+        self.assertIn(f"{landmarks} landmarks written to ", answer.message)
+
+        self.assertTrue(call("reset", Trigger).success)
+        self.drone.fly(2)
+        self.assertEqual((self.status().landmarks, self.status().state_name), (0, "building_map"))
+
+        answer = call("load_map", MapFile, "rostest.vmap")
+        self.assertTrue(answer.success, answer.message)
+        self.drone.is_turned, self.drone.steps = True, 10
+        self.drone.fly(1)
+        self.assertEqual(self.status().state_name, "searching_map")
+        self.assertIn("not been found in the loaded map", self.status().reason)
+        answer = call("save_map", MapFile, "rostest.vmap")
+        self.assertFalse(answer.success, "half a map would take the whole one's place")
+        self.drone.fly(12)
+        self.assertIn(self.status().state_name, ("localised", "relocated"))
+        pose = self.drone.fly(1)[-1].pose.pose
+        # In the map's frame again.
+        self.assertLess(abs(pose.position.y - self.drone.position_m()), 2 * STEP_M)
+        self.assertLess(math.hypot(pose.position.x, pose.position.z), 0.1)
+        self.assertLess(abs(2 * math.asin(pose.orientation.z)), 0.05)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("ardrone_vslam", "map_services", MapServicesTest)

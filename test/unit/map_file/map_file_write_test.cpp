@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
+#include <limits>
+
+#include "support/read_file.hpp"
+#include "support/temporary_folder.hpp"
+#include "unit/map_file/map_files.hpp"
+
+namespace ardrone_vslam::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+/// Files of this process end here, as on a disk that is full.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit now = {bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &now);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+class MapFileWriteTest : public ::testing::Test {
+ protected:
+  /// What writing the map is refused with.
+  std::string writeFault(const SavedMap& map) const { return writeFault(map, path_); }
+  static std::string writeFault(const SavedMap& map, const std::string& path) {
+    try {
+      writeMap(path, map);
+    } catch (const MapFileError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::size_t filesInFolder() const {
+    const fs::directory_iterator files(folder_.path());
+    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+  }
+
+  TemporaryFolder folder_;
+  std::string path_ = folder_.file("house.vmap");
+};
+
+TEST_F(MapFileWriteTest, NothingElseIsLeftInTheFolder) {
+  folder_.write("house.vmap.part", "of a flight that ended early");
+  EXPECT_EQ(writeMap(path_, smallMap()), 3U);
+  EXPECT_EQ(filesInFolder(), 1U);
+  EXPECT_EQ(readMap(path_).landmarks.size(), 3U);
+}
+
+TEST_F(MapFileWriteTest, TheOldMapStaysWhenTheDiskIsFull) {
+  writeMap(path_, smallMap());
+  const std::string old = readFile(path_);
+  SavedMap larger = smallMap();
+  larger.landmarks.resize(5000, larger.landmarks[0]);
+  for (const rlim_t bytes : {0, 100, 70'000, 800'000}) {
+    std::string fault;
+    {
+      const FileSizeLimit full(bytes);
+      fault = writeFault(larger);
+    }
+    EXPECT_EQ(fault, path_ +
+                         ": the map cannot be written: File too large; make room, or choose "
+                         "another disk");
+    EXPECT_TRUE(readFile(path_) == old) << "the old map changed";
+    EXPECT_EQ(filesInFolder(), 1U);
+  }
+}
+
+TEST_F(MapFileWriteTest, WhatIsNoFileIsNotReplaced) {
+  EXPECT_EQ(writeFault(smallMap(), "/dev/null"),
+            "/dev/null: this is a device; name a file for the map");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  fs::create_directory(path_);
+  EXPECT_EQ(writeFault(smallMap()), path_ + ": this is a folder; name a file for the map");
+}
+
+TEST_F(MapFileWriteTest, ALinkInItsWayIsNotFollowed) {
+  folder_.write("other", "text");
+  fs::create_symlink(folder_.file("other"), path_ + ".part");
+  writeMap(path_, smallMap());
+  EXPECT_EQ(readFile(folder_.file("other")), "text");
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(path_)));
+}
+
+TEST_F(MapFileWriteTest, SaysWhatIsWrongWithThePath) {
+  const std::string path = folder_.file("no_folder/house.vmap");
+  EXPECT_EQ(writeFault(smallMap(), path), path +
+                                              ": the map cannot be written: No such file or "
+                                              "directory; check the path; its folder must be "
+                                              "there");
+  fs::create_directory(path_ + ".part");
+  EXPECT_NE(writeFault(smallMap()).find("the map cannot be written"), std::string::npos);
+}
+
+TEST_F(MapFileWriteTest, AFileWithoutAFolderIsInThePresentOne) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_.path());
+  EXPECT_EQ(writeFault(smallMap(), "bare.vmap"), "");
+  fs::current_path(before);
+  EXPECT_EQ(faultOf(folder_.file("bare.vmap")), "");
+}
+
+TEST_F(MapFileWriteTest, LandmarksThatCannotBeReadAgainAreLeftOut) {
+  SavedMap map = smallMap();
+  map.landmarks.resize(12, map.landmarks[0]);
+  map.landmarks[1].position_map.y() = kNan;
+  map.landmarks[2].anchor_id = 3;
+  map.landmarks[3].anchor_id = 0;
+  map.landmarks[4].covariance_m2(1, 1) = -1;
+  map.landmarks[5].covariance_m2(0, 2) = 1e39;  // no float
+  map.landmarks[6].view_direction_map.setZero();
+  map.landmarks[7].view_direction_map.setConstant(kInf);
+  map.landmarks[8].sigma_m = kNan;
+  map.landmarks[9].seen_distance_m = -1;
+  map.landmarks[10].depth_sigma_m = 1e300;
+  EXPECT_EQ(writeMap(path_, map), 2U);
+  EXPECT_EQ(readMap(path_).landmarks.size(), 2U);
+}
+
+TEST_F(MapFileWriteTest, AgesAndCountsStayWithinTheirBounds) {
+  SavedMap map = smallMap();
+  map.stamp_ns = std::numeric_limits<std::int64_t>::max();
+  map.landmarks[0].first_seen_ns = std::numeric_limits<std::int64_t>::min();
+  map.landmarks[0].last_seen_ns = map.stamp_ns - 1'999'999;
+  map.landmarks[0].times_seen = -1;
+  map.landmarks[1].last_seen_ns = map.stamp_ns;
+  writeMap(path_, map);
+  const SavedMap loaded = readMap(path_);
+  EXPECT_EQ(map.stamp_ns - loaded.landmarks[0].first_seen_ns, 0xFFFFFFFF * std::int64_t{1'000'000});
+  EXPECT_EQ(map.stamp_ns - loaded.landmarks[0].last_seen_ns, 1'000'000);
+  EXPECT_EQ(loaded.landmarks[0].times_seen, 0);
+  EXPECT_EQ(loaded.landmarks[1].last_seen_ns, map.stamp_ns);
+  map = smallMap();
+  map.landmarks[0].last_seen_ns = map.stamp_ns + 5'000'000;
+  writeMap(path_, map);
+  EXPECT_EQ(readMap(path_).landmarks[0].last_seen_ns, map.stamp_ns);
+}
+
+TEST_F(MapFileWriteTest, AMapThatCouldNotBeReadAgainIsRefused) {
+  using Change = void (*)(SavedMap&);
+  const std::pair<Change, const char*> cases[] = {
+      {[](SavedMap& m) { m.camera.focal_length_px = kNan; }, "the focal length is not positive"},
+      {[](SavedMap& m) { m.frame_id.clear(); }, "the name of the frame has 0 characters"},
+      {[](SavedMap& m) { m.frame_id = "a\nb"; }, "the name of the frame (a?b)"},
+      {[](SavedMap& m) { m.stamp_ns = -1; }, "the stamp is negative"},
+      {[](SavedMap& m) { m.anchors.pop_back(); }, "the covariance of the anchors has another size"},
+      {[](SavedMap& m) { m.anchor_covariance(8, 8) = -1e-9; }, "anchor 2 has a variance"},
+      {[](SavedMap& m) { m.anchor_covariance(8, 8) = kInf; }, "anchor 2 has a variance"},
+      {[](SavedMap& m) { m.anchor_covariance(8, 1) = 1; }, "not positive semidefinite"},
+      {[](SavedMap& m) { m.anchor_covariance(8, 1) = kNan; }, "not positive semidefinite"},
+      {[](SavedMap& m) { m.anchor_covariance(8, 8) = 0; }, "not positive semidefinite"},
+      {[](SavedMap& m) { m.anchors[0].T_map_rig.translation().x() = kInf; },
+       "anchor 1 has a pose that is not finite"},
+      {[](SavedMap& m) { m.anchors[1].T_map_rig.linear() *= 1.1; },
+       "anchor 2 has an attitude that is no rotation"},
+      {[](SavedMap& m) { m.anchors[1].T_map_rig.linear().setConstant(1e300); },
+       "anchor 2 has an attitude that is no rotation"},
+      {[](SavedMap& m) { m.anchors[1].T_map_rig.linear() *= -1; },
+       "anchor 2 has an attitude that is no rotation"},
+      {[](SavedMap& m) { m.anchors.resize(1101); }, "there are 1101 anchors, at most 1100"}};
+  for (const auto& [change, expected] : cases) {
+    SavedMap map = smallMap();
+    change(map);
+    const std::string fault = writeFault(map);
+    EXPECT_NE(fault.find(expected), std::string::npos) << expected << ": " << fault;
+    EXPECT_EQ(filesInFolder(), 0U);
+  }
+}
+
+}  // namespace
+}  // namespace ardrone_vslam::test

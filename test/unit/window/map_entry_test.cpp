@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/map_entry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "ardrone_vslam/rotation.hpp"
+#include "support/odometry_window.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kFrames = 6;
+
+OdometryWindow flight() {
+  OdometryWindow window;
+  for (int i = 0; i < kFrames; ++i) {
+    OdometryState state;
+    state.stamp_ns = 1'000'000'000LL * i;
+    state.T_odom_base.translation() << 0.4 * i, 0.1 * i * i, 1;
+    state.T_odom_base.linear() = rotationOf({0.02, -0.01, 0.1 * i});
+    window.add(state);
+  }
+  window.makeAnchor(0);
+  return window;
+}
+
+LoadedAnchors twoAnchors() {
+  LoadedAnchors loaded;
+  for (int i = 0; i < 2; ++i) {
+    Clone anchor;
+    anchor.id = 4'000'000'000U - static_cast<std::uint32_t>(i);
+    anchor.position_map << 5.0 + i, -2, 1;
+    anchor.is_loaded = true;
+    loaded.anchors.push_back(anchor);
+  }
+  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(14, 14);
+  for (int r = 0; r < 14; ++r)
+    for (int c = 0; c <= r; ++c) root(r, c) = 0.01 * (((7 * r + 3 * c) % 5) + 1) / (1 + r - c);
+  loaded.covariance = root * root.transpose();
+  return loaded;
+}
+
+MapEntry someEntry(const WindowState& state) {
+  MapEntry entry;
+  entry.T_loaded_flight =
+      Eigen::Translation3d(4, -1, 0.5) * Eigen::AngleAxisd(2.2, Eigen::Vector3d::UnitZ());
+  entry.camera_loaded = entry.T_loaded_flight * state.newest().position_map;
+  entry.anchor = 1;
+  entry.covariance = Eigen::Vector4d(0.01, 0.02, 0.005, 0.001).asDiagonal();
+  return entry;
+}
+
+TEST(MapEntry, MovesPosesAndKeepsWhatTheyKnowOfEachOther) {
+  OdometryWindow window = flight();
+  const WindowState before = window;
+  const MapEntry entry = someEntry(window);
+  MapEntrance(window).enter(entry, twoAnchors(), false);
+  const Eigen::Matrix3d R = entry.T_loaded_flight.linear();
+  ASSERT_EQ(window.anchors().size(), 3U);
+  ASSERT_EQ(window.frames().size(), before.frames().size());
+  for (std::size_t i = 0; i < window.frames().size(); ++i) {
+    const Clone& moved = window.frames()[i];
+    const Clone& then = before.frames()[i];
+    EXPECT_LT((moved.position_map - entry.T_loaded_flight * then.position_map).norm(), 1e-12);
+    EXPECT_LT((moved.R_map_rig - R * then.R_map_rig).norm(), 1e-12);
+  }
+  // The heading's error turns the way between two frames; beside that it is known as before.
+  const int a = window.frameCoordinate(1);
+  const int b = window.frameCoordinate(4);
+  const Eigen::Matrix3d expected =
+      R *
+      before.relativeCovariance(before.frameCoordinate(1), before.frameCoordinate(4))
+          .topLeftCorner<3, 3>() *
+      R.transpose();
+  const Eigen::Vector3d lever = Eigen::Vector3d::UnitZ().cross(window.frames()[1].position_map -
+                                                               window.frames()[4].position_map);
+  const double heading_rad2 = entry.covariance(3, 3) + twoAnchors().covariance(7 + 5, 7 + 5);
+  EXPECT_LT((window.relativeCovariance(a, b).topLeftCorner<3, 3>() - expected -
+             heading_rad2 * lever * lever.transpose())
+                .norm(),
+            1e-12);
+}
+
+TEST(MapEntry, TheFlightErrsWithTheAnchorThatItWasFoundBy) {
+  OdometryWindow window = flight();
+  const WindowState before = window;
+  MapEntry entry = someEntry(window);
+  const LoadedAnchors loaded = twoAnchors();
+  MapEntrance(window).enter(entry, loaded, false);
+  const Eigen::MatrixXd P = window.covariance();
+  EXPECT_LT((P - P.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(P);
+  EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-12);
+  // As well as the anchor, and no better: relative to it the position has the entry's own error.
+  const int newest = window.frameCoordinate(window.frames().size() - 1);
+  const int anchor = window.anchorCoordinate(1);
+  EXPECT_GT(P.diagonal().segment<3>(newest).sum(), P.diagonal().segment<3>(anchor).sum());
+  // With exact anchors what is left is the entry's and the flight's own.
+  OdometryWindow exact = flight();
+  LoadedAnchors known = loaded;
+  known.covariance.setZero();
+  MapEntrance(exact).enter(entry, known, false);
+  const int at = exact.frameCoordinate(exact.frames().size() - 1);
+  const int was = before.frameCoordinate(before.frames().size() - 1);
+  const Eigen::Matrix3d R = entry.T_loaded_flight.linear();
+  const Eigen::Matrix3d own =
+      R * Eigen::Matrix3d(before.covariance().block<3, 3>(was, was)) * R.transpose();
+  EXPECT_LT((exact.covariance().block<3, 3>(at, at) - own - entry.covariance.topLeftCorner<3, 3>())
+                .norm(),
+            1e-12);
+}
+
+TEST(MapEntry, FixedAnchorsAreConsideredAndNotCorrected) {
+  OdometryWindow free = flight();
+  OdometryWindow fixed = flight();
+  const MapEntry entry = someEntry(free);
+  MapEntrance(free).enter(entry, twoAnchors(), false);
+  MapEntrance(fixed).enter(entry, twoAnchors(), true);
+  const WindowState before = fixed;
+  const int newest = free.frameCoordinate(free.frames().size() - 1);
+  const int anchor = free.anchorCoordinate(0);
+  // The x positions of a frame and an anchor are measured relative to each other.
+  Information information({newest, anchor});
+  const double weight = 1 / (0.02 * 0.02);
+  information.matrix << weight, -weight, -weight, weight;
+  information.vector << 0.1 * weight, -0.1 * weight;
+  ASSERT_TRUE(free.update(information));
+  ASSERT_TRUE(fixed.update(information));
+  EXPECT_GT((free.anchors()[0].position_map - before.anchors()[0].position_map).norm(), 1e-6);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(fixed.anchors()[i].position_map, before.anchors()[i].position_map);
+  EXPECT_LT((fixed.newest().position_map - free.newest().position_map).norm(), 1e-12)
+      << "the gain of what is estimated is the same";
+  const int first = WindowState::kGlobals;
+  EXPECT_EQ(fixed.covariance().block(first, first, 14, 14),
+            before.covariance().block(first, first, 14, 14));
+  // A consider filter never claims more than one that may correct all.
+  const Eigen::MatrixXd more = fixed.covariance() - free.covariance();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(more);
+  EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-10);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

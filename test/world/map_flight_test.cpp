@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A map that outlives its flight: another flight is found in it, from wherever it begins.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <optional>
+
+#include "support/median.hpp"
+#include "support/point_flight.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using test::Flight;
+using test::PointWorld;
+
+constexpr double kRate_hz = 10;
+constexpr std::uint64_t kSeeds = 20;
+
+/// Two laps of a room, and the map that they leave.
+SavedMap mapOf(PointWorld& world, std::uint64_t seed) {
+  const Flight flight = test::lapsFlight(200, 2, kRate_hz);
+  const auto odometry = test::observe(flight, {}, seed);
+  Slam slam(test::configForDrift(), test::forwardExtrinsics());
+  const auto frames = test::film(world, flight);
+  for (std::size_t i = 0; i < frames.size(); ++i) slam.process(frames[i], odometry[i]);
+  return slam.save();
+}
+
+/// On another circle, the other way round, from anywhere on it.
+Flight anotherFlight(std::uint64_t seed) {
+  RandomSource random(seed, 3);
+  const Flight laps = test::lapsFlight(200, 2, kRate_hz, 2.2, 1.4);
+  const int start = random.integer(0, 199);
+  Flight flight;
+  for (int i = 0; i < 150; ++i) {
+    test::FlightPose pose = laps[static_cast<std::size_t>(200 + start - i)];
+    pose.T_map_base.rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()));
+    pose.stamp_ns = test::stampOf(i, kRate_hz);
+    flight.push_back(pose);
+  }
+  return flight;
+}
+
+/// Its odometry, which begins at another origin and heading.
+std::vector<OdometryState> odometryOf(const Flight& flight, std::uint64_t seed) {
+  RandomSource random(seed, 4);
+  const Eigen::Isometry3d T_odom_map =
+      Eigen::Translation3d(10 * random.normal3()) *
+      Eigen::AngleAxisd(random.uniform(-M_PI, M_PI), Eigen::Vector3d::UnitZ());
+  std::vector<OdometryState> states = test::observe(flight, {}, seed + 1000);
+  for (OdometryState& state : states) state.T_odom_base = T_odom_map * state.T_odom_base;
+  return states;
+}
+
+struct Again {
+  std::optional<std::size_t> found_frame;
+  double rmse_m = 0;  // once found
+  double nees = 0;    // mean, 3 is honest
+  SavedMap map;
+  FrameResult last;
+};
+
+Again flyAgain(PointWorld& world, const Flight& flight, const SavedMap& map, std::uint64_t seed,
+               const SlamConfig& config = test::configForDrift()) {
+  const auto odometry = odometryOf(flight, seed);
+  const auto frames = test::film(world, flight);
+  Slam slam(config, test::forwardExtrinsics());
+  slam.load(map);
+  Again again;
+  double squares_m2 = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FrameResult& result = slam.process(frames[i], odometry[i]);
+    if (slam.isSearching()) continue;
+    if (!again.found_frame) again.found_frame = i;
+    const Eigen::Vector3d error =
+        result.T_map_base.translation() - flight[i].T_map_base.translation();
+    squares_m2 += error.squaredNorm();
+    again.nees += error.dot(result.covariance.topLeftCorner<3, 3>().inverse() * error);
+  }
+  if (again.found_frame) {
+    const auto count = static_cast<double>(frames.size() - *again.found_frame);
+    again.rmse_m = std::sqrt(squares_m2 / count);
+    again.nees /= count;
+  }
+  again.map = slam.save();
+  again.last = slam.process(world.look(flight.back().T_map_base * test::forwardExtrinsics(),
+                                       flight.back().stamp_ns + 100'000'000),
+                            [&] {
+                              OdometryState next = odometry.back();
+                              next.stamp_ns += 100'000'000;
+                              return next;
+                            }());
+  return again;
+}
+
+TEST(MapFlight, IsFoundFromAnyStartAndHeading) {
+  std::vector<double> frames_until_found;
+  std::vector<double> errors_m;
+  std::vector<double> nees;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    PointWorld world = test::pointRoom(seed, 0.1);
+    const SavedMap map = mapOf(world, seed);
+    const Again again = flyAgain(world, anotherFlight(seed), map, seed);
+    ASSERT_TRUE(again.found_frame) << seed;
+    frames_until_found.push_back(static_cast<double>(*again.found_frame));
+    errors_m.push_back(again.rmse_m);
+    nees.push_back(again.nees);
+    EXPECT_LT(again.rmse_m, 0.2) << seed;
+  }
+  std::printf("found after %.0f frames, error %.3f m, nees %.2f (medians)\n",
+              test::median(frames_until_found), test::median(errors_m), test::median(nees));
+  EXPECT_LE(test::median(frames_until_found), 8);
+  EXPECT_LT(test::median(errors_m), 0.1);
+  EXPECT_LT(test::median(nees), 6);
+}
+
+TEST(MapFlight, LocaliseOnlyLeavesTheMapAsItIs) {
+  SlamConfig config = test::configForDrift();
+  config.msckf.localise_only = true;
+  std::vector<double> errors_m;
+  std::vector<double> nees;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    PointWorld world = test::pointRoom(seed, 0.1);
+    const SavedMap map = mapOf(world, seed);
+    const Again again = flyAgain(world, anotherFlight(seed), map, seed, config);
+    ASSERT_TRUE(again.found_frame) << seed;
+    errors_m.push_back(again.rmse_m);
+    nees.push_back(again.nees);
+    ASSERT_EQ(again.map.landmarks.size(), map.landmarks.size());
+    for (std::size_t i = 0; i < map.landmarks.size(); ++i) {
+      ASSERT_EQ(again.map.landmarks[i].position_map, map.landmarks[i].position_map);
+      ASSERT_EQ(again.map.landmarks[i].descriptor, map.landmarks[i].descriptor);
+    }
+    ASSERT_EQ(again.map.anchors.size(), map.anchors.size());
+    for (std::size_t i = 0; i < map.anchors.size(); ++i)
+      ASSERT_EQ(again.map.anchors[i].T_map_rig.matrix(), map.anchors[i].T_map_rig.matrix());
+    EXPECT_LT((again.map.anchor_covariance - map.anchor_covariance).cwiseAbs().maxCoeff(), 1e-12);
+  }
+  std::printf("error %.3f m, nees %.2f (medians)\n", test::median(errors_m), test::median(nees));
+  EXPECT_LT(test::median(errors_m), 0.1);
+  EXPECT_LT(test::median(nees), 6);
+}
+
+TEST(MapFlight, AnotherRoomIsNotTakenForTheMaps) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    PointWorld world = test::pointRoom(seed, 0.1);
+    const SavedMap map = mapOf(world, seed);
+    PointWorld other = test::pointRoom(seed + 100, 0.1);
+    const Again elsewhere = flyAgain(other, anotherFlight(seed), map, seed);
+    EXPECT_FALSE(elsewhere.found_frame) << seed;
+    EXPECT_EQ(elsewhere.last.state, SlamState::kSearchingMap);
+    EXPECT_GT(elsewhere.last.sigma_m, 100) << "the place is not known";
+  }
+}
+
+TEST(MapFlight, PointsThatLookAlikeElsewhereAreNoPlace) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    PointWorld world = test::pointRoom(seed, 0.1);
+    const SavedMap map = mapOf(world, seed);
+    world.exchangeDescriptors(1);
+    EXPECT_FALSE(flyAgain(world, anotherFlight(seed), map, seed).found_frame) << seed;
+  }
+}
+
+/// A room with a cupboard before one of its walls: rooms of one seed have the same one.
+PointWorld roomWithCupboard(std::uint64_t seed, bool is_other_room) {
+  constexpr int kPoints = 80;
+  test::ViewFaults faults;
+  faults.wrong_share = 0.1;
+  PointWorld world(seed, faults);
+  RandomSource random(seed, 9);
+  for (int i = 0; i < kPoints; ++i) {
+    const Eigen::Vector3d corner(random.uniform(-0.3, 0.3), random.uniform(-0.6, 0.6),
+                                 random.uniform(0, 2));
+    world.addPoint(corner + Eigen::Vector3d(4.5, 0, 0));
+  }
+  if (is_other_room) {
+    world.transform(Eigen::Isometry3d(Eigen::AngleAxisd(2, Eigen::Vector3d::UnitZ())));
+    world.randomDescriptor();  // what follows is drawn otherwise
+  }
+  world.addRoom({10, 8, 3}, 1200);
+  return world;
+}
+
+TEST(MapFlight, TheSameCupboardInAnotherRoomIsNoPlace) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    PointWorld world = roomWithCupboard(seed, false);
+    const SavedMap map = mapOf(world, seed);
+    EXPECT_TRUE(flyAgain(world, anotherFlight(seed), map, seed).found_frame) << seed;
+    PointWorld other = roomWithCupboard(seed, true);
+    EXPECT_FALSE(flyAgain(other, anotherFlight(seed), map, seed).found_frame) << seed;
+  }
+}
+
+TEST(MapFlight, AFileKeepsAllThatAFlightNeeds) {
+  PointWorld world = test::pointRoom(1, 0.1);
+  const SavedMap map = mapOf(world, 1);
+  EXPECT_GT(map.landmarks.size(), 300U);
+  EXPECT_GT(map.anchors.size(), 5U);
+  EXPECT_EQ(map.anchor_covariance.rows(),
+            SavedMap::kAnchor * static_cast<Eigen::Index>(map.anchors.size()));
+  for (const Landmark& landmark : map.landmarks) {
+    ASSERT_GE(landmark.anchor_id, 1U);
+    ASSERT_LE(landmark.anchor_id, map.anchors.size());
+  }
+}
+
+TEST(MapFlight, TheThesisHasNoMapsToLoad) {
+  Slam slam(test::thesisConfig(), test::forwardExtrinsics());
+  EXPECT_THROW(slam.load({}), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(slam.save()), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

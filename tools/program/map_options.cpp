@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program/map_options.hpp"
+
+namespace ardrone_vslam {
+
+void MapOptions::addTo(CLI::App& app) {
+  app.add_option("--map", loaded,
+                 "the flight takes place in this map of an earlier one, in which it is looked for; "
+                 "errors are against a truth in that map's frame")
+      ->check(CLI::ExistingFile);
+  app.add_option("--save-map", saved, "write the map there at the end")->excludes("--seeds");
+  app.add_flag("--localise-only", localise_only, "leave the loaded map as it is")->needs("--map");
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace ardrone_vslam {
+
+/// --map, --save-map and --localise-only.
+struct MapOptions {
+  std::string loaded;  ///< file of an earlier flight's map; empty: none
+  std::string saved;   ///< where the map goes; empty: nowhere
+  bool localise_only = false;
+
+  /// @pre the program has an option --seeds: a map is of one flight
+  void addTo(CLI::App& app);
+};
+
+}  // namespace ardrone_vslam
