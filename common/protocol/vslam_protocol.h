@@ -53,7 +53,8 @@ enum {
   VSLAM_ROTATING = 8,
   VSLAM_RELOCATED = 9,
   VSLAM_DISTRUSTED = 10,
-  VSLAM_LAST_STATE = VSLAM_DISTRUSTED, /* of those with a pose */
+  VSLAM_SEARCHING_MAP = 11,               /* not sent: vslam_onboard loads no maps */
+  VSLAM_LAST_STATE = VSLAM_SEARCHING_MAP, /* of those with a pose */
   /* From here on there is no pose. */
   VSLAM_WAITING_FOR_IMAGES = 32,
   VSLAM_CAMERA_LOST = 33,       /* missing, gone, or silent */

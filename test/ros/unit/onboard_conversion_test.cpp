@@ -44,7 +44,7 @@ TEST(OnboardConversion, AnAnswerIsWhatTheMapperHad) {
 }
 
 TEST(OnboardConversion, EveryStateOfTheCoreHasItsOwnNameAndSentence) {
-  for (std::uint32_t state = 0; state <= VSLAM_DISTRUSTED; ++state) {
+  for (std::uint32_t state = 0; state <= VSLAM_LAST_STATE; ++state) {
     VslamPose pose = somePose();
     pose.state = state;
     Status status;

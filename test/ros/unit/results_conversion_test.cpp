@@ -144,6 +144,7 @@ TEST(ResultConversion, EveryOtherStateHasAReason) {
       {SlamState::kRotating, Status::ROTATING},
       {SlamState::kRelocated, Status::RELOCATED},
       {SlamState::kDistrusted, Status::DISTRUSTED},
+      {SlamState::kSearchingMap, Status::SEARCHING_MAP},
       {SlamState::kOdometryOnly, Status::OBSERVER_ONLY},
       {SlamState::kNotFinite, Status::NOT_FINITE}};
   for (const auto& [state, constant] : states) {

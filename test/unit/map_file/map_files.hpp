@@ -67,7 +67,12 @@ inline Landmark randomLandmark(RandomSource& random, std::size_t anchors, std::i
   landmark.covariance_m2 = (root * root.transpose()).cast<float>().cast<double>();
   landmark.covariance_m2.triangularView<Eigen::StrictlyLower>() =
       landmark.covariance_m2.transpose();
-  landmark.view_direction_map = random.normal3().normalized().cast<float>().cast<double>();
+  const Eigen::Vector3d direction = random.normal3().normalized();
+  for (int i = 0; i < 3; ++i) {
+    // Volatile: GCC 12 leaves the rounding to float and back out, at -O3, in a vector.
+    const volatile float rounded = static_cast<float>(direction[i]);
+    landmark.view_direction_map[i] = rounded;
+  }
   for (double* value : {&landmark.seen_distance_m, &landmark.sigma_m, &landmark.depth_sigma_m,
                         &landmark.parallax_rad})
     *value = static_cast<float>(random.uniform(0, 20));

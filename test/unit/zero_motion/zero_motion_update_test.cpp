@@ -41,7 +41,7 @@ TEST(ZeroMotionUpdate, LearnsTheDepthOfTheScene) {
 TEST(ZeroMotionUpdate, ForgetsItWithTheCameraAndWhenItBeginsAnew) {
   for (const bool is_camera : {true, false}) {
     Flight flight;
-    is_camera ? flight.update.changeCamera(flight.window) : flight.update.reset();
+    is_camera ? flight.update.beginAnew(flight.window) : flight.update.reset();
     for (const double probability : {0.1, 0.5, 0.99})
       EXPECT_EQ(flight.update.sceneDepth().quantile_m(probability),
                 SceneDepth().quantile_m(probability));
