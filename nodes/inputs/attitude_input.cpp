@@ -48,8 +48,11 @@ std::optional<float> AttitudeInput::find(std::int64_t exposed_ns, const std::str
              ": remap it to the odometry's odometry, or switch use_attitude off";
     return std::nullopt;
   }
-  const auto T_base_cam = mounting_.find(base_frame_, camera_frame, fault_);
-  if (!T_base_cam) return std::nullopt;
+  const auto T_base_cam = mounting_.find(base_frame_, camera_frame);
+  if (!T_base_cam) {
+    fault_ = mounting_.fault();
+    return std::nullopt;
+  }
   const auto rotation_rad =
       ardrone_vslam::imageRoll_rad((state.T_odom_base * *T_base_cam).linear());
   if (!rotation_rad) fault_ = "the camera looks up or down: gravity does not tell the image's turn";
