@@ -172,7 +172,6 @@ std::vector<RunOdometry> odometriesOf(const Sequence& sequence, const Options& o
   // A bag is what was recorded; image folders have no odometry of their own and get a simulated
   // one.
   const bool is_bag = !std::filesystem::is_directory(o.input);
-  std::vector<RunOdometry> odometries;
   if (o.odometry_profile.empty() && is_bag && o.ping_pong) {
     throw UsageError(sequence.name() +
                      ": --ping-pong: recorded odometry cannot run backwards; corrupt the truth "
@@ -183,17 +182,13 @@ std::vector<RunOdometry> odometriesOf(const Sequence& sequence, const Options& o
       throw UsageError(sequence.name() + (o.seeds.empty() ? ": --seed" : ": --seeds") +
                        " needs --odometry-profile: the recorded odometry has no seeds");
     }
-    odometries.push_back(recordedOdometry(sequence));
-    return odometries;
+    return {recordedOdometry(sequence)};
   }
   const std::string profile =
       o.odometry_profile.empty() ? defaultProfile(o.input) : o.odometry_profile;
-  for (const std::uint64_t seed :
-       (o.seeds.empty() ? std::vector<std::uint64_t>{o.seed} : parseSeeds(o.seeds))) {
-    odometries.push_back(simulatedOdometry(sequence, profile, seed));
-    if (o.is_odometry_at_zero) beginAtOrigin(odometries.back());
-  }
-  return odometries;
+  const std::vector<std::uint64_t> seeds =
+      o.seeds.empty() ? std::vector{o.seed} : parseSeeds(o.seeds);
+  return simulatedOdometries(sequence, profile, seeds, o.is_odometry_at_zero);
 }
 
 RunMaps mapsOf(const Options& o, const Sequence& sequence, const PipelineConfig& config) {

@@ -101,7 +101,7 @@ TEST_F(DroneStreamTest, NumbersThatCannotBeAreRefused) {
   EXPECT_TRUE(refuses([&](VslamPose& p) { p.state = VSLAM_ENDING; }));
   EXPECT_TRUE(refuses([&](VslamPose& p) { p.state = VSLAM_NOT_FINITE; }));
   EXPECT_TRUE(refuses([&](VslamPose& p) {
-    p.state = 11;
+    p.state = VSLAM_LAST_STATE + 1;
     p.flags = 0;
   }));
   EXPECT_TRUE(refuses([&](VslamPose& p) { p.stamp_ns = 0; }));

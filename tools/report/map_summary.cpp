@@ -12,7 +12,7 @@ bool isFound(const RunResult& run, std::size_t found_frame) {
 
 }  // namespace
 
-Eigen::Isometry3d T_map_odomWhenFound(const RunResult& run, std::size_t found_frame) {
+Eigen::Isometry3d odometryFrameWhenFound(const RunResult& run, std::size_t found_frame) {
   if (!isFound(run, found_frame)) return Eigen::Isometry3d::Identity();
   const FrameResult& found = run.frames[found_frame].result;
   return found.T_map_base * found.T_odom_base.inverse();

@@ -11,7 +11,7 @@
 namespace ardrone_vslam {
 
 /// By this the odometry is compared as if it had begun in the map, where the flight was found.
-Eigen::Isometry3d T_map_odomWhenFound(const RunResult& run, std::size_t found_frame);
+Eigen::Isometry3d odometryFrameWhenFound(const RunResult& run, std::size_t found_frame);
 
 /// How long the flight was looked for.
 void addMap(const RunResult& run, std::size_t found_frame, nlohmann::ordered_json& summary);

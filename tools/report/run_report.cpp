@@ -162,7 +162,7 @@ RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
   constexpr std::int64_t kLongestTruthGap_ns = 1'000'000'000;
   RunEvaluation e;
   e.found_frame = static_cast<std::size_t>(countSearching(run));
-  const Eigen::Isometry3d T_map_odom = T_map_odomWhenFound(run, e.found_frame);
+  const Eigen::Isometry3d T_map_odom = odometryFrameWhenFound(run, e.found_frame);
   for (const RunFrame& frame : run.frames) {
     const FrameResult& r = frame.result;
     const std::int64_t exposed_ns = r.stamp_ns + std::llround(run.image_time_offset_s * 1e9);

@@ -18,6 +18,16 @@ bool standsStill(const Poses& poses, const PositionOf& positionOf) {
   });
 }
 
+void beginAtOrigin(RunOdometry& odometry) {
+  if (odometry.run.states.empty()) return;
+  const Eigen::Isometry3d first = odometry.run.states.front().T_odom_base;
+  const Eigen::Vector3d forward = first.linear().col(0);
+  const Eigen::AngleAxisd back(-std::atan2(forward.y(), forward.x()), Eigen::Vector3d::UnitZ());
+  const Eigen::Isometry3d T_new_old = back * Eigen::Translation3d(-first.translation());
+  for (OdometryState& state : odometry.run.states)
+    state.T_odom_base = T_new_old * state.T_odom_base;
+}
+
 }  // namespace
 
 RunOdometry recordedOdometry(const Sequence& sequence) {
@@ -60,14 +70,15 @@ RunOdometry simulatedOdometry(const Sequence& sequence, const std::string& profi
                            seed)};
 }
 
-void beginAtOrigin(RunOdometry& odometry) {
-  if (odometry.run.states.empty()) return;
-  const Eigen::Isometry3d first = odometry.run.states.front().T_odom_base;
-  const Eigen::Vector3d forward = first.linear().col(0);
-  const Eigen::AngleAxisd back(-std::atan2(forward.y(), forward.x()), Eigen::Vector3d::UnitZ());
-  const Eigen::Isometry3d T_new_old = back * Eigen::Translation3d(-first.translation());
-  for (OdometryState& state : odometry.run.states)
-    state.T_odom_base = T_new_old * state.T_odom_base;
+std::vector<RunOdometry> simulatedOdometries(const Sequence& sequence, const std::string& profile,
+                                             const std::vector<std::uint64_t>& seeds,
+                                             bool is_at_zero) {
+  std::vector<RunOdometry> odometries;
+  for (const std::uint64_t seed : seeds) {
+    odometries.push_back(simulatedOdometry(sequence, profile, seed));
+    if (is_at_zero) beginAtOrigin(odometries.back());
+  }
+  return odometries;
 }
 
 Trajectory truthFromOdometryStart(const Trajectory& truth, const RunOdometry& odometry,

@@ -27,9 +27,12 @@ RunOdometry recordedOdometry(const Sequence& sequence);
 RunOdometry simulatedOdometry(const Sequence& sequence, const std::string& profile,
                               std::uint64_t seed);
 
-/// The same odometry of a drone that was switched on at its first pose: there it is at the origin,
-/// looking along x. Roll and pitch stay.
-void beginAtOrigin(RunOdometry& odometry);
+/// One for each seed.
+/// @param is_at_zero  as of a drone that was switched on at its first pose: there it is at the
+/// origin, looking along x. Roll and pitch stay
+std::vector<RunOdometry> simulatedOdometries(const Sequence& sequence, const std::string& profile,
+                                             const std::vector<std::uint64_t>& seeds,
+                                             bool is_at_zero);
 
 /// The truth in the odometry's world: as it is when both start within 0.1 m and 5 degrees of each
 /// other, else moved as a whole so that both start at the same pose (a motion-capture system and
