@@ -4,6 +4,15 @@
 #include <utility>
 
 namespace ardrone_vslam {
+namespace {
+
+std::string differenceOf(const SavedMap& map, const CameraIdentity& camera) {
+  const MapCamera now{static_cast<int>(camera.width_px), static_cast<int>(camera.height_px),
+                      camera.focal_length_px};
+  return cameraDifference(map.camera, now);
+}
+
+}  // namespace
 
 void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam,
                          const std::string& base, const std::string& frame) {
@@ -11,7 +20,7 @@ void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& 
     slam_->changeCamera(T_base_cam);
   } else {
     slam_ = std::make_unique<Slam>(config_, T_base_cam);
-    load(camera);
+    if (loaded_) slam_->load(*loaded_);
   }
   setup_.useCamera(T_base_cam, base, frame);
   camera_ = camera;
@@ -19,21 +28,14 @@ void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& 
 }
 
 void LiveSlam::useMap(std::shared_ptr<const SavedMap> loaded) {
-  const std::string fault = Slam::faultOfMaps(config_);
+  std::string fault = Slam::faultOfMaps(config_);
+  if (fault.empty() && loaded && slam_) fault = differenceOf(*loaded, camera_);
   if (loaded && !fault.empty()) throw MapFileError(fault);
   loaded_ = std::move(loaded);
 }
 
-void LiveSlam::load(const CameraIdentity& camera) {
-  if (!loaded_) return;
-  const MapCamera now{static_cast<int>(camera.width_px), static_cast<int>(camera.height_px),
-                      camera.focal_length_px};
-  const std::string difference = cameraDifference(loaded_->camera, now);
-  if (difference.empty()) {
-    slam_->load(*loaded_);
-  } else {
-    warnings_.limited("the loaded map is not used: " + difference);
-  }
+std::string LiveSlam::mapFault(const CameraIdentity& camera) const {
+  return loaded_ && !slam_ ? differenceOf(*loaded_, camera) : "";
 }
 
 SavedMap LiveSlam::save() const {

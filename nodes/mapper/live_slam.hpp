@@ -19,7 +19,7 @@ namespace ardrone_vslam {
 class LiveSlam {
  public:
   LiveSlam(const SlamConfig& config, Warnings& warnings)
-      : config_(config), warnings_(warnings), setup_(config.image_time_offset_s, warnings) {}
+      : config_(config), setup_(config.image_time_offset_s, warnings) {}
 
   bool hasMap() const { return slam_ != nullptr; }
   /// As useCamera() was told last.
@@ -30,8 +30,11 @@ class LiveSlam {
   void useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam,
                  const std::string& base, const std::string& frame);
   /// What begins from now on begins in this map of an earlier flight; nothing: in an empty one.
-  /// @throws MapFileError when the estimator has no use for maps
+  /// @throws MapFileError when the estimator has no use for maps, or the camera in use is another
+  /// one
   void useMap(std::shared_ptr<const SavedMap> loaded);
+  /// What tells this camera from the loaded map's; empty when nothing does, and without such a map.
+  std::string mapFault(const CameraIdentity& camera) const;
   /// The map for a file. @throws MapFileError when there is none, or none of the loaded map's frame
   SavedMap save() const;
   void countCameraChange() { ++counts_.camera_changes; }
@@ -64,10 +67,7 @@ class LiveSlam {
   void fill(Status& status) const;
 
  private:
-  void load(const CameraIdentity& camera);
-
   SlamConfig config_;
-  Warnings& warnings_;
   std::shared_ptr<const SavedMap> loaded_;
   std::unique_ptr<Slam> slam_;
   SetupReport setup_;

@@ -121,6 +121,11 @@ bool MapperNodelet::prepareSlam(const Features& features) {
     mounting_->wait(fault);
     return false;
   }
+  const std::string map_fault = slam_->mapFault(camera);
+  if (!map_fault.empty()) {
+    mounting_->wait("map_file: " + map_fault);
+    return false;
+  }
   const Frames& frames = odometry_->frames();
   const std::string frame = withTfPrefix(settings_.tf_prefix, camera.frame);
   const auto T_base_cam = mounting_->find(frames.base, frame);

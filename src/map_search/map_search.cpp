@@ -119,7 +119,6 @@ std::optional<MapSearch::Sight> MapSearch::look(const ImageFeatures& features,
     return std::nullopt;
 
   Sight sight;
-  sight.stamp_ns = features.stamp_ns;
   sight.camera_flight = T_flight_cam.translation();
   MapEntry& entry = sight.entry;
   entry.camera_loaded = consensus->position_map;

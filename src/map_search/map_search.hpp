@@ -38,7 +38,6 @@ class MapSearch {
  private:
   /// The pose of one image in the map.
   struct Sight {
-    std::int64_t stamp_ns = 0;
     MapEntry entry;
     double distance_m = 0;                                    // of the landmarks, median
     Eigen::Vector3d camera_flight = Eigen::Vector3d::Zero();  // its position

@@ -42,7 +42,9 @@ class Relocator {
   double shareByChance(const Clone& pose) const;
 
  private:
-  std::vector<Clone> posesOf(std::size_t a, std::size_t b) const;
+  /// The poses that a pair gives: one, or two where the heading is unknown.
+  template <class Visit>
+  void forEachPose(std::size_t a, std::size_t b, const Visit& visit) const;
   std::optional<Clone> poseOf(std::size_t a, std::size_t b) const;
   Clone refined(Clone pose) const;
   double off(const Clone& pose, std::size_t i, double slack_rad) const {
@@ -64,11 +66,11 @@ class Relocator {
   Heading heading_;
 };
 
-std::vector<Clone> Relocator::posesOf(std::size_t a, std::size_t b) const {
-  std::vector<Clone> poses;
+template <class Visit>
+void Relocator::forEachPose(std::size_t a, std::size_t b, const Visit& visit) const {
   if (heading_ == Heading::kPredicted) {
-    if (const auto pose = poseOf(a, b)) poses.push_back(*pose);
-    return poses;
+    if (const auto pose = poseOf(a, b)) visit(*pose);
+    return;
   }
   const MapObservation& one = observations_[a];
   const MapObservation& other = observations_[b];
@@ -79,9 +81,8 @@ std::vector<Clone> Relocator::posesOf(std::size_t a, std::size_t b) const {
     pose.R_map_rig =
         Eigen::AngleAxisd(level.heading_rad, Eigen::Vector3d::UnitZ()) * predicted_.R_map_rig;
     pose.position_map = level.camera_map - pose.R_map_rig * camera_rig_;
-    poses.push_back(pose);
+    visit(pose);
   }
-  return poses;
 }
 
 std::optional<Clone> Relocator::poseOf(std::size_t a, std::size_t b) const {
@@ -140,25 +141,26 @@ std::optional<Clone> Relocator::search() const {
   double best_rough = 0;
   double best_score = 0;
   double samples = kMostSamples;
+  const auto judge = [&](const Clone& pose) {
+    const double rough = score(pose, attitude_rad_);
+    if (rough <= best_rough) return;
+    best_rough = rough;
+    const Clone better = refined(pose);
+    const double its_score = score(better, kSlack_rad);
+    if (its_score <= best_score) return;
+    best_score = its_score;
+    best = better;
+    // Until two right ones have been drawn with a probability of 0.999; of these every other pair
+    // lies well.
+    const double share = its_score / static_cast<double>(observations_.size());
+    samples = std::min(samples, std::log(0.001) / std::log1p(-0.5 * share * share));
+  };
   Draws draws;
   for (int k = 0; k < samples; ++k) {
     const std::size_t a = draws.below(observations_.size());
     const std::size_t b = draws.below(observations_.size());
     if (a == b) continue;
-    for (const Clone& pose : posesOf(a, b)) {
-      const double rough = score(pose, attitude_rad_);
-      if (rough <= best_rough) continue;
-      best_rough = rough;
-      const Clone better = refined(pose);
-      const double its_score = score(better, kSlack_rad);
-      if (its_score <= best_score) continue;
-      best_score = its_score;
-      best = better;
-      // Until two right ones have been drawn with a probability of 0.999; of these every other pair
-      // lies well.
-      const double share = its_score / static_cast<double>(observations_.size());
-      samples = std::min(samples, std::log(0.001) / std::log1p(-0.5 * share * share));
-    }
+    forEachPose(a, b, judge);
   }
   return best;
 }

@@ -54,7 +54,7 @@ struct Slam::State {
 
   /// Where the flight is in a loaded map; once that is known, the frame goes on there.
   void searchMap(const ImageFeatures& features, CameraPose& camera) {
-    if (!search || !isFinite(estimator->estimate())) return;
+    if (!isFinite(estimator->estimate())) return;
     const auto entry = search->see(features, camera.T_map_cam);
     if (!entry) return;
     estimator->enterMap(*entry, search->map(), view, map);
@@ -146,9 +146,11 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   CameraPose camera = estimator.camera();
   s.view.reset(features, camera.T_map_cam, s.config.planar);
   s.seen_by = {features.width_px, features.height_px, features.focal_length_px};
-  enter(Stage::kAssociate);
-  s.searchMap(features, camera);
-  enter(Stage::kLocalise);
+  if (s.search) {
+    enter(Stage::kAssociate);
+    s.searchMap(features, camera);
+    enter(Stage::kLocalise);
+  }
   moveTo(std::move(camera), s.view);
   s.matches = {};
   // Of what is not finite nothing may reach the map; the result says so.

@@ -4,6 +4,7 @@
 odometry."""
 import math
 import os
+import shutil
 import sys
 import unittest
 
@@ -74,6 +75,12 @@ class MapServicesTest(unittest.TestCase):
         self.assertTrue(call("reset", Trigger).success)
         self.drone.fly(2)
         self.assertEqual((self.status().landmarks, self.status().state_name), (0, "building_map"))
+
+        maps = os.path.join(os.environ["ROS_HOME"], "maps")
+        shutil.copy(os.path.join(rospy.get_param("~data"), "maps", "version_1.vmap"), os.path.join(maps, "other.vmap"))
+        answer = call("load_map", MapFile, "other.vmap")
+        self.assertFalse(answer.success)
+        self.assertIn("another camera (640 x 360 px", answer.message)
 
         answer = call("load_map", MapFile, "rostest.vmap")
         self.assertTrue(answer.success, answer.message)
