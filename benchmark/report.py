@@ -54,16 +54,6 @@ ABOUT = {
 WANTED = {"fast9_kitti": 2.2, "fast9_320x240": 2.2, "fast12_kitti": 2.7, "fast12_320x240": 3.3, "freak_kitti": 5,
           "exact_100k": {"avx512": 14, "avx2": 5}, "exact_100k_avx2": 5, "index_100k": 15, "index_100k_avx2": 15,
           "project_100k": 8, "project_100k_avx2": 8, "align_kitti": 10, "freak_kitti_avx2": 5, "tracker_kitti": 8, "tracker_320x240": 8}
-# Where the time goes (perf record) in rows that may miss their figure; shown when they do.
-PROFILES = {
-    "fast12_320x240": "most of it in the test of a row's pixels. Its corners are denser than a KITTI frame's, and the test takes longer a pixel.",
-    "freak_kitti": "half of it in the means of the 43 fields, which are read twice at places that the orientation decides. The scalar form does the "
-                   "same reads; its integral image is what takes so much longer.",
-    "align_kitti": "nearly all of it in the comparisons, of which a patch takes four. The peer has vectors, too (SSE), and looks for neither gain nor "
-                   "offset.",
-    "project_100k": "no wait for memory: arithmetic and branches that cannot be foretold. The scalar form leaves each landmark at the first test "
-                    "that fails.",
-}
 
 
 def read_sides(path):
@@ -137,19 +127,14 @@ def table(rows):
 
 
 def wanted_table(rows, context):
-    """What was to be reached and what was, with the profiles of what was not."""
+    """What was to be reached and what was."""
     lines = ["| row | wanted: peer / ours at least | reached |", "|---|---|---|"]
-    profiles = []
     for name, r in rows.items():
         least = wanted(name, context)
         if least is None:
             continue
-        missed = r["ratio"] < least
-        lines.append(f"| {name} | {least} | {r['ratio']:.1f}{', **missed**' if missed else ''} |")
-        if missed:
-            profile = PROFILES.get(name.replace("_avx2", ""), "no profile has been taken yet.")
-            profiles += ["", f"**{name}**, where the time goes: {profile}"]
-    return "\n".join(lines + profiles)
+        lines.append(f"| {name} | {least} | {r['ratio']:.1f}{', **missed**' if r['ratio'] < least else ''} |")
+    return "\n".join(lines)
 
 
 def draw_passes(rows, path):

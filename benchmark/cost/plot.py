@@ -73,9 +73,9 @@ def main():
         file.write(f"""
 ## What a frame costs the mapper
 
-`mapping_cost`: a simulated street, KITTI's camera, 0.8 px noise, 3 % wrong corners, true odometry; medians over 120 frames, of
-the MSCKF over its keyframes, of the thread's own time, on a machine with a load of {os.getloadavg()[1]:.0f} on {os.cpu_count()} cores. About linear
-in the features, and in the landmarks, all of which are projected; the MSCKF has a constant part besides, the covariance of its
+`mapping_cost`: a simulated street, KITTI's camera, 0.8 px noise, 3 % wrong corners, true odometry. Medians over 120 frames, of
+the MSCKF over its keyframes. Times are the thread's own, on a machine with a load of {os.getloadavg()[1]:.0f} on {os.cpu_count()} cores. They are about linear
+in the features, and in the landmarks, all of which are projected. The MSCKF has a constant part besides, the covariance of its
 window and anchors.
 
 {table(rows)}

@@ -26,11 +26,9 @@ constexpr std::size_t kExactMethod = 2;
 void printMethods(const CameraIntrinsics& c, const std::vector<LensMethod>& methods) {
   const std::vector<double> times = times_ns(c, methods);
   std::printf(
-      "\n## Lens correction\n\nCamera: %dx%d, f = %g px, k1 = %g, k2 = %g. LensErrors against "
-      "Newton's "
-      "method to 1e-12 of the "
-      "image plane, over all pixels; times of one pixel, medians of %d rounds in which the ways "
-      "take turns, %zu pixels each.\n\n",
+      "\n## Lens correction\n\nCamera: %dx%d, f = %g px, k1 = %g, k2 = %g. Errors are against "
+      "Newton's method to 1e-12 of the image plane, over all pixels. Times are of one pixel: "
+      "medians of %d rounds in which the ways take turns, %zu pixels each.\n\n",
       c.width_px, c.height_px, c.fx_px, c.k1, c.k2, kLensRounds, kTimedPixels);
   std::printf("| way | mean error [px] | largest [px] | time [ns] | / `table`'s time |\n");
   std::printf("|---|---|---|---|---|\n");

@@ -71,12 +71,12 @@ void writeIntroduction(std::ostream& page, const QualityResults& results) {
        << "The same budget for all: the " << results.budget
        << " strongest features of an image, at least " << kBorder_px
        << " px inside its border. FAST + FREAK is this package's, in one cell and with a fixed "
-          "threshold of 8 so that the strongest of the whole image are kept; ORB (8 levels, FAST "
+          "threshold of 8, so that the strongest of the whole image are kept. ORB (8 levels, FAST "
           "threshold 8), BRISK (threshold 15) and AKAZE (M-LDB, threshold 0.0001) are OpenCV's, "
           "else with their defaults. All descriptors are matched alike: exact nearest neighbour, "
-          "the matcher's default ratio test and cross check, no limit of the distance (its scale "
-          "differs from descriptor to descriptor), no motion prior. *Roll known*: FREAK is told by "
-          "how much the scene is turned and leaves its 45 orientation pairs out.\n\n"
+          "the matcher's default ratio test and cross check, no motion prior. The distance has no "
+          "limit, as its scale differs from descriptor to descriptor. *Roll known*: FREAK is told "
+          "by how much the scene is turned and leaves its 45 orientation pairs out.\n\n"
        << "Cells are **repeatability / matching score / precision** in %:\n"
        << "- repeatability: points found in both images / features, in the region that both "
           "images show, of the image with fewer (Mikolajczyk et al. 2005);\n"
@@ -87,15 +87,14 @@ void writeIntroduction(std::ostream& page, const QualityResults& results) {
 }
 
 void writeSweeps(std::ostream& page, const QualityResults& results) {
-  page
-      << "### Turned, scaled, blurred (thesis figures 4.5-4.7)\n\n"
-      << "Means over " << results.sweep_images
-      << "; each picture against itself changed. The thesis took its figures from a table on the "
-         "web that states neither images nor criterion, so curves compare in shape only. FAST + "
-         "FREAK has one scale, "
-         "the peers have pyramids. cv::ORB reports features of coarse levels (s - 1) / 2 px off, s "
-         "being the level's scale: its two coarsest levels miss the 2 px of the criterion when "
-         "turned by 180 degrees, and meet it when that is added.\n\n";
+  page << "### Turned, scaled, blurred (thesis figures 4.5-4.7)\n\n"
+       << "Means over " << results.sweep_images
+       << "; each picture against itself changed. The thesis took its figures from a table on the "
+          "web that states neither images nor criterion, so curves compare in shape only. FAST + "
+          "FREAK has one scale, the peers have pyramids. Features of cv::ORB's coarse levels are "
+          "reported (s - 1) / 2 px off, s being the level's scale. So its two coarsest levels miss "
+          "the 2 px of the criterion when turned by 180 degrees. They meet it when that is "
+          "added.\n\n";
   for (const auto& chart : results.sweeps) writeChart(page, chart, "", shownSteps(chart));
   page << "![quality when turned, scaled and blurred](plots/quality_sweeps.png)\n\n";
 }
@@ -130,9 +129,9 @@ void writeMotionTable(std::ostream& page, const std::vector<Chart>& motions, std
 void writeMotions(std::ostream& page, const QualityResults& results) {
   page << "### Four motions\n\n"
        << "Rendered flights through the synthetic room, " << results.motion_frames
-       << " frames each, 568x320, 30 a second, the AR.Drone's lens, noise of 2 grey levels, no "
-          "motion blur: a circle and sideways across the viewing direction, to and fro along it, "
-          "and a turn on the spot (36 degrees a second).\n\n";
+       << " frames each, 568x320, 30 a second, with the AR.Drone's lens. The noise is 2 grey "
+          "levels, without motion blur. They are a circle and sideways across the viewing "
+          "direction, to and fro along it, and a turn on the spot (36 degrees a second).\n\n";
   writeMotionTable(page, results.motions, kOneApart);
   writeMotionTable(page, results.motions, kTenApart);
 }

@@ -6,7 +6,7 @@ import unittest
 from sentences import sentences_of, words_in
 from sources import ROOT
 
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *sorted((ROOT / "benchmark").glob("*.md"))]
 MOST_WORDS = 40
 AIM_WORDS = 25
 
