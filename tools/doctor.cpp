@@ -41,13 +41,14 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--json", o.json,
                  "also write what was found as JSON to this file; -: to stdout, "
                  "in place of the text");
-  app.add_option("--image", o.topics.image,
+  app.add_option("--image,--image-topic", o.topics.image,
                  "topic; default: the one with the most messages, with --live the shortest name");
-  app.add_option("--camera-info", o.topics.camera_info, "topic; default: beside the images");
-  app.add_option("--odometry", o.topics.odometry,
+  app.add_option("--camera-info,--camera-info-topic", o.topics.camera_info,
+                 "topic; default: beside the images");
+  app.add_option("--odometry,--odometry-topic", o.topics.odometry,
                  "topic; default: the one with the most messages, with --live the shortest name");
-  app.add_option("--navdata", o.topics.navdata, "topic; default: the driver's");
-  app.add_option("--imu", o.topics.imu, "topic; default: beside navdata");
+  app.add_option("--navdata,--navdata-topic", o.topics.navdata, "topic; default: the driver's");
+  app.add_option("--imu,--imu-topic", o.topics.imu, "topic; default: beside navdata");
   app.footer(
       "Exit code: 0 when it can work (warnings allowed), 1 when it cannot or cannot be read, 2 for "
       "wrong usage.");

@@ -9,12 +9,12 @@
 #include <map>
 
 #include "bags/bag_writer.hpp"
+#include "folders/kitti_folder.hpp"
+#include "folders/tum_folder.hpp"
 #include "pave/pave_sequence.hpp"
 #include "program/profile_option.hpp"
 #include "program/progress_line.hpp"
 #include "program/tool_main.hpp"
-#include "sequences/kitti_folder.hpp"
-#include "sequences/tum_folder.hpp"
 
 namespace {
 
@@ -90,13 +90,13 @@ bool neverMoves(const Trajectory& truth) {
   constexpr double kRest_m = 1e-6;
   return truth.size() > 1 &&
          std::all_of(truth.poses().begin(), truth.poses().end(), [&](const StampedPose& pose) {
-           const Eigen::Vector3d& start = truth.poses().front().T_map_base.translation();
-           return (pose.T_map_base.translation() - start).norm() < kRest_m;
+           const Eigen::Vector3d& start = truth.poses().front().T_frame_body.translation();
+           return (pose.T_frame_body.translation() - start).norm() < kRest_m;
          });
 }
 
 /// @param advice  what to do when there is neither truth nor odometry
-void chooseObserver(const Sequence& sequence, const std::string& advice, Options& o) {
+void chooseOdometry(const Sequence& sequence, const std::string& advice, Options& o) {
   std::string name = o.odometry_profile;
   if (name.empty() && sequence.odometry().empty() && !sequence.truth().empty()) {
     name = defaultProfile(o.input);
@@ -140,7 +140,7 @@ int run(const CLI::App& app, Options& o) {
     throw std::runtime_error(o.out + ": is there already; choose another name or give --force");
   }
   const auto sequence = select(openSource(app, o), selection);
-  chooseObserver(*sequence, app.got_subcommand("pave") ? kAtRestAdvice : "", o);
+  chooseOdometry(*sequence, app.got_subcommand("pave") ? kAtRestAdvice : "", o);
   o.write.tool = "make_bag (ardrone_vslam) " ARDRONE_VSLAM_VERSION;
   BagWriteReport report;
   {

@@ -15,10 +15,10 @@
 #include "driver/emulation/driver_bag.hpp"
 #endif
 #include "driver/driver_arguments.hpp"
+#include "folders/tum_folder_writer.hpp"
 #include "program/profile_option.hpp"
 #include "program/progress_line.hpp"
 #include "program/tool_main.hpp"
-#include "sequences/tum_folder_writer.hpp"
 #include "world/world_arguments.hpp"
 #include "world/world_sequence.hpp"
 
@@ -139,7 +139,7 @@ void removeOldFolder(const std::string& path) {
 void writeWorldFolder(WorldSequence& world, const Options& o, ProgressLine& progress) {
   TumFolderOptions write;
   if (o.world.odometry) {
-    write.observer_comment = "profile " + o.world.odometry->name + ", seed " +
+    write.odometry_comment = "profile " + o.world.odometry->name + ", seed " +
                              std::to_string(o.world.seed) + ", drawn scale error " +
                              std::to_string(world.odometryNote().scale_error);
   }

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "config_files/config_path.hpp"
+#include "folders/kitti_folder.hpp"
 #include "parameters/parameter_table.hpp"
 #include "program/map_options.hpp"
 #include "program/profile_option.hpp"
@@ -16,11 +17,11 @@
 #include "report/report_runs.hpp"
 #include "report/run_files.hpp"
 #include "report/run_page.hpp"
+#include "report/unfinished_runs.hpp"
 #include "run/loaded_map.hpp"
 #include "run/run_all.hpp"
 #include "run/run_odometry.hpp"
 #include "sequences/faulty_sequence.hpp"
-#include "sequences/kitti_folder.hpp"
 #include "sequences/similar_sequence.hpp"
 #ifdef ARDRONE_VSLAM_WITH_ROS
 #include "bags/bag_options.hpp"
@@ -210,7 +211,7 @@ PipelineConfig configOf(const Options& given) {
   std::vector<std::string> overrides = o.overrides;
   if (!o.estimator.empty()) overrides.push_back("mapper/estimator=" + o.estimator);
   if (o.maps.localise_only) overrides.emplace_back("mapper/localise_only=true");
-  const PipelineConfig config = loadConfig(o.config, {});
+  PipelineConfig config = loadConfig(o.config, {});
   if (overrides.empty()) return config;
   try {
     return loadConfig(o.config, overrides);
@@ -262,15 +263,19 @@ int run(const Options& o) {
   const RunMaps maps = mapsOf(o, *sequence, config);
   makeRunFolder(o.out);
   const std::string evaluate_script = o.report ? findEvaluateScript() : "";
+  const auto tell = [](const std::string& text) { std::cerr << "replay: " << text << '\n'; };
+  const ReportOptions report{o.out, !o.seeds.empty(), nameOf(config.mapper.estimator), tell};
   auto progress = std::make_unique<ProgressLine>("replay", sequence->size());
-  std::vector<RunResult> results = runAll(
-      *sequence, config, odometries, o.threads,
-      [&progress](std::size_t done) { progress->update(done); }, speed, maps);
+  UnfinishedRuns unfinished(*sequence, odometries, report);
+  const auto show = [&](std::size_t done, const ResultsSoFar& so_far) {
+    progress->update(done);
+    unfinished.offer(so_far);
+  };
+  const std::vector<RunResult> results =
+      runAll(*sequence, config, odometries, o.threads, show, speed, maps);
   progress.reset();  // ends its line
   removeEarlierRun(o.out);
-  const auto tell = [](const std::string& text) { std::cerr << "replay: " << text << '\n'; };
-  const auto of_runs = reportRuns(*sequence, odometries, results,
-                                  {o.out, !o.seeds.empty(), nameOf(config.mapper.estimator), tell});
+  const auto of_runs = reportRuns(*sequence, odometries, results, report);
   faults.insert(faults.end(), of_runs.begin(), of_runs.end());
   if (const auto& map = results.front().map)
     std::cout << "map of " << writeMap(o.maps.saved, *map) << " landmarks written to "

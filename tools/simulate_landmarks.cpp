@@ -21,6 +21,8 @@
 
 namespace {
 
+constexpr double kShortestStreet_m = 1;
+
 using namespace ardrone_vslam;
 using Json = nlohmann::ordered_json;
 
@@ -130,7 +132,7 @@ void runThrough(const Options& o, const Trajectory& path, const Trajectory& trut
   TrackedFrame frame;
   std::size_t done = 0;
   for (const StampedPose& pose : truth.poses()) {
-    frame.features = world.look(pose.T_map_base * forwardCamera(), pose.stamp_ns);
+    frame.features = world.look(pose.T_frame_body * forwardCamera(), pose.stamp_ns);
     back_ends.process(frame);
     progress.update(++done);
   }
@@ -179,6 +181,10 @@ int run(const Options& o) {
   for (const std::string& estimator : o.estimators) configs.push_back(configOf(o, estimator));
   const Trajectory path = readPath(o.path);
   const Trajectory truth = selected(path, o.frames);
+  if (!(displacements_m(path).back() >= kShortestStreet_m))
+    throw std::runtime_error(o.path +
+                             ": its poses do not move by a metre in all, so there is no "
+                             "street beside them; give a longer path");
   Json all;
   all["path"] = o.path;
   all["frames"] = truth.size();
@@ -201,7 +207,7 @@ int run(const Options& o) {
   std::filesystem::create_directories(o.out);
   runThrough(o, path, truth, configs.front().tracker.tracks, back_ends);
 
-  const std::vector<RunResult> results = back_ends.finish();
+  const std::vector<RunResult> results = back_ends.results(true);
   auto result = results.begin();
   for (const std::string& estimator : o.estimators) {
     std::vector<Json> summaries;

@@ -39,7 +39,7 @@ Scene streetWith(int features) {
   for (int i = 0; i < kWarmUp + kMeasured; ++i) {
     StampedPose pose;
     pose.stamp_ns = 100'000'000LL * (i + 1);
-    pose.T_map_base.translation() << kStep_m * i, 0, 0;
+    pose.T_frame_body.translation() << kStep_m * i, 0, 0;
     poses.push_back(pose);
   }
   scene.path = Trajectory(std::move(poses));
@@ -57,7 +57,7 @@ Scene streetWith(int features) {
     scene.frames.clear();
     for (const StampedPose& pose : scene.path.poses()) {
       TrackedFrame& frame = scene.frames.emplace_back();
-      frame.features = world.look(pose.T_map_base * forwardCamera(), pose.stamp_ns);
+      frame.features = world.look(pose.T_frame_body * forwardCamera(), pose.stamp_ns);
     }
     seen_of_10000 = static_cast<double>(scene.frames[kWarmUp].features.size());
   }
@@ -80,7 +80,7 @@ std::vector<OdometryState> truthOf(const Trajectory& path) {
   for (const StampedPose& pose : path.poses()) {
     OdometryState state;
     state.stamp_ns = pose.stamp_ns;
-    state.T_odom_base = pose.T_map_base;
+    state.T_odom_base = pose.T_frame_body;
     states.push_back(state);
   }
   return states;
@@ -184,7 +184,7 @@ Cost costOfMap(const Scene& scene, int landmarks) {
   AssociationResult result;
   for (std::size_t i = kWarmUp; i < kWarmUp + 30; ++i) {
     const ImageFeatures& features = scene.frames[i].features;
-    view.reset(features, scene.path.poses()[i].T_map_base * forwardCamera(), false);
+    view.reset(features, scene.path.poses()[i].T_frame_body * forwardCamera(), false);
     view.setPositionVariance(0.01, true);
     StageTimes_ms stage_ms{};
     StageCpu cpu(stage_ms);

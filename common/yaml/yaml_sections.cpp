@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "yaml/yaml_sections.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -97,6 +99,9 @@ class Lines {
 
 /// A configuration's or calibration's text. @return what is wrong with the file, else nothing
 std::string readText(const std::string& path, std::string& text) {
+  struct stat status = {};  // a pipe or a device may never end
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    return "is no file but a folder, device or pipe; name a file";
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
   if (!file) return kUnreadable;

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
-#include "ardrone_vslam/height_jumps.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
 #include "ardrone_vslam/odometry_config.hpp"
 #include "ardrone_vslam/odometry_faults.hpp"
@@ -19,6 +16,7 @@ class OdometryAdapter {
  public:
   /// @throws ConfigError listing every parameter out of its range
   explicit OdometryAdapter(const OdometryAdapterConfig& config);
+  ~OdometryAdapter();
 
   /// One message, as it came: its position may be out of bounds. From the first burst of equal
   /// stamps on, messages are held until the next stamp comes, to be spread over the gap before.
@@ -34,40 +32,11 @@ class OdometryAdapter {
   static bool isBeyondAllJumps(const OdometryState& message);
 
   /// What was wrong with the messages so far, by cause.
-  const OdometryFaultCounts& faults() const { return faults_; }
+  const OdometryFaultCounts& faults() const;
 
  private:
-  void count(OdometryFault fault) { ++faults_[static_cast<std::size_t>(fault)]; }
-  void beginAnew();
-  OdometryBuffer::Push addToBurst(const OdometryState& message);
-  OdometryBuffer::Push absorb(const OdometryState& message);
-  OdometryBuffer::Push adapt(const OdometryState& message, std::vector<OdometryState>& ready);
-  bool follows(const OdometryState& message);
-  Eigen::Vector3d wayByTwist_m(const OdometryState& message) const;
-  double heightByTwist_m(const OdometryState& state, double climb_m) const;
-  void moveByTwist(const Eigen::Vector3d& way_m, OdometryState& state);
-
-  /// What became of the time before a message.
-  struct Gap {
-    double duration_s = 0;
-    Eigen::Vector3d speeds_m_s = Eigen::Vector3d::Zero();  // sum of the mean speeds in it
-    int speed_count = 1;
-  };
-
-  OdometryAdapterConfig config_;
-  OdometryFaultCounts faults_{};
-  WholeMetresWatch whole_metres_;
-  MissingTwistWatch missing_twist_;
-  HeightJumpDetector height_jumps_;  // odometry_mode twist with the pose's height
-
-  // Messages of one stamp, of which there may be more; there from the first burst on.
-  std::optional<std::vector<OdometryState>> held_;
-  std::int64_t newest_ns_ = 0;              // of the messages; 0: none
-  std::optional<OdometryState> last_;       // message that was used, its stamp spread
-  std::optional<OdometryState> candidate_;  // message that jumped, until one agrees with it
-  Eigen::Vector3d position_odom_m_ = Eigen::Vector3d::Zero();  // last answer
-  Eigen::Vector3d offset_odom_m_ = Eigen::Vector3d::Zero();    // of the answers from the messages
-  Gap gap_;  // before last_, should it be the first of a burst
+  class State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace ardrone_vslam

@@ -150,8 +150,8 @@ void visitParameters(HeightInputConfig& c, Visitor&& visit) {
                       turnFirst(5)},
         c.use_navdata_height);
   visit(ParameterInfo{"known_height_m", "m", 0, 1000,
-                      "constant height of base above a level floor (a robot on wheels): holds z, "
-                      "tells nothing of the scale; 0: not known",
+                      "constant height of base above a level floor (a robot on wheels; 0.001 for "
+                      "a base on the floor): holds z, tells nothing of the scale; 0: not known",
                       turnFirst(6)},
         c.known_height_m);
 }

@@ -42,33 +42,4 @@ bool isWorthWarning(OdometryFault fault);
 /// A sentence's end for users, its subject the odometry: what is wrong, what is done, what helps.
 const char* explain(OdometryFault fault);
 
-/// Tells heights in whole metres (a driver that divides integers) from a height that is constant.
-class WholeMetresWatch {
- public:
-  /// One height, in order. @param climb_m  since the one before, by the twist
-  /// @return whether it is a step of whole metres after others
-  bool see(double height_m, double climb_m);
-  /// Whether all heights of late were whole metres although the twist climbs.
-  bool isWhole() const { return is_whole_; }
-
- private:
-  static constexpr int kFewest = 10;
-
-  int count_ = 0;  // whole ones on end
-  double last_m_ = 0;
-  double climbed_m_ = 0;  // by the twist, since the last step
-  bool is_whole_ = false;
-};
-
-/// Tells poses that move on although the twist is zero.
-class MissingTwistWatch {
- public:
-  /// One message, in order. @param way_m  since the one before, by the poses
-  /// @return whether a metre (again) was moved without a twist
-  bool see(bool is_twist_zero, double way_m);
-
- private:
-  double without_twist_m_ = 0;  // way of the poses since the twist has been zero
-};
-
 }  // namespace ardrone_vslam

@@ -3,7 +3,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
+#include <optional>
 
+// Debian has no library of Lie groups (Sophus, manif); what follows is all that is needed of one.
 namespace ardrone_vslam {
 
 /// Rotation matrix of a rotation vector [rad].
@@ -25,6 +28,18 @@ inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
   return m;
+}
+
+/// By how much what stands upright appears turned in the image, from the image's x axis towards its
+/// y axis (clockwise as seen); minus the camera's roll: the orientation that FreakDescriber takes.
+/// @param R_odom_cam  optical frame (x right, y down, z forward) to a frame whose z axis points up
+/// @return nothing where the camera looks within 15 degrees of straight up or down: gravity then
+///   says little about the image's turn
+inline std::optional<float> imageRoll_rad(const Eigen::Matrix3d& R_odom_cam) {
+  constexpr double kSmallest = 0.2588;  // sine of 15 degrees
+  const Eigen::Vector3d down_cam = -R_odom_cam.row(2).transpose();
+  if (!(std::hypot(down_cam.x(), down_cam.y()) > kSmallest)) return std::nullopt;
+  return static_cast<float>(std::atan2(-down_cam.x(), down_cam.y()));
 }
 
 }  // namespace ardrone_vslam

@@ -63,7 +63,7 @@ std::string staticTransformLine(const Eigen::Isometry3d& T_base_cam, const std::
 /// stamps are its only clock.
 class SetupWatch {
  public:
-  /// @param T_base_cam  mounting of the camera, as told: optical frame to base
+  /// @param T_base_cam  extrinsics, as told: optical frame to base
   /// @param image_time_offset_s  the parameter
   explicit SetupWatch(const Eigen::Isometry3d& T_base_cam, double image_time_offset_s = 0);
   ~SetupWatch();

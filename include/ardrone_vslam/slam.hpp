@@ -19,14 +19,14 @@ namespace ardrone_vslam {
 
 constexpr double kFarthestCamera_m = 100;  ///< from base
 
-/// What cannot be the mounting of a camera, and what helps; empty when it can.
+/// What extrinsics cannot be, and what helps; empty when it can.
 std::string extrinsicsFault(const Eigen::Isometry3d& T_base_cam);
 
 /// Features and odometry states -> fused poses and a map, by the estimator that the configuration
 /// names (docs/msckf.md; of the thesis's algorithm 5: docs/thesis_estimator.md).
 class Slam {
  public:
-  /// @param T_base_cam  mounting of the camera: optical frame to base
+  /// @param T_base_cam  extrinsics: optical frame to base
   /// @throws ConfigError listing every invalid parameter; std::invalid_argument with the
   /// extrinsicsFault
   Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam);
@@ -48,7 +48,7 @@ class Slam {
   /// @pre canChangeCamera() (asserted)
   void changeCamera(const Eigen::Isometry3d& T_base_cam);
 
-  /// False with `extrinsics_sigma_deg`, which is the error of one camera's mounting.
+  /// False with `extrinsics_sigma_deg`, which is the error of one camera's extrinsics.
   bool canChangeCamera() const;
 
   /// Why a configuration can neither load nor save maps; empty when it can.

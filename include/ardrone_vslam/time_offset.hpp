@@ -49,7 +49,7 @@ class TimeOffsetEstimator {
   static constexpr double kMemory_s = 30;   ///< time constant of forgetting
   static constexpr double kSure_s = 0.005;  ///< a deviation above this is not told
 
-  /// @param T_base_cam  mounting of the camera: optical frame to base
+  /// @param T_base_cam  extrinsics: optical frame to base
   /// @param centre_s  the offset that is used so far: the grid lies about it
   explicit TimeOffsetEstimator(const Eigen::Isometry3d& T_base_cam, double centre_s = 0);
   ~TimeOffsetEstimator();

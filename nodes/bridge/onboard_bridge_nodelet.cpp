@@ -116,12 +116,12 @@ void OnboardBridgeNodelet::onAnswer(const VslamPose& pose) {
 
 void OnboardBridgeNodelet::publishPose(const FrameResult& result) {
   const Eigen::Isometry3d T_map_odom = result.T_map_base * result.T_odom_base.inverse();
-  OdometryState observer;
-  observer.stamp_ns = result.stamp_ns;
-  observer.T_odom_base = result.T_odom_base;
+  OdometryState odometry;
+  odometry.stamp_ns = result.stamp_ns;
+  odometry.T_odom_base = result.T_odom_base;
   // The answer has no twist.
-  observer.twist_covariance = kLargestTwistCovariance * Matrix6d::Identity();
-  outputs_->publishFrame(result, T_map_odom, frames_, observer);
+  odometry.twist_covariance = kLargestTwistCovariance * Matrix6d::Identity();
+  outputs_->publishFrame(result, T_map_odom, frames_, odometry);
   outputs_->publishTf(result.stamp_ns, T_map_odom, frames_);
   publishOdomTf(result);
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ardrone_vslam/image_roll.hpp"
+#include "ardrone_vslam/rotation.hpp"
 #include "conversions/conversions.hpp"
 
 namespace ardrone_vslam {
@@ -15,7 +15,7 @@ constexpr std::uint32_t kAttitudeQueue = 200;
 }  // namespace
 
 AttitudeInput::AttitudeInput(ros::NodeHandle nh, double image_time_offset_s)
-    : mounting_(nh),
+    : extrinsics_(nh),
       image_time_offset_ns_(std::llround(image_time_offset_s * 1e9)),
       buffer_(OdometryBufferConfig{}),
       topic_(nh.resolveName("attitude")),
@@ -48,9 +48,9 @@ std::optional<float> AttitudeInput::find(std::int64_t exposed_ns, const std::str
              ": remap it to the odometry's odometry, or switch use_attitude off";
     return std::nullopt;
   }
-  const auto T_base_cam = mounting_.find(base_frame_, camera_frame);
+  const auto T_base_cam = extrinsics_.find(base_frame_, camera_frame);
   if (!T_base_cam) {
-    fault_ = mounting_.fault();
+    fault_ = extrinsics_.fault();
     return std::nullopt;
   }
   const auto rotation_rad =

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "ardrone_vslam/odometry_buffer.hpp"
-#include "inputs/mounting.hpp"
+#include "inputs/extrinsics_tf.hpp"
 
 namespace ardrone_vslam {
 
@@ -22,7 +22,7 @@ class AttitudeInput {
   AttitudeInput(ros::NodeHandle nh, double image_time_offset_s);
 
   /// @return nothing when the latest attitude is more than kOldest_ns older than the exposure, the
-  ///   camera's mounting is not known, or gravity does not say (imageRoll_rad)
+  ///   camera's extrinsics are not known, or gravity does not say (imageRoll_rad)
   std::optional<float> imageRoll_rad(std::int64_t stamp_ns, const std::string& camera_frame);
 
   std::uint64_t imagesWithout() const { return images_without_; }
@@ -33,7 +33,7 @@ class AttitudeInput {
   void onAttitude(const nav_msgs::Odometry& message);
   std::optional<float> find(std::int64_t exposed_ns, const std::string& camera_frame);
 
-  Mounting mounting_;
+  ExtrinsicsTf extrinsics_;
   std::int64_t image_time_offset_ns_;
   OdometryBuffer buffer_;
   std::string base_frame_;

@@ -21,13 +21,13 @@ double now_s() {
 void MapperNodelet::onInit() {
   readParameters();
   outputs_ = std::make_unique<MapperOutputs>(getNodeHandle(), settings_.node.outputs);
-  mounting_ = std::make_unique<Mounting>(getNodeHandle());
+  extrinsics_ = std::make_unique<ExtrinsicsTf>(getNodeHandle());
   slam_ = std::make_unique<LiveSlam>(settings_.slam, warnings_);
   makeMaps();
   makeInputs();
   status_ = std::make_unique<MapperStatus>(
       getNodeHandle(), getPrivateNodeHandle(), getName(),
-      MapperStatus::Parts{*features_, *odometry_, *heights_, *mounting_, *matcher_, *slam_},
+      MapperStatus::Parts{*features_, *odometry_, *heights_, *extrinsics_, *matcher_, *slam_},
       warnings_);
   start();  // last: callbacks run at once, in another thread
 }
@@ -118,17 +118,17 @@ bool MapperNodelet::prepareSlam(const Features& features) {
   if (slam_->hasMap() && camera == slam_->camera()) return true;
   const std::string fault = odometry_->framesFault();
   if (!fault.empty()) {
-    mounting_->wait(fault);
+    extrinsics_->wait(fault);
     return false;
   }
   const std::string map_fault = slam_->mapFault(camera);
   if (!map_fault.empty()) {
-    mounting_->wait("map_file: " + map_fault);
+    extrinsics_->wait("map_file: " + map_fault);
     return false;
   }
   const Frames& frames = odometry_->frames();
   const std::string frame = withTfPrefix(settings_.tf_prefix, camera.frame);
-  const auto T_base_cam = mounting_->find(frames.base, frame);
+  const auto T_base_cam = extrinsics_->find(frames.base, frame);
   if (!T_base_cam) return false;
   useCamera(camera, *T_base_cam, frame);
   NODELET_INFO_STREAM("frames: " << frames.map << " -> " << frames.odom << " -> " << frames.base
@@ -178,7 +178,7 @@ Eigen::Isometry3d MapperNodelet::mapToOdomOfTf(const FrameResult& result) const 
   Eigen::Isometry3d T_map_odom = slam_->slam().T_map_odom();
   if (settings_.slam.odometry_adapter.mode == OdometryMode::kPose) return T_map_odom;
   const Frames& frames = odometry_->frames();
-  const auto T_odom_base = mounting_->T_odom_base(frames.odom, frames.base, result.stamp_ns);
+  const auto T_odom_base = extrinsics_->T_odom_base(frames.odom, frames.base, result.stamp_ns);
   return T_odom_base ? result.T_map_base * T_odom_base->inverse() : T_map_odom;
 }
 
@@ -187,7 +187,7 @@ void MapperNodelet::restartAt(std::int64_t stamp_ns, const std::string& topic) {
   // only its own.
   const std::int64_t limit_ns = stamp_ns + StampGuard::kRestart_ns - 1;
   const bool was_waiting = matcher_->forgetAfter(limit_ns);
-  mounting_->tf().clear();  // a bag without /clock: tf cannot know
+  extrinsics_->tf().clear();  // a bag without /clock: tf cannot know
   if (slam_->hasMap() && slam_->answered_ns() > limit_ns) {
     beginMapAnew("stamps on " + topic + " jumped back (a bag plays again?)");
   } else if (was_waiting) {
@@ -209,7 +209,7 @@ void MapperNodelet::onSecond() {
     heights_->countSecond();
     if (isReminderDue(heights_->secondsWithout())) NODELET_WARN_STREAM(heights_->missing());
   }
-  odometry_->seeTf(mounting_->tf().core());
+  odometry_->seeTf(extrinsics_->tf().core());
   status_->endSecond(has_features, has_answer);
 }
 

@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
+#include "inputs/extrinsics_tf.hpp"
 #include "inputs/frame_matcher.hpp"
 #include "inputs/height_topic.hpp"
-#include "inputs/mounting.hpp"
 #include "mapper/features_topic.hpp"
 #include "mapper/live_slam.hpp"
 #include "mapper/map_services.hpp"
@@ -34,7 +34,7 @@ class MapperNodelet : public nodelet::Nodelet {
   /// Works on every image whose odometry has come.
   void processReady();
   void processFrame(const FrameMatcher::Frame& frame);
-  /// Makes the Slam, or has it change the camera, once the mounting of these features' camera is
+  /// Makes the Slam, or has it change the camera, once the extrinsics of these features' camera is
   /// known. @return false while it is not
   bool prepareSlam(const Features& features);
   void useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam,
@@ -48,7 +48,7 @@ class MapperNodelet : public nodelet::Nodelet {
   MapperSettings settings_;
   Warnings warnings_{[this](const std::string& sentence) { NODELET_WARN_STREAM(sentence); }};
   std::unique_ptr<MapperOutputs> outputs_;
-  std::unique_ptr<Mounting> mounting_;
+  std::unique_ptr<ExtrinsicsTf> extrinsics_;
   std::unique_ptr<LiveSlam> slam_;
   std::unique_ptr<MapServices> maps_;
   std::unique_ptr<FrameMatcher> matcher_;

@@ -75,10 +75,10 @@ void MapperStatus::publishWaiting(bool has_features) {
     status.reason = "no features on " + parts_.features.name() +
                     ": is the tracker running, and does it get images and camera_info? Its log "
                     "and diagnostics say";
-  } else if (!parts_.mounting.fault().empty()) {
+  } else if (!parts_.extrinsics.fault().empty()) {
     status.state = Status::WAITING_FOR_EXTRINSICS;
     status.state_name = "waiting_for_extrinsics";
-    status.reason = parts_.mounting.fault();
+    status.reason = parts_.extrinsics.fault();
   } else {
     status.state = Status::WAITING_FOR_ODOMETRY;
     status.state_name = "waiting_for_odometry";
@@ -118,8 +118,8 @@ void MapperStatus::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper
   wrapper.add("images answered", counts.images);
   wrapper.add("images without odometry", parts_.matcher.droppedNoOdometry());
   parts_.odometry.diagnose(wrapper);
-  wrapper.add("tf transforms with a stamp that was there", parts_.mounting.tf().repeated());
-  wrapper.add("tf transforms older than all kept", parts_.mounting.tf().tooOld());
+  wrapper.add("tf transforms with a stamp that was there", parts_.extrinsics.tf().repeated());
+  wrapper.add("tf transforms older than all kept", parts_.extrinsics.tf().tooOld());
   if (parts_.heights.isUsed()) diagnoseHeights(wrapper);
   parts_.slam.setup().diagnose(wrapper);
   wrapper.add("results not finite", counts.results_not_finite);

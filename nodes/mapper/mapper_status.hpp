@@ -5,8 +5,8 @@
 
 #include <string>
 
+#include "inputs/extrinsics_tf.hpp"
 #include "inputs/height_topic.hpp"
-#include "inputs/mounting.hpp"
 #include "mapper/features_topic.hpp"
 #include "mapper/live_slam.hpp"
 #include "mapper/odometry_topic.hpp"
@@ -21,7 +21,7 @@ class MapperStatus {
     const FeaturesTopic& features;
     const OdometryTopic& odometry;
     const HeightTopic& heights;
-    const Mounting& mounting;
+    const ExtrinsicsTf& extrinsics;
     const FrameMatcher& matcher;
     const LiveSlam& slam;
   };

@@ -15,7 +15,7 @@ MapperOutputs::MapperOutputs(ros::NodeHandle& nh, const OutputsConfig& config)
       odometry_pub_(nh.advertise<nav_msgs::Odometry>("odometry_fused", kQueue)),
       correction_pub_(nh.advertise<PoseCorrection>("correction", kQueue)) {
   path_.publisher = nh.advertise<nav_msgs::Path>("path", 1);
-  observer_path_.publisher = nh.advertise<nav_msgs::Path>("observer_path", 1);
+  odometry_path_.publisher = nh.advertise<nav_msgs::Path>("observer_path", 1);
   cloud_.publisher = nh.advertise<sensor_msgs::PointCloud2>("landmarks", 1);
   markers_.publisher = nh.advertise<visualization_msgs::Marker>("landmark_markers", 1);
 }
@@ -30,7 +30,7 @@ void MapperOutputs::publishFrame(const FrameResult& result, const Eigen::Isometr
   correction_pub_.publish(correction);
   // At the first image map equals odom, so in map the odometry's own poses show its drift.
   remember(fused_poses_, result.T_map_base, frames);
-  remember(observer_poses_, result.T_odom_base, frames);
+  remember(odometry_poses_, result.T_odom_base, frames);
 }
 
 void MapperOutputs::publishTf(std::int64_t stamp_ns, const Eigen::Isometry3d& T_map_odom,
@@ -47,7 +47,7 @@ void MapperOutputs::publishTf(std::int64_t stamp_ns, const Eigen::Isometry3d& T_
 void MapperOutputs::publishMap(const std::vector<Landmark>& landmarks,
                                const std::string& map_frame) {
   if (path_.isDue(newest_ns_)) path_.publisher.publish(toPath(fused_poses_));
-  if (observer_path_.isDue(newest_ns_)) observer_path_.publisher.publish(toPath(observer_poses_));
+  if (odometry_path_.isDue(newest_ns_)) odometry_path_.publisher.publish(toPath(odometry_poses_));
   if (cloud_.isDue(newest_ns_)) cloud_.publisher.publish(toCloud(landmarks, map_frame, newest_ns_));
   if (markers_.isDue(newest_ns_))
     markers_.publisher.publish(toMarker(landmarks, map_frame, newest_ns_));
@@ -55,7 +55,7 @@ void MapperOutputs::publishMap(const std::vector<Landmark>& landmarks,
 
 void MapperOutputs::clear() {
   fused_poses_.clear();
-  observer_poses_.clear();
+  odometry_poses_.clear();
 }
 
 bool MapperOutputs::OnDemand::isDue(std::int64_t newest_ns) {

@@ -55,12 +55,12 @@ class MapperOutputs {
   ros::Publisher odometry_pub_;
   ros::Publisher correction_pub_;
   OnDemand path_;
-  OnDemand observer_path_;
+  OnDemand odometry_path_;
   OnDemand cloud_;
   OnDemand markers_;
   tf2_ros::TransformBroadcaster broadcaster_;
   Poses fused_poses_;
-  Poses observer_poses_;
+  Poses odometry_poses_;
   std::int64_t newest_ns_ = 0;
 };
 

@@ -61,7 +61,7 @@ std::optional<OdometryState> ObserverInput::read(const std::uint8_t* record, std
     ++counts_.old;
     return std::nullopt;
   }
-  const auto state = toState(observer);
+  auto state = toState(observer);
   if (!state) {
     ++counts_.refused;
     return std::nullopt;

@@ -6,8 +6,9 @@
 #include <set>
 
 #include "ardrone_vslam/delayed_fusion.hpp"
-#include "ardrone_vslam/parameter_values.hpp"
 #include "configs/node_config.hpp"
+#include "configs/section_values.hpp"
+#include "files/shortened.hpp"
 #include "yaml/yaml_sections.hpp"
 
 namespace ardrone_vslam {
@@ -98,7 +99,7 @@ void readVector(const std::string& name, const std::string& text, Eigen::Vector3
     is_good = toNumber(items[i], number) && std::abs(number) <= kMost;
   }
   if (!is_good)
-    faults.push_back("onboard/" + name + " is '" + text +
+    faults.push_back("onboard/" + name + " is '" + shortened(text) +
                      "' but must be three numbers between -1000 and 1000, as [0, -0.02, 0]");
 }
 

@@ -205,7 +205,7 @@ std::string whatBecameOf(OldName::Kind kind, const std::string& name, const std:
 
 std::string remedyFor(const std::string& section, const std::string& written,
                       const std::set<std::string>& known) {
-  const std::string became = whatBecameOf(OldName::Kind::kParameter, written, section);
+  std::string became = whatBecameOf(OldName::Kind::kParameter, written, section);
   if (!became.empty()) return became;
   const std::string nearest = nearestName(written, known);
   return nearest.empty() ? "" : "; did you mean " + section + "/" + nearest;

@@ -6,7 +6,8 @@
 namespace ardrone_vslam {
 
 /// A covariance whose coordinates come and go in place: only what lies behind a change moves, and
-/// nothing is allocated once it has been as large.
+/// nothing is allocated once it has been as large. Eigen's conservativeResize moves and allocates
+/// all.
 class CovarianceMatrix {
  public:
   /// The square of the present size, to be written.

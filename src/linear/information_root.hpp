@@ -9,7 +9,8 @@ struct Information;
 
 /// Information as that of the fewest measurements with unit noise: H' W H = rows rows' and
 /// H' W r = rows measured. Most informations are far from regular: tracks say nothing of scale and
-/// place of the window, and few of them little of most of its frames.
+/// place of the window, and few of them little of most of its frames. Eigen's LDLT does not stop at
+/// the rank, and its pivots know nothing of exact coordinates.
 struct InformationRoot {
   Eigen::MatrixXd rows;  ///< transposed: a column a measurement
   Eigen::VectorXd measured;

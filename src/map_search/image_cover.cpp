@@ -18,7 +18,8 @@ std::size_t cellOf(const Eigen::Vector2f& ideal_px, const FrameView& view) {
   const Eigen::Array2f share = (ideal_px - view.lower_px()).array() / size_px;
   const auto column = std::clamp(static_cast<int>(share.x() * kColumns), 0, kColumns - 1);
   const auto row = std::clamp(static_cast<int>(share.y() * kRows), 0, kRows - 1);
-  return static_cast<std::size_t>(kColumns * row + column);
+  return static_cast<std::size_t>(kColumns) * static_cast<std::size_t>(row) +
+         static_cast<std::size_t>(column);
 }
 
 }  // namespace

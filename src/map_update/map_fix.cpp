@@ -42,7 +42,7 @@ struct FixCoordinates {
     std::array<int, 14> places{};
     for (int k = 0; k < 7; ++k) places[static_cast<std::size_t>(k)] = k;
     for (int k = 0; k < 7; ++k)
-      places[static_cast<std::size_t>(7 + k)] = 7 + 7 * static_cast<int>(at) + k;
+      places[7U + static_cast<std::size_t>(k)] = 7 + 7 * static_cast<int>(at) + k;
     return places;
   }
 };

@@ -26,6 +26,7 @@ constexpr double kDriftShare = 1;
 
 double medianWindow_rad(const std::vector<MapObservation>& observations) {
   std::vector<double> windows_rad;
+  windows_rad.reserve(observations.size());
   for (const MapObservation& s : observations) windows_rad.push_back(s.window_rad);
   const auto middle = windows_rad.begin() + static_cast<std::ptrdiff_t>(windows_rad.size() / 2);
   std::nth_element(windows_rad.begin(), middle, windows_rad.end());

@@ -40,7 +40,7 @@ void MsckfEstimator::predict(const OdometryState& odometry,
                              const std::optional<OdometryStep>& step) {
   time_since_fix_.see(odometry.stamp_ns);
   T_odom_base_ = odometry.T_odom_base;
-  OdometryState moved = odometry;
+  OdometryState moved = odometry;  // for the filter, odom is the frame that it works in
   moved.T_odom_base = T_filter_odom_ * odometry.T_odom_base;
   std::optional<OdometryStep> moved_step = step;
   if (moved_step) {

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "odometry/height_jumps.hpp"
 #include "odometry/message_pair.hpp"
+#include "odometry/missing_twist.hpp"
+#include "odometry/whole_metres.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -18,9 +22,6 @@ constexpr double kLongestWay_s = 1;                   // across which the twist 
 /// The epoch in seconds at the fastest speed: beyond this lie no jumps, only nonsense.
 constexpr double kFarthestJump_m = 2e9 * kFastestOdometry;
 constexpr double kWholeMetreVariance_m2 = 1.0 / 12.0;  // of a metre cut off
-// At which a whole metre corrects what the twist has climbed: not faster than a twist is wrong, or
-// the camera contradicts it.
-constexpr double kHeightRate_m_s = 0.03;
 
 double farthest_m(const OdometryState& state) {
   return state.T_odom_base.translation().cwiseAbs().maxCoeff();
@@ -32,27 +33,54 @@ bool isFinite(const OdometryState& state) {
 
 }  // namespace
 
-OdometryAdapter::OdometryAdapter(const OdometryAdapterConfig& config) : config_(config) {
-  validate(config);
+class OdometryAdapter::State {
+ public:
+  explicit State(const OdometryAdapterConfig& config) : config_(config) { validate(config); }
+  Push push(const OdometryState& message, std::vector<OdometryState>& ready);
+  Push flush(std::vector<OdometryState>& ready);
+  const OdometryFaultCounts& faults() const { return faults_; }
+
+ private:
+  void count(OdometryFault fault) { ++faults_[static_cast<std::size_t>(fault)]; }
+  void beginAnew();
+  Push addToBurst(const OdometryState& message);
+  Push absorb(const OdometryState& message);
+  Push adapt(const OdometryState& message, std::vector<OdometryState>& ready);
+  bool follows(const OdometryState& message);
+  Eigen::Vector3d wayByTwist_m(const OdometryState& message) const;
+  void moveByTwist(const Eigen::Vector3d& way_m, OdometryState& state);
+
+  /// What became of the time before a message.
+  struct Gap {
+    double duration_s = 0;
+    Eigen::Vector3d speeds_m_s = Eigen::Vector3d::Zero();  // sum of the mean speeds in it
+    int speed_count = 1;
+  };
+
+  OdometryAdapterConfig config_;
+  OdometryFaultCounts faults_{};
+  WholeMetresWatch whole_metres_;
+  MissingTwistWatch missing_twist_;
+  HeightJumpDetector height_jumps_;  // odometry_mode twist with the pose's height
+
+  // Messages of one stamp, of which there may be more; there from the first burst on.
+  std::optional<std::vector<OdometryState>> held_;
+  std::int64_t newest_ns_ = 0;              // of the messages; 0: none
+  std::optional<OdometryState> last_;       // message that was used, its stamp spread
+  std::optional<OdometryState> candidate_;  // message that jumped, until one agrees with it
+  Eigen::Vector3d position_odom_m_ = Eigen::Vector3d::Zero();  // last answer
+  Eigen::Vector3d offset_odom_m_ = Eigen::Vector3d::Zero();    // of the answers from the messages
+  Gap gap_;  // before last_, should it be the first of a burst
+};
+
+/// All but the counts.
+void OdometryAdapter::State::beginAnew() {
+  State anew(config_);
+  anew.faults_ = faults_;
+  *this = std::move(anew);
 }
 
-bool OdometryAdapter::isBeyondAllJumps(const OdometryState& message) {
-  return !(farthest_m(message) <= kFarthestJump_m);
-}
-
-void OdometryAdapter::beginAnew() {
-  whole_metres_ = {};
-  height_jumps_ = {};
-  held_.reset();
-  newest_ns_ = 0;
-  last_.reset();
-  candidate_.reset();
-  position_odom_m_.setZero();
-  offset_odom_m_.setZero();
-  missing_twist_ = {};
-}
-
-Push OdometryAdapter::push(const OdometryState& message, std::vector<OdometryState>& ready) {
+Push OdometryAdapter::State::push(const OdometryState& message, std::vector<OdometryState>& ready) {
   if (!isFinite(message)) return Push::kNotFinite;
   if (!(message.twist_base.cwiseAbs().maxCoeff() <= kFastestOdometry) ||
       isBeyondAllJumps(message)) {
@@ -75,7 +103,7 @@ Push OdometryAdapter::push(const OdometryState& message, std::vector<OdometrySta
   return answer;
 }
 
-Push OdometryAdapter::addToBurst(const OdometryState& message) {
+Push OdometryAdapter::State::addToBurst(const OdometryState& message) {
   const bool is_held = held_ && !held_->empty();  // its first message
   const OdometryState* before = is_held ? &held_->back() : last_ ? &*last_ : nullptr;
   if (before && isRepeated(*before, message)) return Push::kDuplicateStamp;
@@ -90,7 +118,7 @@ Push OdometryAdapter::addToBurst(const OdometryState& message) {
 
 /// Of a burst whose first message has been given out already: no state of its own. The first one
 /// counted for the whole gap before, of which all have equal shares.
-Push OdometryAdapter::absorb(const OdometryState& message) {
+Push OdometryAdapter::State::absorb(const OdometryState& message) {
   if (!last_ || last_->stamp_ns != message.stamp_ns || isJump(*last_, message)) {
     return Push::kDuplicateStamp;
   }
@@ -109,7 +137,7 @@ Push OdometryAdapter::absorb(const OdometryState& message) {
   return Push::kAccepted;
 }
 
-Push OdometryAdapter::flush(std::vector<OdometryState>& ready) {
+Push OdometryAdapter::State::flush(std::vector<OdometryState>& ready) {
   Push answer = Push::kAccepted;
   if (!held_) return answer;
   const auto messages = static_cast<std::int64_t>(held_->size());
@@ -127,7 +155,7 @@ Push OdometryAdapter::flush(std::vector<OdometryState>& ready) {
 }
 
 /// Whether the message goes on from the one before, after what was to be repaired of it.
-bool OdometryAdapter::follows(const OdometryState& message) {
+bool OdometryAdapter::State::follows(const OdometryState& message) {
   const bool is_jump = last_ ? isJump(*last_, message) : farthest_m(message) > kFarthestOdometry_m;
   if (!is_jump) {
     candidate_.reset();
@@ -153,30 +181,22 @@ bool OdometryAdapter::follows(const OdometryState& message) {
 }
 
 /// Since the last message, trapezoid; zero where it cannot be told.
-Eigen::Vector3d OdometryAdapter::wayByTwist_m(const OdometryState& message) const {
+Eigen::Vector3d OdometryAdapter::State::wayByTwist_m(const OdometryState& message) const {
   if (!last_) return Eigen::Vector3d::Zero();
   const double dt_s = secondsBetween(*last_, message);
   if (dt_s > kLongestWay_s) return Eigen::Vector3d::Zero();
   return 0.5 * dt_s * (velocity_odom_m_s(*last_) + velocity_odom_m_s(message));
 }
 
-/// By the twist, but within the metre that was cut off from the state's height.
-double OdometryAdapter::heightByTwist_m(const OdometryState& state, double climb_m) const {
-  const double foreseen_m = position_odom_m_.z() + climb_m;
-  const double lowest_m = state.T_odom_base.translation().z();
-  const double missing_m = std::clamp(foreseen_m, lowest_m, lowest_m + 1) - foreseen_m;
-  const double most_m = kHeightRate_m_s * std::min(secondsBetween(*last_, state), kLongestWay_s);
-  return foreseen_m + std::clamp(missing_m, -most_m, most_m);
-}
-
 /// The state goes on from the last answer, but for a height that is measured.
-void OdometryAdapter::moveByTwist(const Eigen::Vector3d& way_m, OdometryState& state) {
+void OdometryAdapter::State::moveByTwist(const Eigen::Vector3d& way_m, OdometryState& state) {
   auto position_m = state.T_odom_base.translation();
   position_m.head<2>() = position_odom_m_.head<2>() + way_m.head<2>();
   if (config_.height == OdometryHeight::kTwist) {
     position_m.z() = position_odom_m_.z() + way_m.z();
   } else if (whole_metres_.isWhole()) {
-    position_m.z() = heightByTwist_m(state, way_m.z());
+    const double dt_s = std::min(secondsBetween(*last_, state), kLongestWay_s);
+    position_m.z() = smoothedHeight_m(position_m.z(), position_odom_m_.z() + way_m.z(), dt_s);
   } else {
     if (height_jumps_.see(state.stamp_ns, position_m.z(), way_m.z()))
       count(OdometryFault::kTableStep);
@@ -184,7 +204,8 @@ void OdometryAdapter::moveByTwist(const Eigen::Vector3d& way_m, OdometryState& s
   }
 }
 
-Push OdometryAdapter::adapt(const OdometryState& message, std::vector<OdometryState>& ready) {
+Push OdometryAdapter::State::adapt(const OdometryState& message,
+                                   std::vector<OdometryState>& ready) {
   const OdometryFaultCounts before = faults_;
   if (!follows(message)) return Push::kOutOfRange;
   const bool is_repaired = before != faults_;
@@ -211,6 +232,26 @@ Push OdometryAdapter::adapt(const OdometryState& message, std::vector<OdometrySt
   position_odom_m_ = state.T_odom_base.translation();
   ready.push_back(std::move(state));
   return Push::kAccepted;
+}
+
+OdometryAdapter::OdometryAdapter(const OdometryAdapterConfig& config)
+    : state_(std::make_unique<State>(config)) {}
+OdometryAdapter::~OdometryAdapter() = default;
+
+Push OdometryAdapter::push(const OdometryState& message, std::vector<OdometryState>& ready) {
+  return state_->push(message, ready);
+}
+
+Push OdometryAdapter::flush(std::vector<OdometryState>& ready) {
+  return state_->flush(ready);
+}
+
+bool OdometryAdapter::isBeyondAllJumps(const OdometryState& message) {
+  return !(farthest_m(message) <= kFarthestJump_m);
+}
+
+const OdometryFaultCounts& OdometryAdapter::faults() const {
+  return state_->faults();
 }
 
 }  // namespace ardrone_vslam

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ardrone_vslam/odometry_faults.hpp"
 
-#include <cmath>
-
-#include "odometry/message_pair.hpp"
-
 namespace ardrone_vslam {
 
 void add(const OdometryFaultCounts& counts, OdometryFaultCounts& sum) {
@@ -45,34 +41,6 @@ const char* explain(OdometryFault fault) {
       return "measured its height above another floor than before (a table): z goes on as it was";
   }
   return "";
-}
-
-bool WholeMetresWatch::see(double height_m, double climb_m) {
-  constexpr double kClimb_m = 0.05;  // a twist that drifts at rest is told by the height
-  if (height_m != std::round(height_m)) {
-    *this = {};
-    return false;
-  }
-  const bool is_step = count_ > 0 && height_m != last_m_;
-  if (count_ < kFewest) ++count_;
-  last_m_ = height_m;
-  climbed_m_ = is_step ? 0 : climbed_m_ + climb_m;
-  if (count_ < kFewest) return false;
-  // At 0 it stands on the floor, whatever its twist says.
-  if (is_step || (height_m != 0 && std::abs(climbed_m_) > kClimb_m)) is_whole_ = true;
-  return is_step;
-}
-
-bool MissingTwistWatch::see(bool is_twist_zero, double way_m) {
-  constexpr double kMost_m = 1;
-  if (!is_twist_zero) {
-    without_twist_m_ = 0;
-  } else if (way_m < kJump_m) {
-    without_twist_m_ += way_m;
-  }
-  if (without_twist_m_ < kMost_m) return false;
-  without_twist_m_ = 0;
-  return true;
 }
 
 }  // namespace ardrone_vslam

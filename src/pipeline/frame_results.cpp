@@ -53,8 +53,8 @@ bool isFinite(const FrameResult& r) {
 const char* explain(SlamState state) {
   switch (state) {
     case SlamState::kBuildingMap:
-      return "no landmark yet: they appear when the camera has moved sideways by a few hundredths "
-             "of the distance to what it sees";
+      return "no landmark yet: they appear when the camera has moved past what it sees by a few "
+             "hundredths of the distance";
     case SlamState::kLocalised:
       return "";
     case SlamState::kTooFewLandmarks:

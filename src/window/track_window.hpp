@@ -26,7 +26,7 @@ struct FinishedTrack {
 /// nothing is allocated once there have been as many.
 class TrackWindow {
  public:
-  /// @param R_rig_cam  the camera's mounting
+  /// @param R_rig_cam  of the extrinsics
   /// @param corner_sigma_px  deviation of features that are not aligned
   /// @param scene_sigma_px  of the others, beside what their information tells
   TrackWindow(const Eigen::Matrix3d& R_rig_cam, double corner_sigma_px, double scene_sigma_px)

@@ -18,7 +18,7 @@ namespace ardrone_vslam {
 ///   0-2   attitude of odom in map [rad]: the odometry's slow attitude error
 ///   3-5   velocity bias of the odometry, axes of base [m/s]
 ///   6     scale error: the odometry reports (1 + s) times the way [-]
-///   7-9   attitude of the camera's mounting [rad], axes of base
+///   7-9   attitude of the extrinsics [rad], axes of base
 ///   10    height of the floor in map [m], where heights above it are measured
 ///   then  the anchors: position of base [m], attitude [rad], and the stretch by the bias of
 ///         their time, which landmarks share [-]
@@ -40,7 +40,7 @@ class WindowState {
   static constexpr int kAttitude = 0;  ///< coordinate of the odometry's attitude error, axes of map
   static constexpr int kBias = 3;      ///< of its velocity bias
   static constexpr int kScale = 6;     ///< of its scale error
-  static constexpr int kExtrinsics = 7;  ///< of the mounting's error
+  static constexpr int kExtrinsics = 7;  ///< of their error
   static constexpr int kFloor = 10;      ///< of the floor's height
   static constexpr int kGlobals = 11;    ///< number of those above; the anchors follow
   static constexpr int kFrame = 6;       ///< coordinates of a frame

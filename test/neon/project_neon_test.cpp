@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cross-compiled for ARM and run under emulation: no test library there.
 #include <cstdio>
-#include <cstring>
 
 #include "support/projection_scene.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
-
-template <class T>
-bool sameBytes(const std::vector<T>& a, const std::vector<T>& b, int count) {
-  return std::memcmp(a.data(), b.data(), static_cast<std::size_t>(count) * sizeof(T)) == 0;
-}
 
 /// @return how many are visible; -1 if the forms differ
 int compare(int count, std::uint64_t seed, bool odd) {

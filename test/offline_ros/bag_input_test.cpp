@@ -335,7 +335,7 @@ TEST(BagInput, TruthOfEveryType) {
     const auto sequence = bag.open();
     ASSERT_EQ(sequence->truth().size(), 1u);
     EXPECT_EQ(sequence->truth().poses()[0].stamp_ns, 1'000'000'000);
-    EXPECT_EQ(sequence->truth().poses()[0].T_map_base.translation().x(), 4);
+    EXPECT_EQ(sequence->truth().poses()[0].T_frame_body.translation().x(), 4);
     EXPECT_EQ(sequence->odometry().size(), 5u);
     expectWarning(*sequence, {"/ground_truth", "1 messages dropped", "goes back"});
   };

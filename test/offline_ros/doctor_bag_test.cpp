@@ -12,23 +12,14 @@
 #include "config_files/config_path.hpp"
 #include "doctor/doctor_examination.hpp"
 #include "doctor_flights.hpp"
+#include "support/doctor_findings.hpp"
 #include "support/read_file.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 using Names = std::set<std::string>;
-
-/// Checks that found something.
-Names found(const DoctorReport& report) {
-  Names names;
-  for (const Finding& finding : report.findings) {
-    const bool is_found =
-        finding.verdict == Verdict::kWarning || finding.verdict == Verdict::kFault;
-    if (is_found) names.insert(finding.check);
-  }
-  return names;
-}
+using test::found;
 
 std::set<Verdict> verdictsOf(const DoctorReport& report, const std::string& check) {
   std::set<Verdict> verdicts;
@@ -75,7 +66,7 @@ TEST_F(DoctorBag, NamesEachFaultOfTheDriverAndNothingElse) {
   ASSERT_EQ(wanted.size(), driverFaults().size());
   for (const DriverFaultInfo& info : driverFaults()) {
     const DoctorReport report = examineFlight({info.fault});
-    EXPECT_EQ(found(report), wanted.at(info.fault)) << info.name << "\n" << textOf(report);
+    EXPECT_EQ(found(report.findings), wanted.at(info.fault)) << info.name << "\n" << textOf(report);
     EXPECT_TRUE(report.canWork()) << info.name;
     EXPECT_NE(report.replay.find("/config/ardrone.yaml"), std::string::npos) << report.replay;
   }
@@ -88,21 +79,21 @@ TEST_F(DoctorBag, NamesAllFaultsTogether) {
                      "odometry_bursts",    "navdata_bursts", "imu_bursts",
                      "calibration",        "camera_switch"};
   const DoctorReport report = examineFlight(driverFaultsNamed({"all"}));
-  EXPECT_EQ(found(report), wanted);
+  EXPECT_EQ(found(report.findings), wanted);
   EXPECT_TRUE(report.canWork()) << textOf(report);
   // K is rescaled, so that the camera is looked at.
   EXPECT_EQ(verdictsOf(report, "images_tracked"), std::set<Verdict>{Verdict::kOk});
   EXPECT_EQ(verdictsOf(report, "camera_direction").count(Verdict::kNotChecked), 0U)
       << textOf(report);
   DriverFlight("table", 30).write(driverFaultsNamed({"all"}), path());
-  const Names over_table = found(examineBag(path()));
+  const Names over_table = found(examineBag(path()).findings);
   EXPECT_EQ(over_table.count("height_metres"), 1U);
   EXPECT_EQ(over_table.count("height_ground"), 1U);
 }
 
 TEST_F(DoctorBag, NamesTheReleasedDriversFaultsAndSuggestsTheirRemedies) {
   const DoctorReport report = examineFlight(driverFaultsNamed({"released"}), longLaps());
-  EXPECT_EQ(found(report),
+  EXPECT_EQ(found(report.findings),
             (Names{"odometry_yaw", "odometry_covariance", "odometry_turn_rate", "height_ground",
                    "odometry_bursts", "navdata_bursts", "imu_bursts", "image_time_offset"}))
       << textOf(report);
@@ -123,7 +114,7 @@ TEST_F(DoctorBag, NamesTheReleasedDriversFaultsAndSuggestsTheirRemedies) {
 TEST_F(DoctorBag, AFlightTooShortToTellTheDriversFaultsGetsItsConfigurationAllTheSame) {
   DriverFlight("laps", 3).write(driverFaultsNamed({"all"}), path());
   const DoctorReport report = examineBag(path());
-  EXPECT_EQ(found(report).count("odometry_yaw"), 0U) << textOf(report);
+  EXPECT_EQ(found(report.findings).count("odometry_yaw"), 0U) << textOf(report);
   EXPECT_TRUE(report.canWork()) << textOf(report);
   const PipelineConfig config = configOf(report);
   EXPECT_EQ(config.mapper.odometry_adapter.mode, OdometryMode::kTwist);
@@ -141,7 +132,7 @@ TEST_F(DoctorBag, FindsATurnedCameraAndPrintsTheRightTransform) {
         Eigen::Vector3d(0, 0, -M_PI / 2)}) {
     turnCameras(path(), path("turned.bag"), rotationOf(turn));
     const DoctorReport report = examineBag(path("turned.bag"));
-    EXPECT_EQ(found(report).count("camera_direction"), 1U) << turn.transpose();
+    EXPECT_EQ(found(report.findings).count("camera_direction"), 1U) << turn.transpose();
     EXPECT_FALSE(report.canWork());
     EXPECT_EQ(report.static_transform, wanted) << turn.transpose();
   }
@@ -150,22 +141,22 @@ TEST_F(DoctorBag, FindsATurnedCameraAndPrintsTheRightTransform) {
 TEST_F(DoctorBag, StandsBagsThatLackThings) {
   BagRecipe no_tf;
   no_tf.has_tf = false;
-  EXPECT_EQ(found(examineBag(TestBag(no_tf).path())).count("camera_tf"), 1U);
+  EXPECT_EQ(found(examineBag(TestBag(no_tf).path()).findings).count("camera_tf"), 1U);
   BagRecipe no_info;
   no_info.has_camera_info = false;
-  EXPECT_EQ(found(examineBag(TestBag(no_info).path())).count("topics"), 1U);
+  EXPECT_EQ(found(examineBag(TestBag(no_info).path()).findings).count("topics"), 1U);
   BagRecipe no_odometry;
   no_odometry.odometry.clear();
-  EXPECT_EQ(found(examineBag(TestBag(no_odometry).path())).count("topics"), 1U);
+  EXPECT_EQ(found(examineBag(TestBag(no_odometry).path()).findings).count("topics"), 1U);
   BagRecipe no_images;
   no_images.image_stamps_s.clear();
-  EXPECT_EQ(found(examineBag(TestBag(no_images).path())).count("topics"), 1U);
+  EXPECT_EQ(found(examineBag(TestBag(no_images).path()).findings).count("topics"), 1U);
   BagRecipe uncalibrated;
   uncalibrated.camera_info.K.fill(0);
-  EXPECT_EQ(found(examineBag(TestBag(uncalibrated).path())).count("calibration"), 1U);
+  EXPECT_EQ(found(examineBag(TestBag(uncalibrated).path()).findings).count("calibration"), 1U);
   BagRecipe other_lens;
   other_lens.camera_info.distortion_model = "equidistant";
-  EXPECT_EQ(found(examineBag(TestBag(other_lens).path())).count("calibration"), 1U);
+  EXPECT_EQ(found(examineBag(TestBag(other_lens).path()).findings).count("calibration"), 1U);
   BagRecipe depth;
   depth.encoding = "mono16";
   EXPECT_NO_THROW(examineBag(TestBag(depth).path()));

@@ -8,7 +8,7 @@
 #include "doctor/collection/doctor_bag.hpp"
 #include "doctor/doctor_examination.hpp"
 #include "driver_recording.hpp"
-#include "test_paths.hpp"
+#include "support/shipped_profiles.hpp"
 
 namespace ardrone_vslam {
 
@@ -24,8 +24,7 @@ class DriverFlight {
   void write(const DriverFaults& faults, const std::string& path) const {
     DriverBagOptions options;
     options.faults = faults;
-    options.profile =
-        loadOdometryProfile("drone", ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
+    options.profile = test::shippedProfile("drone");
     options.tool = "test";
     writeDriverBag(world_, options, path);
   }

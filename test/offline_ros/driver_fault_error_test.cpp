@@ -16,12 +16,13 @@
 #include "landmarks/point_world.hpp"
 #include "run/offline_run.hpp"
 #include "support/sequence_folders.hpp"
+#include "support/shipped_profiles.hpp"
 #include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kDuration_s = 50;  // three laps
+constexpr double kDuration_s = 50;  // nearly three laps
 constexpr double kRate_hz = 10;     // of the images
 constexpr double kVideoDelay_s = 0.0875;
 constexpr std::uint64_t kSeeds = 3;
@@ -91,7 +92,7 @@ RunResult fly(const WorldSequence& flown, const BagSequence& bag, const DriverFa
     if (!is_bottom) lookUp(calibration, frame.features);
     back_end.process(frame);
   }
-  return back_end.finish();
+  return back_end.result();
 }
 
 /// Of the positions, with the first pose as the truth's: x and y of odom begin at the drone.
@@ -119,8 +120,7 @@ double errorWith_m(const DriverFaults& faults) {
     const WorldSequence& flown = flight(seed);
     DriverBagOptions options;
     options.faults = faults;
-    options.profile =
-        loadOdometryProfile("drone", ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
+    options.profile = test::shippedProfile("drone");
     options.tool = "test";
     writeDriverBag(flown, options, folder.file("driver.bag"));
     BagReadOptions read;

@@ -24,7 +24,7 @@
 #include "driver/emulation/driver_bag.hpp"
 #include "support/read_file.hpp"
 #include "support/sequence_folders.hpp"
-#include "test_paths.hpp"
+#include "support/shipped_profiles.hpp"
 
 namespace ardrone_vslam {
 
@@ -48,8 +48,7 @@ class DriverRecording {
     options.faults = faults;
     options.tf_prefix = tf_prefix;
     options.camera = camera;
-    options.profile =
-        loadOdometryProfile(profile, ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
+    options.profile = test::shippedProfile(profile);
     options.tool = "test";
     writeDriverBag(world(), options, path());
     bag_.open(path(), rosbag::bagmode::Read);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
@@ -38,9 +40,9 @@ TEST(Protocol, ObserverComesBackAsItWas) {
   EXPECT_EQ(got.sequence, sent.sequence);
   EXPECT_EQ(got.flags, sent.flags);
   EXPECT_EQ(got.stamp_ns, sent.stamp_ns);
-  EXPECT_EQ(std::memcmp(got.position_m, sent.position_m, sizeof got.position_m), 0);
-  EXPECT_EQ(std::memcmp(got.quaternion, sent.quaternion, sizeof got.quaternion), 0);
-  EXPECT_EQ(std::memcmp(got.variance, sent.variance, sizeof got.variance), 0);
+  EXPECT_TRUE(std::equal(std::begin(got.position_m), std::end(got.position_m), sent.position_m));
+  EXPECT_TRUE(std::equal(std::begin(got.quaternion), std::end(got.quaternion), sent.quaternion));
+  EXPECT_TRUE(std::equal(std::begin(got.variance), std::end(got.variance), sent.variance));
   EXPECT_EQ(got.height_m, sent.height_m);
 }
 

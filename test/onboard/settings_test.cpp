@@ -2,11 +2,13 @@
 #include "settings/settings.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdio>
 
 #include "flight_records.hpp"
 #include "protocol/udp.hpp"
+#include "support/temporary_folder.hpp"
 #include "test_paths.hpp"
 #include "yaml/calibration.hpp"
 #include "yaml/yaml_sections.hpp"
@@ -160,9 +162,14 @@ TEST(SettingsTest, FilesThatAreNoneAreRefused) {
     }
     return "";
   };
-  EXPECT_NE(faultOf("/dev/zero").find("/dev/zero: is too large"), std::string::npos);
+  TemporaryFolder folder;
+  const std::string pipe = folder.file("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& path : {std::string("/dev/zero"), std::string("/"), pipe})
+    EXPECT_NE(faultOf(path).find(path + ": is no file but"), std::string::npos) << faultOf(path);
+  folder.write("large.yaml", std::string(300'000, ' '));
+  EXPECT_NE(faultOf(folder.file("large.yaml")).find("is too large"), std::string::npos);
   EXPECT_NE(faultOf("/none").find("/none: cannot be read"), std::string::npos);
-  EXPECT_NE(faultOf("/").find("/: cannot be read"), std::string::npos);
 }
 
 TEST(SettingsTest, ACalibrationThatIsNoneIsRefused) {

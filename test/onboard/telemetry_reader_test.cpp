@@ -14,6 +14,7 @@ namespace {
 
 std::vector<std::uint32_t> idsOf(const std::vector<Landmark>& landmarks) {
   std::vector<std::uint32_t> ids;
+  ids.reserve(landmarks.size());
   for (const Landmark& landmark : landmarks) ids.push_back(landmark.id);
   return ids;
 }

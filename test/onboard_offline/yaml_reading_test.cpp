@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "config_files/config_file.hpp"
-#include "sequences/camera_yaml.hpp"
+#include "folders/camera_yaml.hpp"
 #include "settings/settings.hpp"
 #include "test_paths.hpp"
 #include "yaml/calibration.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 
 #include "association/associator.hpp"
@@ -12,6 +11,7 @@
 #include "freak/freak.hpp"
 #include "matching/descriptor_index.hpp"
 #include "matching/hamming.hpp"
+#include "support/real_data.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
@@ -47,11 +47,10 @@ class DescribedSequence {
 };
 
 TEST(DescriptorIndexRecall, FindsTheExactNeighbourOf97PercentAmong100000RealDescriptors) {
-  const char* data = std::getenv("ARDRONE_VSLAM_DATA");
-  if (data == nullptr)
+  if (realData().empty())
     GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set: the recall on real images is not measured";
   // Even frames are the entries; of the odd ones, which are held out, every tenth is asked for.
-  DescribedSequence sequence(std::string(data) + "/kitti_03");
+  DescribedSequence sequence(realData() + "/kitti_03");
   std::vector<IndexEntry> entries;
   std::vector<Descriptor> queries;
   for (int frame = 0; entries.size() < kEntries; ++frame) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "corners/corner_detector.hpp"
 #include "support/grey_images.hpp"
+#include "support/real_data.hpp"
 
 // FAST-9 with strict suppression against OpenCV's: the same corners in the same order with the same
 // scores.
@@ -64,12 +64,11 @@ TEST_P(FastAgainstOpenCv, RandomImages) {
 }
 
 TEST_P(FastAgainstOpenCv, KittiFrames) {
-  const char* data = std::getenv("ARDRONE_VSLAM_DATA");
-  if (data == nullptr)
+  if (realData().empty())
     GTEST_SKIP() << "set ARDRONE_VSLAM_DATA to the folder of real data to run this";
   std::size_t compared = 0;
   for (const char* name : {"000000", "000070", "000300"}) {
-    const std::string file = std::string(data) + "/kitti_03/image_0/" + name + ".png";
+    const std::string file = realData() + "/kitti_03/image_0/" + name + ".png";
     const cv::Mat image = cv::imread(file, cv::IMREAD_GRAYSCALE);
     ASSERT_FALSE(image.empty()) << "cannot read " << file;
     const ImageView view{image.data, image.cols, image.rows,

@@ -4,8 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
+
+#include "support/real_data.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
@@ -18,10 +19,9 @@ struct RealImage {
 class FreakReference : public ::testing::TestWithParam<RealImage> {};
 
 TEST_P(FreakReference, EveryBitAndEveryAngleIsThePublishedDescriptors) {
-  const char* data = std::getenv("ARDRONE_VSLAM_DATA");
-  if (data == nullptr)
+  if (realData().empty())
     GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set: the real images are not compared";
-  const std::string folder = std::string(data) + "/";
+  const std::string folder = realData() + "/";
   const auto all_rows = readFreakRows(folder + "freak_reference/freak_reference.csv");
   const cv::Mat pixels = cv::imread(folder + GetParam().path, cv::IMREAD_GRAYSCALE);
   ASSERT_FALSE(pixels.empty()) << folder << GetParam().path << " cannot be read";

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "kernels/kernels.hpp"
 #include "support/grey_images.hpp"
 #include "support/projection_scene.hpp"
@@ -15,11 +13,6 @@ namespace {
 using kernels::projectScalar;
 
 class ProjectKernels : public ::testing::TestWithParam<InstructionSet> {};
-
-template <class T>
-bool sameBytes(const std::vector<T>& a, const std::vector<T>& b, int count) {
-  return std::memcmp(a.data(), b.data(), static_cast<std::size_t>(count) * sizeof(T)) == 0;
-}
 
 /// @return how many are visible
 int expectEqualScalar(InstructionSet set, const ProjectionScene& scene, int count) {

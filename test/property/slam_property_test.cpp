@@ -129,7 +129,7 @@ TEST_P(SlamProperty, OutputIsFiniteAndTheCovariancePositiveDefinite) {
   }
 }
 
-TEST_P(SlamProperty, OrientationIsTheObservers) {
+TEST_P(SlamProperty, OrientationIsTheOdometrys) {
   const Recording recording = recordLaps(6);
   const FlightRun run = test::run(recording.frames, recording.odometry, config());
   for (std::size_t i = 0; i < run.results.size(); ++i) {

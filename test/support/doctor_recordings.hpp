@@ -12,7 +12,6 @@
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/rotation.hpp"
 #include "doctor/recording/doctor_recording.hpp"
-#include "doctor/recording/doctor_report.hpp"
 #include "sequences/sequence.hpp"
 #include "support/intrinsics.hpp"
 
@@ -124,17 +123,6 @@ inline std::vector<ImageFeatures> doctorViews(const Eigen::Isometry3d& T_base_ca
     images.push_back(features);
   }
   return images;
-}
-
-/// The finding of a check; a fault named "no such check" when there is none.
-inline Finding findingOf(const Findings& findings, const std::string& check) {
-  for (const Finding& finding : findings) {
-    if (finding.check == check) return finding;
-  }
-  return {"no such check", Verdict::kFault, check, {}};
-}
-inline Verdict verdictOf(const Findings& findings, const std::string& check) {
-  return findingOf(findings, check).verdict;
 }
 
 }  // namespace ardrone_vslam::test

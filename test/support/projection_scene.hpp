@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "kernels/project/project_kernels.hpp"
@@ -102,5 +103,11 @@ struct ProjectedScene {
   std::vector<float> y_px;
   std::vector<float> distance_m;
 };
+
+/// Whether the first `count` of two columns are equal bit for bit, NaNs and signs of 0 included.
+template <class T>
+bool sameBytes(const std::vector<T>& a, const std::vector<T>& b, int count) {
+  return std::memcmp(a.data(), b.data(), static_cast<std::size_t>(count) * sizeof(T)) == 0;
+}
 
 }  // namespace ardrone_vslam::test

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
@@ -89,12 +88,6 @@ inline void expectError(const std::function<void()>& action,
   for (const auto& part : parts) {
     EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
   }
-}
-
-/// The folder of real data; empty when the variable is unset.
-inline std::string realData() {
-  const char* folder = std::getenv("ARDRONE_VSLAM_DATA");
-  return folder == nullptr ? std::string() : folder;
 }
 
 }  // namespace ardrone_vslam

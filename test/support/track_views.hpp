@@ -5,6 +5,7 @@
 
 #include "ardrone_vslam/rotation.hpp"
 #include "simulation/random_source.hpp"
+#include "support/odometry_states.hpp"
 #include "support/odometry_window.hpp"
 #include "window/rays.hpp"
 
@@ -25,18 +26,11 @@ inline Eigen::Vector3d bearingTo(const Eigen::Vector3d& point_map, const Clone& 
   return (pose.R_map_rig.transpose() * offset).normalized();
 }
 
-inline OdometryState odometryAt(int frame, const Eigen::Vector3d& position) {
-  OdometryState state;
-  state.stamp_ns = 100'000'000LL * frame;
-  state.T_odom_base.translation() = position;
-  return state;
-}
-
 /// Frames that move sideways by 0.1 m, as the odometry says.
 inline WindowState sidewaysWindow(int frames) {
   OdometryWindow state;
-  state.add(odometryAt(0, {0, 0, 0}));
-  for (int i = 1; i < frames; ++i) state.add(odometryAt(i, {0, 0.1 * i, 0.01 * (i % 2)}));
+  state.add(odometryOfFrame(0, {0, 0, 0}));
+  for (int i = 1; i < frames; ++i) state.add(odometryOfFrame(i, {0, 0.1 * i, 0.01 * (i % 2)}));
   return state;
 }
 

@@ -67,7 +67,7 @@ double rmse_m(const Flight& flight, const SwitchedRun& run, std::size_t first) {
   return std::sqrt(sum / static_cast<double>(flight.size() - first));
 }
 
-double observerRmse_m(const Flight& flight, const std::vector<OdometryState>& odometry,
+double odometryRmse_m(const Flight& flight, const std::vector<OdometryState>& odometry,
                       std::size_t first) {
   double sum = 0;
   for (std::size_t i = first; i < flight.size(); ++i)
@@ -112,7 +112,7 @@ TEST(CameraSwitch, WhatTheFirstCameraSawCorrectsThePoseWhenItIsBack) {
       localised += run.results[i].state == SlamState::kLocalised ? 1 : 0;
     EXPECT_GT(localised, kLapFrames / 2) << seed;
     EXPECT_LT(rmse_m(flight, run, 2 * kLapFrames),
-              0.4 * observerRmse_m(flight, odometry, 2 * kLapFrames))
+              0.4 * odometryRmse_m(flight, odometry, 2 * kLapFrames))
         << seed;
   }
 }

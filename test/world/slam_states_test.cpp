@@ -131,7 +131,7 @@ TEST(MountingCheck, TheCameraIsOnTheDrone) {
   EXPECT_NE(extrinsicsFault(T_base_cam).find("not finite"), std::string::npos);
 }
 
-TEST_F(SlamStates, ObserverOnly) {
+TEST_F(SlamStates, OdometryOnly) {
   SlamConfig config;
   config.estimator = EstimatorKind::kOdometry;
   Slam slam(config, test::forwardExtrinsics());

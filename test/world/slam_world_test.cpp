@@ -162,7 +162,7 @@ TEST(SlamWorld, MapToOdomTakesTheOdometryToThePose) {
   EXPECT_GT(slam.T_map_odom().translation().norm(), 0.1) << "there was drift to correct";
 }
 
-TEST(SlamWorld, ObserverEstimatorPassesTheOdometryOn) {
+TEST(SlamWorld, OdometryEstimatorPassesTheOdometryOn) {
   const Flight flight = test::lapsFlight(kLapFrames, 1, 10);
   PointWorld world = test::pointRoom(1);
   SlamConfig config;

@@ -20,7 +20,7 @@ class WidePrior : public ::testing::Test {
     odometry_ = test::observeExactly(flight);
     frames_.resize(kFrames);
     odometry_.resize(kFrames);
-    calm_observer_ = odometry_;
+    calm_odometry_ = odometry_;
     for (std::size_t i = kJump; i < kFrames; ++i)
       odometry_[i].T_odom_base.translation() += Eigen::Vector3d(-1.8, 2.2, 0.4);
     // 8 cm of way make a deviation of 0.2 m, a jump of 2.9 m one of 1.2 m.
@@ -35,7 +35,7 @@ class WidePrior : public ::testing::Test {
   SlamConfig config_ = test::thesisConfig();
   std::vector<ImageFeatures> frames_;
   std::vector<OdometryState> odometry_;
-  std::vector<OdometryState> calm_observer_;  // the same without the jump
+  std::vector<OdometryState> calm_odometry_;  // the same without the jump
 };
 
 TEST_F(WidePrior, AllLandmarksAreComparedAndThePoseIsFoundAgain) {
@@ -46,7 +46,7 @@ TEST_F(WidePrior, AllLandmarksAreComparedAndThePoseIsFoundAgain) {
   EXPECT_EQ(result.match_method, MatchMethod::kExact);
   EXPECT_GT(result.landmark_matches, 50);
   EXPECT_EQ(result.state, SlamState::kLocalised);
-  const auto calm = test::run(frames_, calm_observer_, config_);
+  const auto calm = test::run(frames_, calm_odometry_, config_);
   const auto offset_m = [&](std::size_t i) {
     return (run.results[i].T_map_base.translation() - calm.results[i].T_map_base.translation())
         .norm();

@@ -23,7 +23,7 @@ struct BagContents {
   std::int64_t firstStamp_ns() const;
 };
 
-/// @param profile  corrupts the truth to odometry; nothing: the sequence's own observer
+/// @param profile  corrupts the truth to odometry; nothing: the sequence's own odometry
 /// @throws std::runtime_error naming the sequence: a profile without truth, stamps outside of ROS's
 /// time
 BagContents contentsOf(const Sequence& sequence, const std::optional<OdometryProfile>& profile,

@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "folders/camera_yaml.hpp"
 #include "program/tool_main.hpp"
-#include "sequences/camera_yaml.hpp"
 
 namespace ardrone_vslam {
 

@@ -150,6 +150,19 @@ Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic, BagFindin
   return Trajectory(std::move(truth));
 }
 
+namespace {
+
+geometry_msgs::Pose poseOf(const geometry_msgs::TransformStamped& message) {
+  geometry_msgs::Pose pose;
+  pose.position.x = message.transform.translation.x;
+  pose.position.y = message.transform.translation.y;
+  pose.position.z = message.transform.translation.z;
+  pose.orientation = message.transform.rotation;
+  return pose;
+}
+
+}  // namespace
+
 Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base_frame,
                                  const std::string& camera_frame) {
   // The camera is fixed to base: its last transform holds for all time, static or not.
@@ -162,19 +175,15 @@ Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base
     for (const auto& transform : message->transforms) {
       const std::string child = withoutSlash(transform.child_frame_id);
       parents[child] = withoutSlash(transform.header.frame_id);
-      buffer.setTransform(transform, "bag", true);
+      // tf2 would print some lines for each.
+      if (fromPoseMessage(poseOf(transform))) buffer.setTransform(transform, "bag", true);
     }
   }
   std::string base = withoutSlash(base_frame);
   if (base.empty()) base = parents[camera_frame];
   try {
     const auto message = buffer.lookupTransform(base, camera_frame, ros::Time(0));
-    geometry_msgs::Pose pose;
-    pose.position.x = message.transform.translation.x;
-    pose.position.y = message.transform.translation.y;
-    pose.position.z = message.transform.translation.z;
-    pose.orientation = message.transform.rotation;
-    if (const auto T_base_cam = fromPoseMessage(pose)) {
+    if (const auto T_base_cam = fromPoseMessage(poseOf(message))) {
       const std::string fault = extrinsicsFault(*T_base_cam);
       if (fault.empty()) return *T_base_cam;
       throw std::runtime_error(bag.getFileName() + ": tf from the base frame '" + base +

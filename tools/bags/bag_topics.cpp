@@ -85,7 +85,7 @@ class TopicChooser {
         candidates.push_back(topic.first);
       }
     }
-    const std::string streaming = role.has_parent ? aboveAllOthers(candidates) : "";
+    std::string streaming = role.has_parent ? aboveAllOthers(candidates) : "";
     if (!streaming.empty()) return streaming;
     if (candidates.size() > 1) {
       throw std::runtime_error(path_ + ": has several topics for the " + role.what + ": " +
@@ -128,7 +128,7 @@ std::string chooseCameraInfo(const TopicChooser& chooser, const TopicTypes& type
   const std::string beside = parentName(raw) + "/camera_info";
   std::string name = options.camera_info_topic;
   if (name.empty() && types.count(beside) != 0) name = beside;
-  const std::string chosen = chooser.choose(role, name, [](const std::string&) { return true; });
+  std::string chosen = chooser.choose(role, name, [](const std::string&) { return true; });
   if (chosen.empty()) {
     chooser.refuseMissing(role, "record " + beside +
                                     " with the images, or give the calibration "

@@ -36,7 +36,7 @@ struct BagWriteOptions {
   BagFrameNames frames;
   ImageFormat image_format = ImageFormat::kRaw;
   Compression compression = Compression::kNone;  ///< of the bag's chunks
-  /// Corrupts the truth to odometry; nothing: the sequence's own observer, if it has one.
+  /// Corrupts the truth to odometry; nothing: the sequence's own odometry, if it has one.
   std::optional<OdometryProfile> odometry_profile;
   std::uint64_t seed = 0;
   std::string tool;  ///< name and version of the program, for the info topic

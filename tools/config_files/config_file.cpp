@@ -10,9 +10,10 @@
 #include <sstream>
 
 #include "ardrone_vslam/delayed_fusion.hpp"
-#include "ardrone_vslam/parameter_values.hpp"
 #include "configs/node_config.hpp"
 #include "configs/onboard_config.hpp"
+#include "configs/section_values.hpp"
+#include "files/regular_file.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -55,7 +56,8 @@ Section readSection(const std::string& path, const std::string& name, const YAML
     const std::string value =
         entry.second.IsScalar() ? entry.second.as<std::string>() : YAML::Dump(entry.second);
     if (!section.emplace(key, value).second)
-      faults.push_back(path + ": '" + name + "/" + key + "' is there twice; keep one of them");
+      faults.push_back(std::string(path).append(": '").append(name).append("/").append(key).append(
+          "' is there twice; keep one of them"));
   }
   return section;
 }
@@ -64,8 +66,12 @@ std::map<std::string, Section> readSections(const std::string& path,
                                             std::vector<std::string>& faults) {
   std::map<std::string, Section> sections;
   if (path.empty()) return sections;
+  const std::string fault = faultOfFile(path, kLargestYaml_bytes);
+  if (!fault.empty()) {
+    faults.push_back(path + ": " + fault);
+    return sections;
+  }
   try {
-    if (std::filesystem::is_directory(path)) throw YAML::BadFile(path);
     const YAML::Node root = YAML::LoadFile(path);
     if (!root.IsMap() && !root.IsNull()) {
       faults.push_back(path + ": must hold the sections tracker: and mapper:");
@@ -134,7 +140,7 @@ std::string hintFor(const std::string& section, const std::string& written) {
     section == kOnboard ? addNames(OnboardConfig{}, names) : addNames(DelayedFusionConfig{}, names);
     return remedyFor(section, written, names);
   }
-  const std::string became = whatBecameOf(OldName::Kind::kParameter, written);
+  std::string became = whatBecameOf(OldName::Kind::kParameter, written);
   if (!became.empty()) return became;
   addNames(TrackerConfig{}, names);
   addNames(SlamConfig{}, names);

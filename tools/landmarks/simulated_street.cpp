@@ -8,9 +8,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sequences/folder_files.hpp"
-#include "sequences/kitti_folder.hpp"
+#include "files/regular_file.hpp"
+#include "folders/folder_files.hpp"
+#include "folders/kitti_folder.hpp"
 #include "simulation/random_source.hpp"
+#include "trajectory/metrics.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -22,6 +24,7 @@ struct FirstLook {
 };
 
 FirstLook lookInto(const std::string& path) {
+  requireFile(path, kLargestTable_bytes);
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read; give a file of KITTI or TUM poses");
   FirstLook look;
@@ -40,19 +43,14 @@ FirstLook lookInto(const std::string& path) {
 void addStreet(PointWorld& world, const Trajectory& path, const StreetConfig& config,
                std::uint64_t seed) {
   assert(path.size() >= 2 && "a street needs a path");
-  std::vector<double> displacement_m{0};
+  const std::vector<double> displacement_m = displacements_m(path);
   const auto& poses = path.poses();
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    displacement_m.push_back(
-        displacement_m.back() +
-        (poses[i].T_map_base.translation() - poses[i - 1].T_map_base.translation()).norm());
-  }
   RandomSource random(seed);
   for (int k = 0; k < config.landmarks; ++k) {
     const double along_m = random.uniform(0, displacement_m.back());
     const auto after = std::upper_bound(displacement_m.begin(), displacement_m.end() - 1, along_m);
     const Eigen::Isometry3d& near =
-        poses[static_cast<std::size_t>(after - displacement_m.begin())].T_map_base;
+        poses[static_cast<std::size_t>(after - displacement_m.begin())].T_frame_body;
     const double side = random.chance(0.5) ? 1 : -1;
     const double away_m = random.uniform(config.nearest_m, config.farthest_m);
     const double up_m = random.uniform(config.lowest_m, config.highest_m);

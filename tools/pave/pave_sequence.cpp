@@ -10,18 +10,20 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/regular_file.hpp"
+#include "folders/camera_yaml.hpp"
+#include "folders/folder_sequence.hpp"
 #include "pave/pave_decoder.hpp"
 #include "pave/pave_stamps.hpp"
-#include "sequences/camera_yaml.hpp"
 #include "sequences/drone_cameras.hpp"
-#include "sequences/folder_sequence.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 std::vector<std::uint8_t> readBytes(const std::string& path) {
+  requireFile(path, kLargestStream_bytes);
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
+  if (!file) {
     throw std::runtime_error(path + ": cannot be read; check the path");
   }
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

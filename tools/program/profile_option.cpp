@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "config_files/config_path.hpp"
+#include "folders/kitti_folder.hpp"
 #include "program/tool_main.hpp"
-#include "sequences/kitti_folder.hpp"
 
 namespace ardrone_vslam {
 

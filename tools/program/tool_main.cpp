@@ -7,6 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <new>
+#include <opencv2/core.hpp>
+#include <stdexcept>
 #include <system_error>
 
 #include "ardrone_vslam/instruction_set.hpp"
@@ -15,6 +18,9 @@
 namespace ardrone_vslam {
 
 namespace {
+
+constexpr const char* kNoMemory =
+    "there is not enough memory; end other programs, or use fewer or smaller images";
 
 /// What became of options and values of earlier versions that the arguments hold.
 std::vector<std::string> oldArguments(int argc, char** argv) {
@@ -57,6 +63,8 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& ru
     std::cerr << app.get_name() << ": " << e.what() << '\n';
     return exit_code;
   };
+  // What OpenCV throws is told here, once and in our words.
+  cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
   try {
     app.parse(argc, argv);
     const std::string& kernels_fault = instructionSetInUse().fault;
@@ -70,6 +78,12 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& ru
     return 2;
   } catch (const UsageError& e) {
     return fault(e, 2);
+  } catch (const std::bad_alloc&) {
+    return fault(std::runtime_error(kNoMemory), 1);
+  } catch (const cv::Exception& e) {
+    return fault(
+        e.code == cv::Error::StsNoMem ? std::runtime_error(kNoMemory) : std::runtime_error(e.err),
+        1);
   } catch (const std::exception& e) {
     return fault(e, 1);
   }

@@ -26,21 +26,24 @@ std::vector<std::string> reportRuns(const Sequence& sequence,
             ? sequence.truth()
             : truthFromOdometryStart(sequence.truth(), odometries[i], truth_moved);
     const RunEvaluation evaluation = evaluate(results[i], truth);
-    const RunVerdict verdict = judgeRun(sequence.name(), results[i], evaluation, truth_moved);
-    for (const std::string& text : verdict.warnings) options.warn(text);
-    faults.insert(faults.end(), verdict.faults.begin(), verdict.faults.end());
+    if (results[i].is_finished) {
+      const RunVerdict verdict = judgeRun(sequence.name(), results[i], evaluation, truth_moved);
+      for (const std::string& text : verdict.warnings) options.warn(text);
+      faults.insert(faults.end(), verdict.faults.begin(), verdict.faults.end());
+    }
     const RunLabel label{sequence.name(), odometries[i].profile, odometries[i].seed,
                          options.estimator};
     summaries.push_back(summaryOf(results[i], evaluation, label));
     const std::string folder =
         options.is_of_seeds ? seedFolder(options.folder, *label.seed) : options.folder;
+    summaries.back()["is_finished"] = results[i].is_finished;
     writeRun(folder, results[i], evaluation, summaries.back());
   }
   if (options.is_of_seeds) {
     const auto all = summaryOfSeeds(summaries);
     writeText(options.folder + "/summary.json", all.dump(2) + "\n");
-    printSeeds(all, std::cout);
-  } else {
+    if (results.front().is_finished) printSeeds(all, std::cout);
+  } else if (results.front().is_finished) {
     printSummary(summaries.front());
   }
   return faults;

@@ -18,8 +18,8 @@ struct ReportOptions {
   std::function<void(const std::string& warning)> warn;  ///< gets what a user should know first
 };
 
-/// Judges the runs of a sequence with each of the odometries, writes their files and prints their
-/// numbers on stdout. @param results  as many as odometries
+/// Writes the files of a sequence's runs with each of the odometries; judges them and prints their
+/// numbers on stdout when they are finished. @param results  as many as odometries
 /// @return what is wrong with the input: then the results are not to be used
 /// @throws std::runtime_error for a file that cannot be written, or when nothing came out at all
 std::vector<std::string> reportRuns(const Sequence& sequence,

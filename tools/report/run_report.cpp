@@ -183,7 +183,7 @@ RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
       const Eigen::Vector3d position = T_map_base.translation();
       const Eigen::Vector3d error = r.T_map_base.translation() - position;
       fused_error = error.norm();
-      odometry_error = (odometry.T_map_base.translation() - position).norm();
+      odometry_error = (odometry.T_frame_body.translation() - position).norm();
       fused_nees = nees(error, r.covariance.topLeftCorner<3, 3>());
       if (!std::isfinite(fused_error + odometry_error)) ++e.frames_error_not_finite;
       if (r.landmark_position_map) camera_error = (*r.landmark_position_map - position).norm();

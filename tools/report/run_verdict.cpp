@@ -43,7 +43,7 @@ std::string standstillFault(const std::string& name, const RunResult& run,
     return f.result.T_odom_base;
   };
   const auto known = [](const StampedPose& p) -> const auto& {
-    return p.T_map_base;
+    return p.T_frame_body;
   };
   const std::string end = " although the images do; ";
   if (neverMoves(truth.poses(), known)) {
@@ -188,7 +188,8 @@ void warnOfCamera(const std::string& name, const RunResult& run,
   if (run.landmarks.empty()) {
     warnings.push_back(
         "no landmark came out, so the poses are the odometry's: images too dark, blurred or plain, "
-        "no motion sideways (turning gives no depth), odometry that does not move with the images, "
+        "no motion past what is seen (turning gives no depth), odometry that does not move with "
+        "the images, "
         "or another camera's calibration");
   }
   const double rejected = rejectedTracks(run);

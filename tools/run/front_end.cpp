@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <future>
 
-#include "ardrone_vslam/image_roll.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/rotation.hpp"
 #include "ardrone_vslam/tracker.hpp"
 
 namespace ardrone_vslam {

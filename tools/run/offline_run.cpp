@@ -69,18 +69,19 @@ void BackEnd::watchSetup(const ImageFeatures& features) {
   if (is_fault && run_.setup_fault_ns == 0) run_.setup_fault_ns = features.stamp_ns;
 }
 
-RunResult BackEnd::finish(bool is_map_saved) {
-  if (is_map_saved && !slam_.isSearching()) run_.map = slam_.save();
-  run_.time_offset = time_offset_.estimate();
-  run_.images_travel = watch_.isStuck();
-  run_.absurd_speed_m_s = odometry_.absurdSpeed_m_s();
-  run_.odometry_states_refused = odometry_.refused();
-  run_.odometry_faults = odometry_.faults();
-  run_.ranges_refused = heights_.input().refused();
-  run_.heights_missing = heights_.input().missing();
-  run_.heights_tilted = heights_.input().tilted();
-  run_.landmarks = slam_.landmarks();
-  return std::move(run_);
+RunResult BackEnd::result(bool is_map_saved) const {
+  RunResult run = run_;
+  if (is_map_saved && !slam_.isSearching()) run.map = slam_.save();
+  run.time_offset = time_offset_.estimate();
+  run.images_travel = watch_.isStuck();
+  run.absurd_speed_m_s = odometry_.absurdSpeed_m_s();
+  run.odometry_states_refused = odometry_.refused();
+  run.odometry_faults = odometry_.faults();
+  run.ranges_refused = heights_.input().refused();
+  run.heights_missing = heights_.input().missing();
+  run.heights_tilted = heights_.input().tilted();
+  run.landmarks = slam_.landmarks();
+  return run;
 }
 
 namespace {

@@ -28,6 +28,7 @@ struct RunFrame {
 
 /// One pass over a sequence with one odometry.
 struct RunResult {
+  bool is_finished = false;  ///< false: what there is so far
   std::vector<RunFrame> frames;
   std::vector<Landmark> landmarks;
   bool is_in_loaded_map = false;  ///< frames before it was found there are kSearchingMap
@@ -65,8 +66,10 @@ struct RunMaps {
 /// Images before the flight was found in a loaded map.
 std::int64_t countSearching(const RunResult& run);
 
+/// What there is of each run.
+using ResultsSoFar = std::function<std::vector<RunResult>()>;
 /// Called with the number of images done, from the calling thread.
-using Progress = std::function<void(std::size_t)>;
+using Progress = std::function<void(std::size_t done, const ResultsSoFar& so_far)>;
 
 /// Features + odometry -> poses and map, as the nodelets do it: odometry through an
 /// OdometryAdapter, interpolated at the image's stamp by an OdometryBuffer, ranges by a
@@ -81,7 +84,7 @@ class BackEnd {
   /// @return what the image has cost, front end included [ms]
   double process(const TrackedFrame& frame);
   /// @param is_map_saved  the map goes along. @throws std::invalid_argument as Slam::save
-  RunResult finish(bool is_map_saved = false);
+  RunResult result(bool is_map_saved = false) const;
 
  private:
   void changeCamera(const Eigen::Isometry3d& T_base_cam);

@@ -40,11 +40,12 @@ double BackEnds::process(const TrackedFrame& frame) {
   return costs_ms.empty() ? 0.0 : *std::max_element(costs_ms.begin(), costs_ms.end());
 }
 
-std::vector<RunResult> BackEnds::finish() {
+std::vector<RunResult> BackEnds::results(bool is_finished) const {
   std::vector<RunResult> results;
   for (std::size_t i = 0; i < back_ends_.size(); ++i) {
-    results.push_back(back_ends_[i]->finish(are_maps_saved_));
+    results.push_back(back_ends_[i]->result(are_maps_saved_ && is_finished));
     results.back().scale_error = scale_errors_[i];
+    results.back().is_finished = is_finished;
   }
   return results;
 }
@@ -60,6 +61,14 @@ std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
   NextImage next_image;
   double cost_ms = 0;
   if (speed) next_image = [&](std::size_t i) { return computer.next(sequence, i, cost_ms); };
+  const auto results = [&](bool is_finished) {
+    std::vector<RunResult> runs = back_ends.results(is_finished);
+    for (RunResult& run : runs) {
+      add(sequence.odometryInputFaults(), run.odometry_faults);
+      run.frames_dropped_slow = computer.dropped();
+    }
+    return runs;
+  };
   std::size_t done = 0;
   // The front end runs once for all seeds. With `use_attitude` it takes the first seed's: attitudes
   // of one profile differ by no more than the pattern's steps of 1.4 degrees.
@@ -68,15 +77,11 @@ std::vector<RunResult> runAll(Sequence& sequence, const PipelineConfig& config,
   const auto consume = [&](const TrackedFrame& frame) {
     cost_ms = back_ends.process(frame);
     ++done;
-    if (progress) progress(done + static_cast<std::size_t>(computer.dropped()));
+    if (progress)
+      progress(done + static_cast<std::size_t>(computer.dropped()), [&] { return results(false); });
   };
   runFrontEnd(sequence, config.tracker, attitude, threads, consume, next_image);
-  std::vector<RunResult> results = back_ends.finish();
-  for (RunResult& result : results) {
-    add(sequence.odometryInputFaults(), result.odometry_faults);
-    result.frames_dropped_slow = computer.dropped();
-  }
-  return results;
+  return results(true);
 }
 
 }  // namespace ardrone_vslam

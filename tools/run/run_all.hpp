@@ -24,8 +24,8 @@ class BackEnds {
            const RunMaps& maps = {});
   /// @return what the image has cost where it cost most [ms]
   double process(const TrackedFrame& frame);
-  /// In the order of add().
-  std::vector<RunResult> finish();
+  /// In the order of add(). @param is_finished  no frame will follow: maps go along
+  std::vector<RunResult> results(bool is_finished) const;
 
  private:
   int threads_;

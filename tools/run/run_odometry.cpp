@@ -44,7 +44,7 @@ RunOdometry recordedOdometry(const Sequence& sequence) {
     return Eigen::Vector3d(s.T_odom_base.translation());
   };
   const auto truePosition = [](const StampedPose& p) {
-    return Eigen::Vector3d(p.T_map_base.translation());
+    return Eigen::Vector3d(p.T_frame_body.translation());
   };
   if (states.size() > 1 && standsStill(states, statePosition) &&
       (sequence.truth().empty() || !standsStill(sequence.truth().poses(), truePosition))) {
@@ -100,7 +100,7 @@ Trajectory truthFromOdometryStart(const Trajectory& truth, const RunOdometry& od
   if (offset_m.norm() < kSamePlace_m && rotation_rad < kSameAttitude_rad) return truth;
   moved = true;
   std::vector<StampedPose> poses = truth.poses();
-  for (StampedPose& pose : poses) pose.T_map_base = T_odom_map * pose.T_map_base;
+  for (StampedPose& pose : poses) pose.T_frame_body = T_odom_map * pose.T_frame_body;
   return Trajectory(std::move(poses));
 }
 

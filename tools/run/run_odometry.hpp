@@ -18,7 +18,7 @@ struct RunOdometry {
   OdometryRun run;
 };
 
-/// The sequence's own observer. @throws std::runtime_error when there is none at the images'
+/// The sequence's own odometry. @throws std::runtime_error when there is none at the images'
 /// stamps, or when it stands still although the truth moves or is unknown
 RunOdometry recordedOdometry(const Sequence& sequence);
 

@@ -22,8 +22,8 @@ class SimilarSequence : public SequenceView {
     const Eigen::Matrix3d left_right = flipped(1);  // map's y
     for (StampedPose pose : this->sequence().truth().poses()) {
       pose.stamp_ns = scaled(pose.stamp_ns);
-      pose.T_map_base.translation() *= similarity_.scale;
-      if (similarity_.is_mirrored) pose.T_map_base = mirrored(pose.T_map_base, left_right);
+      pose.T_frame_body.translation() *= similarity_.scale;
+      if (similarity_.is_mirrored) pose.T_frame_body = mirrored(pose.T_frame_body, left_right);
       truth_.append(pose);
     }
   }

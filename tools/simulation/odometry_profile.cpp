@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "files/regular_file.hpp"
 #include "simulation/odometry_model.hpp"
 
 namespace ardrone_vslam {
@@ -40,6 +41,7 @@ const std::vector<Key>& numberKeys() {
 }
 
 YAML::Node loadProfiles(const std::string& path) {
+  requireFile(path, kLargestYaml_bytes);
   try {
     const YAML::Node root = YAML::LoadFile(path);
     if (root.IsMap()) return root;

@@ -14,9 +14,9 @@ std::vector<double> positionErrors_m(const Trajectory& estimate, const Trajector
   std::vector<double> errors;
   errors.reserve(estimate.size());
   for (std::size_t i = 0; i < estimate.size(); ++i) {
-    errors.push_back(
-        (estimate.poses()[i].T_map_base.translation() - truth.poses()[i].T_map_base.translation())
-            .norm());
+    errors.push_back((estimate.poses()[i].T_frame_body.translation() -
+                      truth.poses()[i].T_frame_body.translation())
+                         .norm());
   }
   return errors;
 }
@@ -43,8 +43,8 @@ double alignedRmse_m(const Trajectory& estimate, const Trajectory& truth) {
   Eigen::Matrix3Xd from(3, count);
   Eigen::Matrix3Xd to(3, count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    from.col(i) = estimate.poses()[static_cast<std::size_t>(i)].T_map_base.translation();
-    to.col(i) = truth.poses()[static_cast<std::size_t>(i)].T_map_base.translation();
+    from.col(i) = estimate.poses()[static_cast<std::size_t>(i)].T_frame_body.translation();
+    to.col(i) = truth.poses()[static_cast<std::size_t>(i)].T_frame_body.translation();
   }
   const Eigen::Isometry3d T_truth_estimate(Eigen::umeyama(from, to, false));
   const Eigen::Matrix3Xd left = (T_truth_estimate * from) - to;
@@ -53,24 +53,30 @@ double alignedRmse_m(const Trajectory& estimate, const Trajectory& truth) {
 
 Trajectory scaled(const Trajectory& truth, double scale_error) {
   if (truth.empty()) return {};
-  const Eigen::Vector3d start = truth.poses().front().T_map_base.translation();
+  const Eigen::Vector3d start = truth.poses().front().T_frame_body.translation();
   std::vector<StampedPose> poses = truth.poses();
   for (StampedPose& pose : poses) {
-    const Eigen::Vector3d position = pose.T_map_base.translation();
-    pose.T_map_base.translation() = start + (1 + scale_error) * (position - start);
+    const Eigen::Vector3d position = pose.T_frame_body.translation();
+    pose.T_frame_body.translation() = start + (1 + scale_error) * (position - start);
   }
   return Trajectory(std::move(poses));
+}
+
+std::vector<double> displacements_m(const Trajectory& path) {
+  std::vector<double> displacement_m{0};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    displacement_m.push_back(displacement_m.back() +
+                             (path.poses()[i].T_frame_body.translation() -
+                              path.poses()[i - 1].T_frame_body.translation())
+                                 .norm());
+  }
+  return displacement_m;
 }
 
 std::optional<double> translationError_percent(const Trajectory& estimate,
                                                const Trajectory& truth) {
   assert(estimate.size() == truth.size() && "trajectories must have equal stamps");
-  std::vector<double> displacement_m{0};
-  for (std::size_t i = 1; i < truth.size(); ++i) {
-    displacement_m.push_back(displacement_m.back() + (truth.poses()[i].T_map_base.translation() -
-                                                      truth.poses()[i - 1].T_map_base.translation())
-                                                         .norm());
-  }
+  const std::vector<double> displacement_m = displacements_m(truth);
   constexpr std::size_t kStartStep = 10;
   double sum = 0;
   int count = 0;
@@ -81,9 +87,9 @@ std::optional<double> translationError_percent(const Trajectory& estimate,
       if (end == displacement_m.end()) break;
       const auto last = static_cast<std::size_t>(end - displacement_m.begin());
       const Eigen::Isometry3d true_motion =
-          truth.poses()[first].T_map_base.inverse() * truth.poses()[last].T_map_base;
+          truth.poses()[first].T_frame_body.inverse() * truth.poses()[last].T_frame_body;
       const Eigen::Isometry3d motion =
-          estimate.poses()[first].T_map_base.inverse() * estimate.poses()[last].T_map_base;
+          estimate.poses()[first].T_frame_body.inverse() * estimate.poses()[last].T_frame_body;
       sum += (motion.inverse() * true_motion).translation().norm() / length_m;
       ++count;
     }

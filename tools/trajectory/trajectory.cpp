@@ -12,6 +12,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "files/regular_file.hpp"
+#include "trajectory/text_file.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -26,7 +29,7 @@ std::string secondsText(std::int64_t stamp_ns) {
 
 /// Empty when `pose` may follow the last of `poses`, else what is wrong.
 std::string faultOfNext(const std::vector<StampedPose>& poses, const StampedPose& pose) {
-  if (!pose.T_map_base.matrix().allFinite()) {
+  if (!pose.T_frame_body.matrix().allFinite()) {
     return "the pose at " + secondsText(pose.stamp_ns) + " s is not finite";
   }
   if (!poses.empty() && pose.stamp_ns <= poses.back().stamp_ns) {
@@ -88,15 +91,16 @@ std::string parseLine(const std::string& line, StampedPose& pose) {
   const Eigen::Quaterniond rotation(values[6], values[3], values[4], values[5]);
   const double norm = rotation.norm();
   if (!(std::abs(norm - 1) < 0.01)) return "the quaternion's norm is not 1";
-  pose.T_map_base = Eigen::Isometry3d::Identity();
-  pose.T_map_base.linear() = rotation.normalized().toRotationMatrix();
-  pose.T_map_base.translation() << values[0], values[1], values[2];
-  if (isTooFar(pose.T_map_base.translation())) return kTooFarFault;
+  pose.T_frame_body = Eigen::Isometry3d::Identity();
+  pose.T_frame_body.linear() = rotation.normalized().toRotationMatrix();
+  pose.T_frame_body.translation() << values[0], values[1], values[2];
+  if (isTooFar(pose.T_frame_body.translation())) return kTooFarFault;
   return {};
 }
 
 template <class Check>
 std::vector<StampedPose> readLines(const std::string& path, Check&& check) {
+  requireFile(path, kLargestTable_bytes);
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read; check the path");
   std::vector<StampedPose> poses;
@@ -140,21 +144,21 @@ void Trajectory::append(const StampedPose& pose) {
 
 Eigen::Isometry3d Trajectory::at(std::int64_t stamp_ns) const {
   assert(!poses_.empty() && "an empty trajectory has no pose");
-  if (stamp_ns <= poses_.front().stamp_ns) return poses_.front().T_map_base;
-  if (stamp_ns >= poses_.back().stamp_ns) return poses_.back().T_map_base;
+  if (stamp_ns <= poses_.front().stamp_ns) return poses_.front().T_frame_body;
+  if (stamp_ns >= poses_.back().stamp_ns) return poses_.back().T_frame_body;
   const auto after =
       std::lower_bound(poses_.begin(), poses_.end(), stamp_ns,
                        [](const StampedPose& p, std::int64_t t) { return p.stamp_ns < t; });
-  if (after->stamp_ns == stamp_ns) return after->T_map_base;
+  if (after->stamp_ns == stamp_ns) return after->T_frame_body;
   const auto before = std::prev(after);
   const double share = static_cast<double>(stamp_ns - before->stamp_ns) /
                        static_cast<double>(after->stamp_ns - before->stamp_ns);
-  const Eigen::Quaterniond q_before(before->T_map_base.linear());
-  const Eigen::Quaterniond q_after(after->T_map_base.linear());
+  const Eigen::Quaterniond q_before(before->T_frame_body.linear());
+  const Eigen::Quaterniond q_after(after->T_frame_body.linear());
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = q_before.slerp(share, q_after).normalized().toRotationMatrix();
   pose.translation() =
-      (1 - share) * before->T_map_base.translation() + share * after->T_map_base.translation();
+      (1 - share) * before->T_frame_body.translation() + share * after->T_frame_body.translation();
   return pose;
 }
 
@@ -172,15 +176,15 @@ void writeTum(const std::string& path, const Trajectory& trajectory) {
 
 void writeTumPoses(const std::string& path, const std::vector<StampedPose>& poses,
                    const std::string& comment) {
-  std::ofstream file(path);
+  std::ostringstream file;
   std::istringstream comment_lines(comment);
   for (std::string line; std::getline(comment_lines, line);) file << "# " << line << '\n';
   file << "# timestamp[s] tx ty tz[m] qx qy qz qw\n";
   file.imbue(std::locale::classic());
   file << std::fixed << std::setprecision(9);
   for (const auto& pose : poses) {
-    const Eigen::Vector3d& p = pose.T_map_base.translation();
-    Eigen::Quaterniond q(pose.T_map_base.linear());
+    const Eigen::Vector3d& p = pose.T_frame_body.translation();
+    Eigen::Quaterniond q(pose.T_frame_body.linear());
     if (q.w() < 0) q.coeffs() = -q.coeffs();
     file << secondsText(pose.stamp_ns);
     for (const double value : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) {
@@ -188,10 +192,7 @@ void writeTumPoses(const std::string& path, const std::vector<StampedPose>& pose
     }
     file << '\n';
   }
-  file.close();
-  if (!file) {
-    throw std::runtime_error(path + ": cannot be written; check the folder and the free space");
-  }
+  writeText(path, file.str());
 }
 
 }  // namespace ardrone_vslam

@@ -8,9 +8,10 @@
 
 namespace ardrone_vslam {
 
+/// Of what moves, base or a camera, in the frame of its trajectory: map, or odom of an odometry.
 struct StampedPose {
   std::int64_t stamp_ns = 0;
-  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_frame_body = Eigen::Isometry3d::Identity();
 };
 
 /// No robot's map reaches further; what does is a fault of its source, and squares of it leave a

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sequences/range_readings.hpp"
+#include "folders/range_readings.hpp"
 #include "simulation/random_source.hpp"
 
 namespace ardrone_vslam {

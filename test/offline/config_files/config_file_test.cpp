@@ -175,14 +175,20 @@ TEST_F(ConfigFile, FilesThatAreNoConfiguration) {
   const auto broken = faultsOf("mapper:\n  estimator: [exact\n");
   ASSERT_EQ(broken.size(), 1U);
   EXPECT_TRUE(contains(broken[0], "not valid YAML"));
-  for (const std::string& path : {folder_.file("missing.yaml"), folder_.path()}) {
+  const std::pair<std::string, std::string> none[] = {
+      {folder_.file("missing.yaml"), ": cannot be read"}, {folder_.path(), ": is no file but"}};
+  for (const auto& [path, fault] : none) {
     try {
       loadConfig(path, {});
       FAIL() << path;
     } catch (const ConfigError& e) {
-      EXPECT_TRUE(contains(e.what(), path + ": cannot be read")) << e.what();
+      EXPECT_TRUE(contains(e.what(), path + fault)) << e.what();
     }
   }
+  const auto long_value =
+      faultsOf("tracker:\n  features_per_frame: " + std::string(100'000, 'x') + "\n");
+  ASSERT_EQ(long_value.size(), 1U);
+  EXPECT_LT(long_value[0].size(), 400U) << "it shows the beginning";
 }
 
 TEST(ParameterTable, NamesEveryParameterWithItsDefault) {

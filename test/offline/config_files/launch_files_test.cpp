@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "driver/fake_driver_config.hpp"
-#include "sequences/camera_yaml.hpp"
+#include "folders/camera_yaml.hpp"
 #include "sequences/drone_cameras.hpp"
 #include "test_paths.hpp"
 

@@ -7,6 +7,7 @@
 #include "doctor/camera/doctor_frames.hpp"
 #include "doctor/doctor_examination.hpp"
 #include "sequences/drone_cameras.hpp"
+#include "support/doctor_findings.hpp"
 #include "support/doctor_recordings.hpp"
 
 namespace ardrone_vslam {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "doctor/camera/doctor_motion.hpp"
+#include "support/doctor_findings.hpp"
 #include "support/doctor_recordings.hpp"
 
 namespace ardrone_vslam {

@@ -9,6 +9,7 @@
 
 #include "doctor/doctor_examination.hpp"
 #include "doctor/streams/doctor_streams.hpp"
+#include "support/doctor_findings.hpp"
 #include "support/doctor_recordings.hpp"
 
 namespace ardrone_vslam {

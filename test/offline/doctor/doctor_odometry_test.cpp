@@ -6,12 +6,15 @@
 #include <limits>
 
 #include "doctor/streams/doctor_height.hpp"
+#include "support/doctor_findings.hpp"
 #include "support/doctor_recordings.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
+using Names = std::set<std::string>;
 using Parameters = std::vector<SuggestedParameter>;
+using test::found;
 using test::goodRecording;
 using test::verdictOf;
 
@@ -32,19 +35,6 @@ Findings allOf(const DoctorRecording& recording) {
   for (const Finding& f : checkHeight(recording, parameters)) findings.push_back(f);
   return findings;
 }
-
-/// Names of the checks that found something.
-std::vector<std::string> found(const Findings& findings) {
-  std::vector<std::string> names;
-  for (const Finding& finding : findings) {
-    if (finding.verdict == Verdict::kWarning || finding.verdict == Verdict::kFault) {
-      names.push_back(finding.check);
-    }
-  }
-  return names;
-}
-
-using Names = std::vector<std::string>;
 
 TEST(DoctorOdometry, SoundOdometryHasNoFault) {
   for (const Finding& finding : allOf(goodRecording())) {

@@ -8,6 +8,7 @@
 #include "doctor/camera/doctor_tracks.hpp"
 #include "doctor/doctor_examination.hpp"
 #include "doctor/recording/doctor_topics.hpp"
+#include "support/doctor_findings.hpp"
 #include "support/doctor_recordings.hpp"
 
 namespace ardrone_vslam {

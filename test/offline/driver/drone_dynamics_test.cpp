@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "support/yaw.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -15,11 +17,6 @@ DroneDynamics hovering(const FlightStart& start = {}) {
   drone.takeOff();
   drone.advance(6, {});
   return drone;
-}
-
-double yawOf(const DroneDynamics& drone) {
-  const Eigen::Matrix3d R_world_body = drone.state().T_world_body.linear();
-  return std::atan2(R_world_body(1, 0), R_world_body(0, 0));
 }
 
 double tiltOf(const DroneDynamics& drone) {
@@ -39,7 +36,7 @@ TEST(DroneDynamics, StandsUntilItTakesOffAndThenHovers) {
   EXPECT_EQ(drone.phase(), Phase::kFlying);
   EXPECT_LT((drone.state().T_world_body.translation() - Eigen::Vector3d(1, 2, 1)).norm(), 0.1);
   EXPECT_LT(drone.state().velocity_world_m_s.norm(), 0.01);
-  EXPECT_NEAR(yawOf(drone), 0.5, 1e-9);
+  EXPECT_NEAR(test::yawOf(drone.state().T_world_body), 0.5, 1e-9);
 }
 
 TEST(DroneDynamics, FliesWhereItIsToldAndBrakesByItself) {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "ardrone_vslam/drone_observer.hpp"
-#include "config_files/config_path.hpp"
 #include "driver/drone_flight.hpp"
+#include "support/shipped_profiles.hpp"
 #include "world/world.hpp"
 
 namespace ardrone_vslam {
@@ -32,8 +32,8 @@ DroneFlight fly(const std::string& name, const std::string& profile, std::uint64
                 double seconds = 0) {
   const FlightInfo& info = flightInfo(name);
   return flyDrone(*makeFlight(name, std::nullopt), makeWorld(info.world, info.light, 1),
-                  seconds > 0 ? seconds : info.duration_s, kBegin_ns,
-                  loadOdometryProfile(profile, findConfigFile("odometry_profiles.yaml")), seed);
+                  seconds > 0 ? seconds : info.duration_s, kBegin_ns, test::shippedProfile(profile),
+                  seed);
 }
 
 std::vector<NavdataReading> readingsOf(const DroneFlight& flight) {
@@ -58,7 +58,7 @@ class DroneObserverFlight : public ::testing::Test {
   }
   /// Of a state's position, from the truth's first.
   static Eigen::Vector3d errorOf_m(const OdometryState& state, const DroneFlight& flight) {
-    const Eigen::Vector3d begin_m = flight.truth.poses().front().T_map_base.translation();
+    const Eigen::Vector3d begin_m = flight.truth.poses().front().T_frame_body.translation();
     Eigen::Vector3d truth_m = flight.truth.at(state.stamp_ns).translation();
     truth_m.head<2>() -= begin_m.head<2>();
     return state.T_odom_base.translation() - truth_m;
@@ -122,7 +122,7 @@ TEST_F(DroneObserverFlight, ATableIsToldFromAClimb) {
   bool was_above = false;
   double worst_m = 0;
   for (std::size_t i = 0; i < flight.packets.size(); ++i) {
-    const double z_m = flight.truth.poses()[i].T_map_base.translation().z();
+    const double z_m = flight.truth.poses()[i].T_frame_body.translation().z();
     const double floor_m = z_m - flight.packets[i].altitude_m;
     worst_m = std::max(worst_m, floor_m);
     const bool is_above = was_above ? floor_m > 0.2 : floor_m > 0.5;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "run/offline_run.hpp"
+#include "support/odometry_states.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -13,10 +14,7 @@ namespace {
 constexpr std::int64_t kStart_ns = 1'000'000'000'000;
 
 OdometryState stateAt(double stamp_s, const Eigen::Vector3d& position_m) {
-  OdometryState state;
-  state.stamp_ns = kStart_ns + static_cast<std::int64_t>(stamp_s * 1e9);
-  state.T_odom_base.translation() = position_m;
-  return state;
+  return test::odometryAt(kStart_ns + static_cast<std::int64_t>(stamp_s * 1e9), position_m);
 }
 
 /// Of a drone that flies back and forth at up to 2 m/s for 20 s.
@@ -57,14 +55,14 @@ TEST(SpeedWatch, JumpsNoiseAndStampsThatGoBackAreNoSpeed) {
   EXPECT_EQ(watch.absurd_m_s(), 0);
 }
 
-TEST(SpeedWatch, ReplayWatchesItsObserver) {
+TEST(SpeedWatch, ReplayWatchesItsOdometry) {
   std::vector<OdometryState> states;
   for (int i = 0; i < 30; ++i) states.push_back(stateAt(0.1 * i, {30.0 * i, 0, 0}));
   BackEnd back_end(SlamConfig{}, Eigen::Isometry3d::Identity(), states);
   TrackedFrame frame;
   frame.features.stamp_ns = states.back().stamp_ns;
   back_end.process(frame);
-  EXPECT_NEAR(back_end.finish().absurd_speed_m_s, 300, 1e-3);
+  EXPECT_NEAR(back_end.result().absurd_speed_m_s, 300, 1e-3);
 }
 
 TEST(SpeedWatch, TheSentenceHasTopicSpeedAndRemedy) {

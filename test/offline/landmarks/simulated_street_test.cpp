@@ -10,29 +10,23 @@
 #include "config_files/config_path.hpp"
 #include "report/run_report.hpp"
 #include "run/run_all.hpp"
+#include "support/real_data.hpp"
 #include "support/sequence_folders.hpp"
+#include "support/shipped_profiles.hpp"
+#include "support/truth_paths.hpp"
 #include "test_paths.hpp"
 #include "trajectory/metrics.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-Trajectory straight(int poses, double step_m) {
-  std::vector<StampedPose> path;
-  for (int i = 0; i < poses; ++i) {
-    StampedPose pose;
-    pose.stamp_ns = 100'000'000LL * i;
-    pose.T_map_base.translation() << step_m * i, 0, 0;
-    path.push_back(pose);
-  }
-  return Trajectory(std::move(path));
-}
+using test::realData;
 
 TEST(SimulatedStreet, LandmarksAreOnBothSidesAllAlongThePath) {
   PointWorld world(1);
   StreetConfig street;
   street.landmarks = 1000;
-  addStreet(world, straight(101, 1), street, 1);
+  addStreet(world, test::straightPath(101, 1), street, 1);
   ASSERT_EQ(world.points().size(), 1000U);
   int left = 0;
   int second_half = 0;
@@ -57,13 +51,14 @@ TEST(SimulatedStreet, ReadsPathsOfBothFormats) {
   EXPECT_EQ(kitti.poses()[1].stamp_ns, 100'000'000);
   // x right, y down, z forward becomes x forward, y left, z up.
   EXPECT_TRUE(
-      kitti.poses()[1].T_map_base.translation().isApprox(Eigen::Vector3d(3, -1, -2), 1e-12));
+      kitti.poses()[1].T_frame_body.translation().isApprox(Eigen::Vector3d(3, -1, -2), 1e-12));
   folder.write("times.txt", "0\n0.5\n");
   EXPECT_EQ(readPath(folder.file("kitti.txt")).poses()[1].stamp_ns, 500'000'000);
   folder.write("path.tum", "# a comment\n1 0 0 0 0 0 0 1\n2 3 -1 -2 0 0 0 1\n");
   const Trajectory tum = readPath(folder.file("path.tum"));
   ASSERT_EQ(tum.size(), 2U);
-  EXPECT_TRUE(tum.poses()[1].T_map_base.translation().isApprox(Eigen::Vector3d(3, -1, -2), 1e-12));
+  EXPECT_TRUE(
+      tum.poses()[1].T_frame_body.translation().isApprox(Eigen::Vector3d(3, -1, -2), 1e-12));
 }
 
 TEST(SimulatedStreet, SaysWhatIsWrongWithAPath) {
@@ -81,8 +76,7 @@ TEST(SimulatedStreet, MsckfOnKitti00IsBetterThanItsOdometryAndKnowsIt) {
       std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/kitti.yaml",
       {"mapper/estimator=msckf", "mapper/extrinsics_sigma_deg=0", "mapper/track_sigma_px=1.5",
        "mapper/track_common_px=0"});  // exact mounting, independent noise
-  const OdometryProfile wheel = loadOdometryProfile(
-      "wheel", std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/odometry_profiles.yaml");
+  const OdometryProfile wheel = test::shippedProfile("wheel");
   std::vector<RunOdometry> odometries;
   for (std::uint64_t seed = 1; seed <= 2; ++seed)
     odometries.push_back({wheel.name, seed, simulateOdometry(truth, wheel, seed)});
@@ -96,12 +90,12 @@ TEST(SimulatedStreet, MsckfOnKitti00IsBetterThanItsOdometryAndKnowsIt) {
   addStreet(world, truth, {}, 1);
   TrackedFrame frame;
   for (const StampedPose& pose : truth.poses()) {
-    frame.features = world.look(pose.T_map_base * forwardCamera(), pose.stamp_ns);
+    frame.features = world.look(pose.T_frame_body * forwardCamera(), pose.stamp_ns);
     back_ends.process(frame);
   }
   std::vector<double> ratios;
   double nees_sum = 0;
-  for (const RunResult& run : back_ends.finish()) {
+  for (const RunResult& run : back_ends.results(true)) {
     const auto summary = summaryOf(run, evaluate(run, truth), {});
     ratios.push_back(summary["ratio_scale_removed"]);
     nees_sum += summary["nees_mean"].get<double>();

@@ -9,10 +9,13 @@
 #include "pave/pave_sequence.hpp"
 #include "simulation/random_source.hpp"
 #include "support/pave_packets.hpp"
+#include "support/real_data.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {
 namespace {
+
+using test::realData;
 
 PaveStream parse(const Bytes& bytes) {
   return parsePave(bytes.data(), bytes.size());

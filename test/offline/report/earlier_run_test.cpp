@@ -43,7 +43,7 @@ std::set<std::string> filesIn(const TemporaryFolder& folder) {
   return names;
 }
 
-TEST(EarlierRun, OfOneObserverIsRemovedAndNothingElse) {
+TEST(EarlierRun, OfOneOdometryIsRemovedAndNothingElse) {
   const TemporaryFolder folder;
   writeOneRun(folder);
   for (const char* name : kRunFiles) EXPECT_EQ(filesIn(folder).count(name), 1U) << name;

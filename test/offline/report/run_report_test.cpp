@@ -56,7 +56,7 @@ Trajectory straightTruth() {
   for (int i = 0; i < 4; ++i) {
     StampedPose pose;
     pose.stamp_ns = 1'000'000'000LL * i;
-    pose.T_map_base.translation() << i, 0, 0;
+    pose.T_frame_body.translation() << i, 0, 0;
     truth.append(pose);
   }
   return truth;
@@ -123,7 +123,7 @@ TEST(RunReport, SummaryHasAllThatIsAskedFor) {
   EXPECT_EQ(summary["camera_frames"], 1);
 }
 
-TEST(RunReport, RatioIsNullWhereTheObserverIsTheTruth) {
+TEST(RunReport, RatioIsNullWhereTheOdometryIsTheTruth) {
   const Json summary = summaryFor("truth", straightTruth());
   EXPECT_TRUE(summary["ratio"].is_null());
   EXPECT_TRUE(summary["ratio_scale_removed"].is_null());

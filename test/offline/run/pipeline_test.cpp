@@ -2,7 +2,6 @@
 // The whole pipeline, images to poses, on rendered and on real images.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,6 +14,8 @@
 #include "run/run_all.hpp"
 #include "sequences/sequence.hpp"
 #include "simulation/odometry_model.hpp"
+#include "support/real_data.hpp"
+#include "support/shipped_profiles.hpp"
 #include "test_paths.hpp"
 #include "trajectory/metrics.hpp"
 #include "world/world_sequence.hpp"
@@ -32,24 +33,18 @@ Outcome runOn(Sequence& sequence, const std::string& profile_name, std::uint64_t
               int threads = 1, const std::vector<std::string>& overrides = {},
               const std::string& config_file = "") {
   const PipelineConfig config = loadConfig(config_file, overrides);
-  const OdometryProfile profile =
-      loadOdometryProfile(profile_name, ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
+  const OdometryProfile profile = test::shippedProfile(profile_name);
   const OdometryRun odometry = simulateOdometry(sequence.truth(), profile, seed);
   BackEnd back_end(config.mapper, sequence.T_base_cam(), odometry.states);
   runFrontEnd(sequence, config.tracker, {}, threads,
               [&](const TrackedFrame& frame) { back_end.process(frame); });
   Outcome outcome;
-  outcome.run = back_end.finish();
+  outcome.run = back_end.result();
   outcome.run.scale_error = odometry.scale_error;
   outcome.evaluation = evaluate(outcome.run, sequence.truth());
   outcome.summary =
       summaryOf(outcome.run, outcome.evaluation, {sequence.name(), profile_name, seed, "thesis"});
   return outcome;
-}
-
-std::string realData(const std::string& folder) {
-  const char* root = std::getenv("ARDRONE_VSLAM_DATA");
-  return root ? std::string(root) + "/" + folder : std::string();
 }
 
 std::unique_ptr<Sequence> laps(double seconds, double rate_hz) {
@@ -66,8 +61,7 @@ struct Spread {
 
 /// Of the seeds 1 to 3, as docs/results.md has them; the front end runs once.
 Spread flyThree(Sequence& sequence) {
-  const OdometryProfile profile =
-      loadOdometryProfile("drone", ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
+  const OdometryProfile profile = test::shippedProfile("drone");
   std::vector<RunOdometry> odometries;
   for (std::uint64_t seed = 1; seed <= 3; ++seed)
     odometries.push_back({profile.name, seed, simulateOdometry(sequence.truth(), profile, seed)});
@@ -81,7 +75,7 @@ Spread flyThree(Sequence& sequence) {
   return spread;
 }
 
-TEST(Pipeline, LapsInARoomDriftLessThanTheirObserver) {
+TEST(Pipeline, LapsInARoomDriftLessThanTheirOdometry) {
   const auto sequence = laps(25, 15);
   const Spread drifting = flyThree(*sequence);
   EXPECT_LT(quantile(drifting.ratios, 0.5), 0.31);  // measured: 0.21
@@ -112,9 +106,8 @@ std::vector<ImageFeatures> featuresOf(Sequence& sequence, const FrontEndAttitude
 
 TEST(Pipeline, TheAttitudeIsThatOfTheExposure) {
   const auto sequence = laps(2, 10);
-  const OdometryRun odometry = simulateOdometry(
-      sequence->truth(),
-      loadOdometryProfile("drone", ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml"), 1);
+  const OdometryRun odometry =
+      simulateOdometry(sequence->truth(), test::shippedProfile("drone"), 1);
   // Images are stamped 100 ms late on the odometry's clock.
   std::vector<OdometryState> earlier = odometry.states;
   for (OdometryState& state : earlier) state.stamp_ns -= 100'000'000;
@@ -130,7 +123,7 @@ TEST(Pipeline, TheAttitudeIsThatOfTheExposure) {
   EXPECT_TRUE(differs);
 }
 
-TEST(Pipeline, ImagesThatTravelAreToldFromAnObserverThatStandsStill) {
+TEST(Pipeline, ImagesThatTravelAreToldFromOdometryThatStandsStill) {
   const auto sequence = laps(10, 10);
   std::vector<OdometryState> rest(2);
   rest[0].stamp_ns = sequence->stamp_ns(0);
@@ -140,12 +133,12 @@ TEST(Pipeline, ImagesThatTravelAreToldFromAnObserverThatStandsStill) {
   BackEnd back_end(patient.mapper, sequence->T_base_cam(), rest);
   runFrontEnd(*sequence, patient.tracker, {}, 1,
               [&](const TrackedFrame& frame) { back_end.process(frame); });
-  EXPECT_TRUE(back_end.finish().images_travel);
+  EXPECT_TRUE(back_end.result().images_travel);
 }
 
-TEST(RealPipeline, KittiWithTheTruthAsObserver) {
-  const std::string folder = realData("kitti_03");
-  if (folder.empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
+TEST(RealPipeline, KittiWithTheTruthAsOdometry) {
+  const std::string folder = test::realData() + "/kitti_03";
+  if (test::realData().empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
   const auto sequence = select(openFolder(folder), FrameSelection::parse("0:150", false));
   const Outcome outcome =
       runOn(*sequence, "truth", 0, 1, {}, ARDRONE_VSLAM_SOURCE_DIR "/config/kitti.yaml");
@@ -159,8 +152,8 @@ TEST(RealPipeline, KittiWithTheTruthAsObserver) {
 }
 
 TEST(RealPipeline, KitchenIsNotHarmed) {
-  const std::string folder = realData("seven_scenes_kitchen");
-  if (folder.empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
+  const std::string folder = test::realData() + "/seven_scenes_kitchen";
+  if (test::realData().empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
   const auto sequence = openFolder(folder);
   const Spread drifting = flyThree(*sequence);
   EXPECT_LT(quantile(drifting.ratios, 0.5), 0.22);  // measured: 0.149
@@ -168,8 +161,8 @@ TEST(RealPipeline, KitchenIsNotHarmed) {
 }
 
 TEST(RealPipeline, NothingIsMappedWhileTheDroneStandsStill) {
-  const std::string folder = realData("euroc_still");
-  if (folder.empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
+  const std::string folder = test::realData() + "/euroc_still";
+  if (test::realData().empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
   const auto sequence = openFolder(folder);
   const PipelineConfig config = loadConfig("", {});
   std::vector<OdometryState> rest(2);
@@ -180,15 +173,15 @@ TEST(RealPipeline, NothingIsMappedWhileTheDroneStandsStill) {
   BackEnd back_end(patient.mapper, sequence->T_base_cam(), rest);
   runFrontEnd(*sequence, config.tracker, {}, 1,
               [&](const TrackedFrame& frame) { back_end.process(frame); });
-  const RunResult run = back_end.finish();
+  const RunResult run = back_end.result();
   EXPECT_EQ(run.frames.size(), sequence->size());
   EXPECT_TRUE(run.landmarks.empty());
   EXPECT_FALSE(run.images_travel);
 }
 
 TEST(RealPipeline, AStillImageHoldsThePosition) {
-  const std::string folder = realData("ardrone2_video");
-  if (folder.empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
+  const std::string folder = test::realData() + "/ardrone2_video";
+  if (test::realData().empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
   PaveOptions at_rest;
   at_rest.at_rest = true;
   const auto sequence = openPave(folder + "/ardrone2_video_example.capture", at_rest);

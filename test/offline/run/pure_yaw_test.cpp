@@ -12,7 +12,7 @@
 #include "ardrone_vslam/slam.hpp"
 #include "run/front_end.hpp"
 #include "simulation/odometry_model.hpp"
-#include "test_paths.hpp"
+#include "support/shipped_profiles.hpp"
 #include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {
@@ -29,7 +29,7 @@ struct Judged {
 class TurningDrone {
  public:
   TurningDrone() : world_(options()) {
-    T_world_map_ = world_.flight().pose(0) * world_.truth().poses()[0].T_map_base.inverse();
+    T_world_map_ = world_.flight().pose(0) * world_.truth().poses()[0].T_frame_body.inverse();
     runFrontEnd(world_, {}, {}, 2,
                 [this](const TrackedFrame& frame) { frames_.push_back(frame.features); });
   }
@@ -38,8 +38,7 @@ class TurningDrone {
     OdometryBufferConfig buffer_config;
     buffer_config.buffer_s = 100;
     OdometryBuffer buffer(buffer_config);
-    const OdometryProfile drift =
-        loadOdometryProfile(profile, ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
+    const OdometryProfile drift = test::shippedProfile(profile);
     for (const OdometryState& state : simulateOdometry(world_.truth(), drift, seed).states)
       buffer.push(state);
     Slam slam(SlamConfig{}, world_.T_base_cam());
@@ -50,7 +49,7 @@ class TurningDrone {
       OdometryState odometry;
       EXPECT_EQ(buffer.at(frames_[i].stamp_ns, odometry), OdometryBuffer::Lookup::kFound);
       const Eigen::Isometry3d T_map_base = slam.process(frames_[i], odometry).T_map_base;
-      const Eigen::Isometry3d& truth = world_.truth().poses()[i].T_map_base;
+      const Eigen::Isometry3d& truth = world_.truth().poses()[i].T_frame_body;
       const Eigen::Vector3d now_m = T_map_base.translation() - truth.translation();
       judged.jumps_m.push_back((now_m - error_m).norm());
       error_m = now_m;

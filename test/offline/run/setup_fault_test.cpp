@@ -10,7 +10,7 @@
 #include "sequences/drone_cameras.hpp"
 #include "sequences/faulty_sequence.hpp"
 #include "simulation/odometry_model.hpp"
-#include "test_paths.hpp"
+#include "support/shipped_profiles.hpp"
 #include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {
@@ -36,10 +36,8 @@ struct Flown {
 
 Flown fly(const std::string& fault, const WorldOptions& options = laps(), std::uint64_t seed = 1) {
   const auto sequence = lapsWith(fault, options);
-  const std::string profiles = ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml";
   const RunOdometry odometry{
-      "drone", seed,
-      simulateOdometry(sequence->truth(), loadOdometryProfile("drone", profiles), seed)};
+      "drone", seed, simulateOdometry(sequence->truth(), test::shippedProfile("drone"), seed)};
   Flown flown;
   flown.run = runAll(*sequence, PipelineConfig{}, {odometry}, 2, {}).front();
   const auto summary =

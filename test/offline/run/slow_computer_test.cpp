@@ -94,7 +94,7 @@ class SlowRun : public testing::Test {
     const RunOdometry odometry = simulatedOdometry(world, "drone", 1);
     return runAll(
                world, PipelineConfig{}, {odometry}, threads,
-               [this](std::size_t done) { done_ = done; }, speed)
+               [this](std::size_t done, const ResultsSoFar&) { done_ = done; }, speed)
         .front();
   }
 

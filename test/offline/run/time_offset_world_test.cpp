@@ -7,13 +7,11 @@
 #include "ardrone_vslam/time_offset.hpp"
 #include "run/front_end.hpp"
 #include "simulation/odometry_model.hpp"
-#include "test_paths.hpp"
+#include "support/shipped_profiles.hpp"
 #include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {
 namespace {
-
-const std::string kProfiles = ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml";
 
 std::vector<ImageFeatures> featuresOf(WorldSequence& sequence) {
   std::vector<ImageFeatures> features;
@@ -25,8 +23,7 @@ std::vector<ImageFeatures> featuresOf(WorldSequence& sequence) {
 /// Once each image is stamped `offset_s` early.
 TimeOffset find(const WorldSequence& sequence, std::vector<ImageFeatures> images,
                 const std::string& profile, std::uint64_t seed, double offset_s) {
-  const OdometryRun run =
-      simulateOdometry(sequence.truth(), loadOdometryProfile(profile, kProfiles), seed);
+  const OdometryRun run = simulateOdometry(sequence.truth(), test::shippedProfile(profile), seed);
   OdometryBufferConfig config;
   config.buffer_s = 60;
   OdometryBuffer odometry(config);

@@ -71,7 +71,7 @@ TEST(FrameSelection, TakesFramesWithTheirStamps) {
   expectError([&] { openSelected(folder, "5:", true); }, {"ping-pong", "two"});
 }
 
-TEST(FrameSelection, CutsTruthAndObserverToTheFrames) {
+TEST(FrameSelection, CutsTruthAndOdometryToTheFrames) {
   TemporaryFolder folder;
   makeTumFolder(folder, 5);  // poses at 0, 0.2, 0.4 s
   folder.write("odometry_tum.txt",
@@ -81,7 +81,7 @@ TEST(FrameSelection, CutsTruthAndObserverToTheFrames) {
   ASSERT_EQ(poses.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(poses[i].stamp_ns, sequence->stamp_ns(i));
-    EXPECT_NEAR(poses[i].T_map_base.translation().x(), 0.1 + 0.1 * static_cast<double>(i), 1e-9);
+    EXPECT_NEAR(poses[i].T_frame_body.translation().x(), 0.1 + 0.1 * static_cast<double>(i), 1e-9);
   }
   ASSERT_EQ(sequence->odometry().size(), 2u);
   EXPECT_EQ(sequence->odometry()[0].T_odom_base.translation().x(), 1);
@@ -108,11 +108,12 @@ TEST(FrameSelection, PingPongStampsAscendAndTruthFollowsTheImages) {
     EXPECT_EQ(sequence->stamp_ns(i), 7'000'000'000 + static_cast<std::int64_t>(i) * 100'000'000);
     const StampedPose& pose = sequence->truth().poses()[i];
     EXPECT_EQ(pose.stamp_ns, sequence->stamp_ns(i));
-    EXPECT_TRUE(pose.T_map_base.isApprox(original->truth().poses()[order[i]].T_map_base, 1e-12));
+    EXPECT_TRUE(
+        pose.T_frame_body.isApprox(original->truth().poses()[order[i]].T_frame_body, 1e-12));
   }
 }
 
-TEST(FrameSelection, PingPongDropsTheRecordedObserver) {
+TEST(FrameSelection, PingPongDropsTheRecordedOdometry) {
   TemporaryFolder folder;
   makeTumFolder(folder, 4);
   folder.write("odometry_tum.txt", "0 0 0 0 0 0 0 1\n0.3 1 0 0 0 0 0 1\n");

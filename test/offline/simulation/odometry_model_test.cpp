@@ -10,23 +10,21 @@
 #include <cmath>
 #include <functional>
 
+#include "support/shipped_profiles.hpp"
 #include "support/truth_paths.hpp"
-#include "test_paths.hpp"
+#include "support/yaw.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 using test::circle;
+using test::shippedProfile;
 using test::straightLine;
+using test::yawOf;
 
 constexpr int kSeeds = 400;
 constexpr double kTolerance = 0.15;
 constexpr double kRadPerDeg = M_PI / 180;
-const std::string kProfiles = ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml";
-
-OdometryProfile profileNamed(const std::string& name) {
-  return loadOdometryProfile(name, kProfiles);
-}
 
 /// Root mean squares over the seeds of three numbers that should have mean 0.
 Eigen::Vector3d rms(const Trajectory& truth, const OdometryProfile& profile,
@@ -40,7 +38,7 @@ Eigen::Vector3d rms(const Trajectory& truth, const OdometryProfile& profile,
 
 /// Last position minus the one that is true at the end (at rest: everywhere).
 std::function<Eigen::Vector3d(const OdometryRun&)> driftFrom(const Trajectory& truth) {
-  const Eigen::Vector3d end = truth.poses().back().T_map_base.translation();
+  const Eigen::Vector3d end = truth.poses().back().T_frame_body.translation();
   return [end](const OdometryRun& run) -> Eigen::Vector3d {
     return run.states.back().T_odom_base.translation() - end;
   };
@@ -56,17 +54,13 @@ double integratedOuVariance(double deviation, double time_constant_s, double sec
   return 2 * variance(deviation * time_constant_s) * (x - 1 + std::exp(-x));
 }
 
-double yawOf(const OdometryState& state) {
-  const Eigen::Matrix3d R = state.T_odom_base.linear();
-  return std::atan2(R(1, 0), R(0, 0));
-}
 double pitchOf(const OdometryState& state) {
   return std::asin(-state.T_odom_base.linear()(2, 0));
 }
 
 TEST(OdometryModel, TruthIsTheInterpolatedTruthItself) {
   const Trajectory truth = circle();
-  const OdometryRun run = simulateOdometry(truth, profileNamed("truth"), 7);
+  const OdometryRun run = simulateOdometry(truth, shippedProfile("truth"), 7);
   EXPECT_EQ(run.scale_error, 0);
   for (const auto& state : run.states) {
     EXPECT_EQ(state.T_odom_base.matrix(), truth.at(state.stamp_ns).matrix());
@@ -85,14 +79,14 @@ TEST(OdometryModel, IntegrationWithoutNoiseEqualsTheTruth) {
 
 TEST(OdometryModel, CoversTheTruthAtItsRateAndStartsAtItsPosition) {
   const Trajectory truth = circle();
-  for (const auto& name : odometryProfileNames(kProfiles)) {
-    const OdometryProfile profile = profileNamed(name);
+  for (const auto& name : odometryProfileNames(test::kShippedProfiles)) {
+    const OdometryProfile profile = shippedProfile(name);
     const auto states = simulateOdometry(truth, profile, 3).states;
     EXPECT_LE(states.front().stamp_ns, truth.poses().front().stamp_ns + 30000000) << name;
     EXPECT_GE(states.back().stamp_ns, truth.poses().back().stamp_ns) << name;
     EXPECT_LE(states.back().stamp_ns, truth.poses().back().stamp_ns + 20000000) << name;
     EXPECT_EQ(states.front().T_odom_base.translation(),
-              truth.poses().front().T_map_base.translation());
+              truth.poses().front().T_frame_body.translation());
     for (const auto& state : states) {
       EXPECT_TRUE(state.T_odom_base.linear().isUnitary(1e-12));
     }
@@ -106,7 +100,7 @@ TEST(OdometryModel, CoversTheTruthAtItsRateAndStartsAtItsPosition) {
 
 TEST(OdometryModel, SeedAloneDecides) {
   const Trajectory truth = circle();
-  const OdometryProfile profile = profileNamed("harsh");
+  const OdometryProfile profile = shippedProfile("harsh");
   const OdometryRun a = simulateOdometry(truth, profile, 11);
   const OdometryRun b = simulateOdometry(truth, profile, 11);
   const OdometryRun other = simulateOdometry(truth, profile, 12);
@@ -133,7 +127,7 @@ TEST(OdometryModel, ScaleErrorIsDrawnOncePerRun) {
 }
 
 TEST(OdometryModel, WheelDriftsAsItsNumbersSay) {
-  const OdometryProfile wheel = profileNamed("wheel");
+  const OdometryProfile wheel = shippedProfile("wheel");
   constexpr double kLength_m = 100, kStep_m = 0.2;  // 10 m/s at 50 Hz
   const double steps = kLength_m / kStep_m;
   const Trajectory truth = straightLine(10, 10);
@@ -153,7 +147,7 @@ void checkDriftAtRest(const std::string& name, double bias_m_s, double noise_m_s
   const double expected =
       integratedOuVariance(bias_m_s, 20, seconds) + variance(noise_m_s) / 15 * seconds;
   const Trajectory truth = straightLine(0, seconds);
-  const Eigen::Vector3d drift = rms(truth, profileNamed(name), driftFrom(truth));
+  const Eigen::Vector3d drift = rms(truth, shippedProfile(name), driftFrom(truth));
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(drift[axis] / std::sqrt(expected), 1, kTolerance) << name << ", axis " << axis;
   }
@@ -168,8 +162,8 @@ TEST(OdometryModel, HarshDriftsAtRestAsItsNumbersSay) {
 
 TEST(OdometryModel, AnotherProfileMayTakeOver) {
   const Trajectory truth = straightLine(0, 10);
-  const auto alone = simulateOdometry(truth, profileNamed("drone"), 3);
-  const auto both = simulateOdometry(truth, profileNamed("drone,hover@5"), 3);
+  const auto alone = simulateOdometry(truth, shippedProfile("drone"), 3);
+  const auto both = simulateOdometry(truth, shippedProfile("drone,hover@5"), 3);
   EXPECT_EQ(alone.scale_error, both.scale_error);
   ASSERT_EQ(alone.states.size(), both.states.size());
   for (std::size_t i = 0; i < alone.states.size(); ++i) {
@@ -178,7 +172,7 @@ TEST(OdometryModel, AnotherProfileMayTakeOver) {
   }
   for (const char* wrong : {"drone,hover", "drone,hover@", "drone,hover@0", "drone,hover@3x",
                             "drone,mars@3", "drone,", "drone,hover@3,wheel@2"})
-    EXPECT_THROW(profileNamed(wrong), std::runtime_error) << wrong;
+    EXPECT_THROW(shippedProfile(wrong), std::runtime_error) << wrong;
 }
 
 TEST(OdometryModel, HoverDriftsAboutTwoMetresInFifteenSeconds) {
@@ -186,7 +180,7 @@ TEST(OdometryModel, HoverDriftsAboutTwoMetresInFifteenSeconds) {
   std::vector<double> drifts_m;
   const Trajectory truth = straightLine(0, 15);
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-    const auto states = simulateOdometry(truth, profileNamed("hover"), seed).states;
+    const auto states = simulateOdometry(truth, shippedProfile("hover"), seed).states;
     drifts_m.push_back(
         (states.back().T_odom_base.translation() - states.front().T_odom_base.translation())
             .head<2>()
@@ -209,11 +203,11 @@ TEST(OdometryModel, WhiteVelocityNoiseDriftsAlikeAtEveryRate) {
 }
 
 TEST(OdometryModel, AttitudeOfDroneWalksInYawAndStaysBoundedInTilt) {
-  const OdometryProfile drone = profileNamed("drone");
+  const OdometryProfile drone = shippedProfile("drone");
   const Trajectory truth = straightLine(0, 60);
   const Eigen::Vector3d error_deg = rms(truth, drone, [](const OdometryRun& run) {
     const OdometryState& last = run.states.back();
-    return Eigen::Vector3d(Eigen::Vector3d(0, pitchOf(last), yawOf(last)) / kRadPerDeg);
+    return Eigen::Vector3d(Eigen::Vector3d(0, pitchOf(last), yawOf(last.T_odom_base)) / kRadPerDeg);
   });
   EXPECT_NEAR(error_deg.z() / std::sqrt(1 + variance(0.1)), 1, kTolerance);
   EXPECT_NEAR(error_deg.y() / std::sqrt(variance(0.3) + variance(0.1)), 1, kTolerance);
@@ -226,8 +220,8 @@ TEST(OdometryModel, WhiteAttitudeNoiseIsNotIntegrated) {
   const auto states = simulateOdometry(straightLine(0, 40), noise, 1).states;
   double sum_steps = 0, sum = 0;
   for (std::size_t i = 1; i < states.size(); ++i) {
-    sum += variance(yawOf(states[i]));
-    sum_steps += variance(yawOf(states[i]) - yawOf(states[i - 1]));
+    sum += variance(yawOf(states[i].T_odom_base));
+    sum_steps += variance(yawOf(states[i].T_odom_base) - yawOf(states[i - 1].T_odom_base));
   }
   const auto n = static_cast<double>(states.size());
   EXPECT_NEAR(std::sqrt(sum / n) / 0.01, 1, 0.1);
@@ -264,12 +258,12 @@ TEST(OdometryModel, TheStepIsIntegratedWithTheReportedAttitude) {
         (states[i].T_odom_base.translation() - states[i - 1].T_odom_base.translation());
     EXPECT_TRUE(step.isApprox(Eigen::Vector3d(0.1, 0, 0), 1e-9));
   }
-  EXPECT_GT(std::abs(yawOf(states.back())), 0.01);
+  EXPECT_GT(std::abs(yawOf(states.back().T_odom_base)), 0.01);
 }
 
 TEST(OdometryModel, HarshIsLateLosesStatesAndRepeatsStamps) {
   const Trajectory truth = straightLine(1, 60, 1000000000);
-  OdometryProfile harsh = profileNamed("harsh");
+  OdometryProfile harsh = shippedProfile("harsh");
   const auto states = simulateOdometry(truth, harsh, 4).states;
   const double sent = 60 * 200 + 1;
   EXPECT_NEAR((sent - static_cast<double>(states.size())) / sent, 0.02, 0.006);

@@ -5,14 +5,13 @@
 #include <stdexcept>
 
 #include "simulation/odometry_model.hpp"
+#include "support/shipped_profiles.hpp"
 #include "support/temporary_folder.hpp"
-#include "test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr double kRadPerDeg = M_PI / 180;
-const std::string kProfiles = ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml";
 
 std::string faultOfLoading(const std::string& name, const std::string& yaml) {
   const TemporaryFolder folder;
@@ -38,12 +37,11 @@ TEST(OdometryProfile, FaultsNameTheFileTheKeyAndWhatIsKnown) {
 }
 
 TEST(OdometryProfile, AnglesAndTimesAreConverted) {
-  const OdometryProfile drone = loadOdometryProfile("drone", kProfiles);
+  const OdometryProfile drone = test::shippedProfile("drone");
   EXPECT_NEAR(drone.yaw_walk_rad_per_sqrt_s * std::sqrt(60), kRadPerDeg, 1e-12);
   EXPECT_NEAR(drone.attitude_bias_rad, 0.3 * kRadPerDeg, 1e-12);
   EXPECT_EQ(drone.rate_hz, 200);
-  EXPECT_NEAR(loadOdometryProfile("wheel", kProfiles).yaw_walk_rad_per_sqrt_m, 0.02 * kRadPerDeg,
-              1e-12);
+  EXPECT_NEAR(test::shippedProfile("wheel").yaw_walk_rad_per_sqrt_m, 0.02 * kRadPerDeg, 1e-12);
 }
 
 }  // namespace

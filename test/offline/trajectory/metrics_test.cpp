@@ -5,20 +5,12 @@
 
 #include <cmath>
 
+#include "support/truth_paths.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
-/// Straight along x, a pose each `step_m`.
-Trajectory straight(int poses, double step_m, double scale = 1) {
-  Trajectory trajectory;
-  for (int i = 0; i < poses; ++i) {
-    StampedPose pose;
-    pose.stamp_ns = i;
-    pose.T_map_base.translation().x() = scale * step_m * i;
-    trajectory.append(pose);
-  }
-  return trajectory;
-}
+using test::straightPath;
 
 TEST(Metrics, ErrorsAreDistancesWithoutAlignment) {
   Trajectory truth;
@@ -27,9 +19,9 @@ TEST(Metrics, ErrorsAreDistancesWithoutAlignment) {
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     StampedPose pose;
     pose.stamp_ns = static_cast<std::int64_t>(i);
-    pose.T_map_base.translation() << 10, 20, static_cast<double>(i);
+    pose.T_frame_body.translation() << 10, 20, static_cast<double>(i);
     truth.append(pose);
-    pose.T_map_base.translation() += offsets[i];
+    pose.T_frame_body.translation() += offsets[i];
     estimate.append(pose);
   }
   const auto errors = positionErrors_m(estimate, truth);
@@ -51,10 +43,10 @@ TEST(Metrics, AlignmentTakesOutMotionAndTurnButNotScale) {
   for (int i = 0; i < 40; ++i) {
     StampedPose pose;
     pose.stamp_ns = i;
-    pose.T_map_base.translation() << std::cos(0.3 * i), std::sin(0.5 * i), 0.1 * i;
+    pose.T_frame_body.translation() << std::cos(0.3 * i), std::sin(0.5 * i), 0.1 * i;
     truth.append(pose);
-    moved.append({i, T_there_here * pose.T_map_base});
-    pose.T_map_base.translation() *= 1.1;
+    moved.append({i, T_there_here * pose.T_frame_body});
+    pose.T_frame_body.translation() *= 1.1;
     larger.append(pose);
   }
   EXPECT_NEAR(alignedRmse_m(moved, truth), 0, 1e-9);
@@ -68,34 +60,36 @@ TEST(Metrics, ScaledTruthIsAboutItsStart) {
   for (const double x : {2.0, 4.0}) {
     StampedPose pose;
     pose.stamp_ns = static_cast<std::int64_t>(x);
-    pose.T_map_base.translation() << x, 1, 0;
+    pose.T_frame_body.translation() << x, 1, 0;
     truth.append(pose);
   }
   const Trajectory longer = scaled(truth, 0.5);
-  EXPECT_EQ(longer.poses()[0].T_map_base.translation(), Eigen::Vector3d(2, 1, 0));
-  EXPECT_EQ(longer.poses()[1].T_map_base.translation(), Eigen::Vector3d(5, 1, 0));
+  EXPECT_EQ(longer.poses()[0].T_frame_body.translation(), Eigen::Vector3d(2, 1, 0));
+  EXPECT_EQ(longer.poses()[1].T_frame_body.translation(), Eigen::Vector3d(5, 1, 0));
   EXPECT_TRUE(scaled({}, 0.1).empty());
 }
 
 TEST(Metrics, OnePercentOfScaleIsOnePercentOfTranslation) {
-  const auto t_rel = translationError_percent(straight(10000, 0.1, 1.01), straight(10000, 0.1));
+  const auto t_rel =
+      translationError_percent(straightPath(10000, 1.01 * 0.1), straightPath(10000, 0.1));
   ASSERT_TRUE(t_rel);
   EXPECT_NEAR(*t_rel, 1.0, 0.002);
-  EXPECT_NEAR(*translationError_percent(straight(10000, 0.1), straight(10000, 0.1)), 0, 1e-12);
+  EXPECT_NEAR(*translationError_percent(straightPath(10000, 0.1), straightPath(10000, 0.1)), 0,
+              1e-12);
 }
 
 TEST(Metrics, TranslationErrorNeedsAHundredMetres) {
-  EXPECT_FALSE(translationError_percent(straight(100, 1), straight(100, 1)));
-  EXPECT_TRUE(translationError_percent(straight(103, 1), straight(103, 1)));
+  EXPECT_FALSE(translationError_percent(straightPath(100, 1), straightPath(100, 1)));
+  EXPECT_TRUE(translationError_percent(straightPath(103, 1), straightPath(103, 1)));
   EXPECT_FALSE(translationError_percent({}, {}));
 }
 
 TEST(Metrics, TranslationErrorDoesNotCountATurnOfTheWholePath) {
   Trajectory turned;
-  const Trajectory truth = straight(300, 1);
+  const Trajectory truth = straightPath(300, 1);
   const Eigen::Isometry3d turn(Eigen::AngleAxisd(1.0, Eigen::Vector3d(1, 2, 3).normalized()));
   for (const StampedPose& pose : truth.poses())
-    turned.append({pose.stamp_ns, turn * pose.T_map_base});
+    turned.append({pose.stamp_ns, turn * pose.T_frame_body});
   EXPECT_NEAR(*translationError_percent(turned, truth), 0, 1e-9);
 }
 
@@ -103,9 +97,9 @@ TEST(Metrics, ATurnWithinAPathShowsAsTheChordBetweenBothEnds) {
   // The estimate's attitude is off by a constant: motion expressed in its own frame turns by it.
   Trajectory estimate;
   const double angle_rad = 0.01;
-  const Trajectory truth = straight(102, 1);
+  const Trajectory truth = straightPath(102, 1);
   for (StampedPose pose : truth.poses()) {
-    pose.T_map_base.linear() =
+    pose.T_frame_body.linear() =
         Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     estimate.append(pose);
   }

@@ -15,7 +15,7 @@ namespace {
 StampedPose pose(std::int64_t stamp_ns, double x_m, double yaw_rad) {
   StampedPose result;
   result.stamp_ns = stamp_ns;
-  result.T_map_base =
+  result.T_frame_body =
       Eigen::Translation3d(x_m, 0, 0) * Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ());
   return result;
 }
@@ -41,8 +41,8 @@ TEST(Trajectory, InterpolatesPositionLinearlyAndOrientationBySlerp) {
 
 TEST(Trajectory, HoldsTheEndsOutsideTheCoveredTime) {
   const Trajectory trajectory({pose(1000, 1, 0.2), pose(2000, 3, 0.6)});
-  EXPECT_TRUE(trajectory.at(0).isApprox(pose(0, 1, 0.2).T_map_base, 1e-15));
-  EXPECT_TRUE(trajectory.at(5000).isApprox(pose(0, 3, 0.6).T_map_base, 1e-15));
+  EXPECT_TRUE(trajectory.at(0).isApprox(pose(0, 1, 0.2).T_frame_body, 1e-15));
+  EXPECT_TRUE(trajectory.at(5000).isApprox(pose(0, 3, 0.6).T_frame_body, 1e-15));
 }
 
 TEST(Trajectory, RefusesStampsThatDoNotAscendAndPosesThatAreNotFinite) {
@@ -65,7 +65,7 @@ TEST(TumFile, KeepsNanosecondsAtTodaysEpoch) {
   ASSERT_EQ(read.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(read.poses()[i].stamp_ns, written.poses()[i].stamp_ns);
-    EXPECT_TRUE(read.poses()[i].T_map_base.isApprox(written.poses()[i].T_map_base, 1e-8));
+    EXPECT_TRUE(read.poses()[i].T_frame_body.isApprox(written.poses()[i].T_frame_body, 1e-8));
   }
 }
 
@@ -92,7 +92,7 @@ TEST(TumFile, ReadsCommentsBlankLinesExponentsAndNegativeStamps) {
   ASSERT_EQ(trajectory.size(), 2U);
   EXPECT_EQ(trajectory.poses()[0].stamp_ns, -500000000);
   EXPECT_EQ(trajectory.poses()[1].stamp_ns, 1500000000);
-  EXPECT_EQ(trajectory.poses()[1].T_map_base.translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(trajectory.poses()[1].T_frame_body.translation(), Eigen::Vector3d(1, 2, 3));
 }
 
 TEST(TumFile, NamesFileLineAndFault) {
@@ -114,7 +114,7 @@ TEST(TumFile, NamesFileLineAndFault) {
   EXPECT_THROW(writeTum("/nowhere/at_all.txt", {}), std::runtime_error);
 }
 
-TEST(TumFile, KeepsRepeatedStampsOfAnObserver) {
+TEST(TumFile, KeepsRepeatedStampsOfOdometry) {
   const TemporaryFolder folder;
   const std::string path = folder.file("poses.txt");
   writeTumPoses(path, {pose(2, 1, 0), pose(2, 2, 0), pose(1, 3, 0)}, "profile\nseed");

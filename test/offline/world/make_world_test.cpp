@@ -9,8 +9,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "sequences/tum_folder_writer.hpp"
+#include "folders/tum_folder_writer.hpp"
 #include "support/read_file.hpp"
+#include "support/shipped_profiles.hpp"
 #include "support/temporary_folder.hpp"
 #include "test_paths.hpp"
 #include "world/world_sequence.hpp"
@@ -41,15 +42,14 @@ WorldOptions fewImages() {
   WorldOptions options;
   options.duration_s = 2;
   options.rate_hz = 2;
-  options.odometry =
-      loadOdometryProfile("wheel", ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");
+  options.odometry = test::shippedProfile("wheel");
   return options;
 }
 
 TEST_F(MakeWorld, FolderHoldsWhatTheSequenceGives) {
   WorldSequence world(fewImages());  // base in the middle of the drone
   TumFolderOptions options;
-  options.observer_comment = "profile wheel, seed 0";
+  options.odometry_comment = "profile wheel, seed 0";
   std::size_t last_progress = 0;
   options.progress = [&](std::size_t done, std::size_t) { last_progress = done; };
   writeTumFolder(world, path("flight"), options);
@@ -64,12 +64,12 @@ TEST_F(MakeWorld, FolderHoldsWhatTheSequenceGives) {
 
   const Trajectory T_world_cam = readTum(path("flight/poses_tum.txt"));
   ASSERT_EQ(T_world_cam.size(), 4U);
-  EXPECT_TRUE(T_world_cam.poses()[3].T_map_base.isApprox(
-      world.truth().poses()[3].T_map_base * world.T_base_cam(), 1e-7));
+  EXPECT_TRUE(T_world_cam.poses()[3].T_frame_body.isApprox(
+      world.truth().poses()[3].T_frame_body * world.T_base_cam(), 1e-7));
   const auto odometry = readTumPoses(path("flight/odometry_tum.txt"));
   ASSERT_EQ(odometry.size(), world.odometry().size());
   // The folder's base is the camera: 0.21 m before the drone's, with the same axes.
-  EXPECT_TRUE(odometry[40].T_map_base.isApprox(
+  EXPECT_TRUE(odometry[40].T_frame_body.isApprox(
       world.odometry()[40].T_odom_base * Eigen::Translation3d(0.21, 0, 0), 1e-7));
 }
 
@@ -100,8 +100,7 @@ TEST_F(MakeWorld, RangesAreTheHeightAlongTheBeamAndAreReadAgain) {
 TEST_F(MakeWorld, FolderIsReadAgainAsItWas) {
   WorldOptions options = fewImages();
   options.T_base_cam = forwardCamera();
-  options.odometry = loadOdometryProfile(
-      "harsh", ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml");  // repeated stamps
+  options.odometry = test::shippedProfile("harsh");  // repeated stamps
   WorldSequence world(options);
   writeTumFolder(world, path("flight"));
   const auto read = openFolder(path("flight"));
@@ -111,8 +110,8 @@ TEST_F(MakeWorld, FolderIsReadAgainAsItWas) {
   for (std::size_t i = 0; i < world.size(); ++i) {
     EXPECT_EQ(read->stamp_ns(i), world.stamp_ns(i));
     EXPECT_EQ(cv::norm(read->image(i), world.image(i), cv::NORM_INF), 0);
-    EXPECT_TRUE(
-        read->truth().poses()[i].T_map_base.isApprox(world.truth().poses()[i].T_map_base, 1e-8));
+    EXPECT_TRUE(read->truth().poses()[i].T_frame_body.isApprox(
+        world.truth().poses()[i].T_frame_body, 1e-8));
   }
   ASSERT_EQ(read->odometry().size(), world.odometry().size());
   for (std::size_t i = 0; i < world.odometry().size(); ++i) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/yaw.hpp"
 #include "world/flight/world_flight.hpp"
 #include "world/scene/world_corridor.hpp"
 #include "world/scene/world_furniture.hpp"
@@ -12,6 +13,8 @@
 
 namespace ardrone_vslam {
 namespace {
+
+using test::yawOf;
 
 const Eigen::Vector3d kGravity_world(0, 0, -kGravity_m_s2);
 
@@ -115,10 +118,6 @@ TEST_P(EachFlight, KeepsClearOfEverything) {
     EXPECT_LT(now.velocity_world_m_s.norm(), 2.5);
     EXPECT_LT(std::acos(now.T_world_body.linear()(2, 2)), 20 * M_PI / 180);
   }
-}
-
-double yawOf(const Eigen::Isometry3d& pose) {
-  return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0));
 }
 
 TEST(Flights, TheCorridorIsFlownOutAndBackBackwards) {

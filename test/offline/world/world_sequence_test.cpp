@@ -11,13 +11,11 @@
 #include <stdexcept>
 
 #include "simulation/random_source.hpp"
-#include "test_paths.hpp"
+#include "support/shipped_profiles.hpp"
 #include "world/scene/world_room.hpp"
 
 namespace ardrone_vslam {
 namespace {
-
-const std::string kProfiles = ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml";
 
 WorldOptions shortFlight(double duration_s, double rate_hz) {
   WorldOptions options;
@@ -149,7 +147,7 @@ TEST(WorldSequence, ImagesAndTruthBelongTogether) {
     EXPECT_EQ(world.stamp_ns(i), 1000000000 * static_cast<std::int64_t>(i + 1));
     EXPECT_EQ(world.truth().poses()[i].stamp_ns, world.stamp_ns(i));
   }
-  const Eigen::Isometry3d T_world_cam = world.truth().poses()[6].T_map_base * world.T_base_cam();
+  const Eigen::Isometry3d T_world_cam = world.truth().poses()[6].T_frame_body * world.T_base_cam();
   cv::Mat difference;
   cv::absdiff(world.image(6), renderer.render(room, T_world_cam, 99), difference);
   EXPECT_LT(cv::mean(difference)[0], 3);  // noise alone
@@ -161,14 +159,14 @@ TEST(WorldSequence, BaseIsWhereItIsAskedForAndTheCameraFliesAlike) {
   options.T_base_cam = forwardCamera();
   WorldSequence camera(options);
   const Eigen::Isometry3d T_drone_camera =
-      drone.truth().poses()[9].T_map_base.inverse() * camera.truth().poses()[9].T_map_base;
+      drone.truth().poses()[9].T_frame_body.inverse() * camera.truth().poses()[9].T_frame_body;
   EXPECT_TRUE(T_drone_camera.isApprox(Eigen::Isometry3d(Eigen::Translation3d(0.21, 0, 0)), 1e-9));
   EXPECT_TRUE(sameBytes(drone.image(9), camera.image(9)));
 }
 
 TEST(WorldSequence, SeedsDecide) {
   WorldOptions options = shortFlight(4, 1);
-  options.odometry = loadOdometryProfile("drone", kProfiles);
+  options.odometry = test::shippedProfile("drone");
   options.seed = 3;
   WorldSequence world(options), again(options);
   options.seed = 4;

@@ -77,7 +77,8 @@ TEST(NodeConfig, TheBridgesLaunchFileSetsItsParameters) {
 }
 
 TEST(NodeConfig, ShippedFilesLoad) {
-  for (const auto* name : {"kitti.yaml", "ardrone_front.yaml", "ardrone.yaml"}) {
+  for (const auto* name :
+       {"kitti.yaml", "wheels_indoor.yaml", "ardrone_front.yaml", "ardrone.yaml"}) {
     EXPECT_NO_THROW(loadConfig(std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/" + name, {}))
         << name;
   }

@@ -58,7 +58,7 @@ TEST(ResultConversion, Pose) {
   EXPECT_EQ(message.pose.covariance[6], 10);
 }
 
-TEST(ResultConversion, OdometryCarriesTheObserversTwist) {
+TEST(ResultConversion, OdometryCarriesTheTwistOfTheInput) {
   OdometryState odometry;
   odometry.twist_base << 0.7, 1, 2, 3, 4, 5;
   for (int row = 0; row < 6; ++row) {

@@ -39,7 +39,7 @@ TEST(SlamConfig, TheThesisFilterRefusesWhatItWouldNotUse) {
   EXPECT_EQ(faultsOf(config).size(), 2U) << "all faults are told at once";
 }
 
-TEST(SlamConfig, TheObserverIsARowBesideTheOthersWithTheirParameters) {
+TEST(SlamConfig, TheOdometryIsARowBesideTheOthersWithTheirParameters) {
   SlamConfig config;
   config.estimator = EstimatorKind::kOdometry;
   config.height_input.use_range = true;

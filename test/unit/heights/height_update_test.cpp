@@ -6,31 +6,29 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "support/odometry_states.hpp"
 #include "support/odometry_window.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-OdometryState odometryAt(int frame, double z_m) {
-  OdometryState state;
-  state.stamp_ns = 1'000'000'000LL * (frame + 1);
-  state.T_odom_base.translation() << 0.1 * frame, 0, z_m;
-  return state;
-}
-
 /// One frame a second, climbing by `climb_m` each; all stay.
 class Climb {
  public:
-  explicit Climb(double climb_m) : climb_m_(climb_m) { state_.add(odometryAt(0, 0)); }
+  explicit Climb(double climb_m) : climb_m_(climb_m) { addFrame(); }
   void step() {
     ++frame_;
-    state_.add(odometryAt(frame_, climb_m_ * frame_));
+    addFrame();
   }
   int newestZ() const { return state_.frameCoordinate(state_.frames().size() - 1) + 2; }
   double reported_m() const { return climb_m_ * frame_; }
   WindowState& state() { return state_; }
 
  private:
+  void addFrame() {
+    state_.add(test::odometryAt(1'000'000'000LL * (frame_ + 1), {0.1 * frame_, 0, reported_m()}));
+  }
+
   double climb_m_;
   int frame_ = 0;
   OdometryWindow state_;

@@ -13,7 +13,7 @@ namespace {
 using test::bearingTo;
 using test::kCamera_rig;
 using test::kSigma_rad;
-using test::odometryAt;
+using test::odometryOfFrame;
 using test::sidewaysWindow;
 using test::viewOf;
 using test::viewsOf;
@@ -123,8 +123,8 @@ TEST(TrackResidual, ItsDistanceIsAChiSquareForHonestRays) {
 /// Looks down from 2 m, as does the flight's ground.
 WindowState levelWindow(int frames) {
   OdometryWindow state;
-  state.add(odometryAt(0, {0, 0, 2}));
-  for (int i = 1; i < frames; ++i) state.add(odometryAt(i, {0.1 * i, 0.02 * i * i, 2}));
+  state.add(odometryOfFrame(0, {0, 0, 2}));
+  for (int i = 1; i < frames; ++i) state.add(odometryOfFrame(i, {0.1 * i, 0.02 * i * i, 2}));
   return state;
 }
 

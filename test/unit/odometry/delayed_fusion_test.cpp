@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "support/odometry_states.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -17,10 +19,8 @@ constexpr std::int64_t kStart_ns = 1'000'000'000'000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// At `ms` after the start, 1 m/s along x of odom.
-OdometryState odometryAt(int ms) {
-  OdometryState state;
-  state.stamp_ns = kStart_ns + ms * kMillisecond_ns;
-  state.T_odom_base.translation().x() = 1e-3 * ms;
+OdometryState forwardAt(int ms) {
+  OdometryState state = test::odometryAt(kStart_ns + ms * kMillisecond_ns, {1e-3 * ms, 0, 0});
   state.twist_base << 1, 0, 0, 0, 0, 0.5;
   return state;
 }
@@ -29,7 +29,7 @@ OdometryState odometryAt(int ms) {
 LateCorrection correctionAt(int ms, double offset_m, double yaw_rad = 0) {
   LateCorrection correction;
   correction.stamp_ns = kStart_ns + ms * kMillisecond_ns;
-  correction.T_odom_base = odometryAt(ms).T_odom_base;
+  correction.T_odom_base = forwardAt(ms).T_odom_base;
   correction.T_map_base = correction.T_odom_base;
   correction.T_map_base.translation().y() += offset_m;
   correction.T_map_base.rotate(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()));
@@ -52,7 +52,7 @@ DelayedFusionConfig noiseless() {
 
 void fly(DelayedFusion& fusion, int from_ms, int to_ms, int step_ms = 5) {
   for (int ms = from_ms; ms <= to_ms; ms += step_ms) {
-    ASSERT_EQ(fusion.push(odometryAt(ms)), Push::kAccepted);
+    ASSERT_EQ(fusion.push(forwardAt(ms)), Push::kAccepted);
   }
 }
 
@@ -73,7 +73,7 @@ TEST(DelayedFusion, ALateCorrectionMovesAllOdometrySinceItsStamp) {
   ASSERT_EQ(states.size(), 20U);
   for (std::size_t i = 0; i < states.size(); ++i) {
     const double since_m = 0.003 + 0.005 * static_cast<double>(i);  // turned to the left
-    EXPECT_EQ(states[i].stamp_ns, odometryAt(105 + 5 * static_cast<int>(i)).stamp_ns);
+    EXPECT_EQ(states[i].stamp_ns, forwardAt(105 + 5 * static_cast<int>(i)).stamp_ns);
     EXPECT_TRUE(states[i].T_map_base.translation().isApprox(
         Eigen::Vector3d(0.102, 0.5 + since_m, 0), 1e-12));
   }
@@ -91,7 +91,7 @@ TEST(DelayedFusion, OdometryAfterTheCorrectionIsSeenThroughIt) {
   fly(fusion, 105, 110);
   EXPECT_TRUE(
       fusion.newest()->T_map_base.translation().isApprox(Eigen::Vector3d(0.11, 0.5, 0), 1e-12));
-  EXPECT_EQ(fusion.newest()->twist_base, odometryAt(110).twist_base);
+  EXPECT_EQ(fusion.newest()->twist_base, forwardAt(110).twist_base);
   ASSERT_EQ(fusion.correct(correctionAt(93, -0.2)), Answer::kUsed);
   EXPECT_TRUE(
       fusion.newest()->T_map_base.translation().isApprox(Eigen::Vector3d(0.11, -0.2, 0), 1e-12));
@@ -144,7 +144,7 @@ TEST(DelayedFusion, ClearForgetsAll) {
   DelayedFusion fusion({});
   fly(fusion, 0, 200);
   ASSERT_EQ(fusion.correct(correctionAt(100, 0.5)), Answer::kUsed);
-  EXPECT_EQ(fusion.push(odometryAt(10)), Push::kBackwardStamp);
+  EXPECT_EQ(fusion.push(forwardAt(10)), Push::kBackwardStamp);
   fusion.clear();
   EXPECT_FALSE(fusion.newest());
   fly(fusion, 10, 50);
@@ -187,14 +187,14 @@ TEST(DelayedFusion, ConfiguredNoiseGrowsWithWayAndTime) {
   config.yaw_walk_deg_per_sqrt_s = 18 / M_PI;
   config.yaw_walk_deg_per_sqrt_m = 36 / M_PI;
   DelayedFusion fusion(config);
-  ASSERT_EQ(fusion.push(odometryAt(0)), Push::kAccepted);
+  ASSERT_EQ(fusion.push(forwardAt(0)), Push::kAccepted);
   LateCorrection correction = correctionAt(0, 0);
   correction.covariance.setZero();
   ASSERT_EQ(fusion.correct(correction), Answer::kUsed);
   // There and back: the way counts for the walk, the displacement for the scale.
-  OdometryState there = odometryAt(1000);
+  OdometryState there = forwardAt(1000);
   there.T_odom_base.translation() << 3, 0, 0;
-  OdometryState back = odometryAt(2000);
+  OdometryState back = forwardAt(2000);
   back.T_odom_base.translation() << 2, 0, 0;
   fusion.push(there);
   fusion.push(back);
@@ -210,9 +210,9 @@ TEST(DelayedFusion, TheOdometrysOwnCovarianceReplacesTheWalkAndIsTurnedIntoMap) 
   DelayedFusionConfig config = noiseless();
   config.walk_m_per_sqrt_s = 1;
   DelayedFusion fusion(config);
-  OdometryState first = odometryAt(0);
+  OdometryState first = forwardAt(0);
   first.covariance.diagonal() << 1, 2, 3, 9, 9, 9;
-  OdometryState second = odometryAt(100);
+  OdometryState second = forwardAt(100);
   second.covariance.diagonal() << 1.5, 2, 2.9, 9, 9, 9;
   fusion.push(first);
   LateCorrection correction = correctionAt(0, 0, M_PI / 2);  // x of odom is y of map
@@ -226,7 +226,7 @@ TEST(DelayedFusion, TheOdometrysOwnCovarianceReplacesTheWalkAndIsTurnedIntoMap) 
 
   // A covariance that does not grow says nothing about the drift.
   OdometryState third = second;
-  third.stamp_ns = odometryAt(1000).stamp_ns;
+  third.stamp_ns = forwardAt(1000).stamp_ns;
   third.covariance = first.covariance;
   fusion.push(third);
   EXPECT_NEAR(fusion.newest()->covariance(0, 0), 1, 1e-12) << "the walk of one second";

@@ -7,31 +7,24 @@
 #include <limits>
 #include <string>
 
+#include "support/odometry_states.hpp"
+#include "support/yaw.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
 using Push = OdometryBuffer::Push;
 using Lookup = OdometryBuffer::Lookup;
+using test::odometryAt;
+using test::yawOf;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-OdometryState stateAt(std::int64_t stamp_ns, double x_m = 0, double yaw_rad = 0) {
-  OdometryState state;
-  state.stamp_ns = stamp_ns;
-  state.T_odom_base.translation().x() = x_m;
-  state.T_odom_base.linear() =
-      Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  return state;
-}
-
-double yawOf(const OdometryState& state) {
-  return std::atan2(state.T_odom_base.linear()(1, 0), state.T_odom_base.linear()(0, 0));
-}
-
 TEST(OdometryBuffer, InterpolatesPositionOrientationAndCovariance) {
   OdometryBuffer buffer({});
-  OdometryState first = stateAt(kSecond_ns, 2, 3.0);
-  OdometryState second = stateAt(kSecond_ns + 400'000'000, 6, 3.4);  // across the wrap at pi
+  OdometryState first = odometryAt(kSecond_ns, {2, 0, 0}, 3.0);
+  OdometryState second =
+      odometryAt(kSecond_ns + 400'000'000, {6, 0, 0}, 3.4);  // across the wrap at pi
   first.covariance.setIdentity();
   second.covariance = 5 * Matrix6d::Identity();
   first.twist_base << 1, 2, 3, 4, 5, 6;
@@ -43,7 +36,7 @@ TEST(OdometryBuffer, InterpolatesPositionOrientationAndCovariance) {
   ASSERT_EQ(buffer.at(kSecond_ns + 100'000'000, state), Lookup::kFound);
   EXPECT_EQ(state.stamp_ns, kSecond_ns + 100'000'000);
   EXPECT_NEAR(state.T_odom_base.translation().x(), 3, 1e-12);
-  EXPECT_NEAR(yawOf(state), 3.1, 1e-12);
+  EXPECT_NEAR(yawOf(state.T_odom_base), 3.1, 1e-12);
   EXPECT_NEAR(state.covariance(4, 4), 2, 1e-12);
   Vector6d twist;
   twist << 2, 2, 3, 4, 5, 5;
@@ -52,7 +45,7 @@ TEST(OdometryBuffer, InterpolatesPositionOrientationAndCovariance) {
 }
 
 TEST(OdometryBuffer, EqualNeighboursStayEqualToTheBit) {
-  OdometryState first = stateAt(0, 0.1);
+  OdometryState first = odometryAt(0, {0.1, 0, 0});
   first.covariance.setConstant(0.1);
   OdometryState second = first;
   second.stamp_ns = 1000;
@@ -65,8 +58,8 @@ TEST(OdometryBuffer, EqualNeighboursStayEqualToTheBit) {
 
 TEST(OdometryBuffer, StoredStatesAreGivenAsTheyAre) {
   OdometryBuffer buffer({});
-  buffer.push(stateAt(1, 0.1, 0.3));
-  buffer.push(stateAt(2, 0.7, 0.9));
+  buffer.push(odometryAt(1, {0.1, 0, 0}, 0.3));
+  buffer.push(odometryAt(2, {0.7, 0, 0}, 0.9));
   OdometryState state;
   for (const std::int64_t stamp : {1, 2}) {
     ASSERT_EQ(buffer.at(stamp, state), Lookup::kFound);
@@ -76,21 +69,21 @@ TEST(OdometryBuffer, StoredStatesAreGivenAsTheyAre) {
 
 TEST(OdometryBuffer, RefusesWhatIsNotFiniteDuplicateOrBackward) {
   OdometryBuffer buffer({});
-  OdometryState nan_position = stateAt(1);
+  OdometryState nan_position = odometryAt(1);
   nan_position.T_odom_base.translation().y() = std::nan("");
-  OdometryState nan_rotation = stateAt(1);
+  OdometryState nan_rotation = odometryAt(1);
   nan_rotation.T_odom_base.linear()(2, 1) = std::nan("");
-  OdometryState endless_covariance = stateAt(1);
+  OdometryState endless_covariance = odometryAt(1);
   endless_covariance.covariance(0, 0) = std::numeric_limits<double>::infinity();
-  OdometryState nan_twist = stateAt(1);
+  OdometryState nan_twist = odometryAt(1);
   nan_twist.twist_base[5] = std::nan("");
   for (const OdometryState& bad : {nan_position, nan_rotation, endless_covariance, nan_twist})
     EXPECT_EQ(buffer.push(bad), Push::kNotFinite);
   EXPECT_TRUE(buffer.empty());
 
-  ASSERT_EQ(buffer.push(stateAt(10, 1)), Push::kAccepted);
-  EXPECT_EQ(buffer.push(stateAt(10, 2)), Push::kDuplicateStamp);
-  EXPECT_EQ(buffer.push(stateAt(9, 3)), Push::kBackwardStamp);
+  ASSERT_EQ(buffer.push(odometryAt(10, {1, 0, 0})), Push::kAccepted);
+  EXPECT_EQ(buffer.push(odometryAt(10, {2, 0, 0})), Push::kDuplicateStamp);
+  EXPECT_EQ(buffer.push(odometryAt(9, {3, 0, 0})), Push::kBackwardStamp);
   OdometryState state;
   ASSERT_EQ(buffer.at(10, state), Lookup::kFound);
   EXPECT_EQ(state.T_odom_base.translation().x(), 1) << "a refused state changes nothing";
@@ -99,8 +92,8 @@ TEST(OdometryBuffer, RefusesWhatIsNotFiniteDuplicateOrBackward) {
 
 TEST(OdometryBuffer, RefusesWhatNoDroneCanBe) {
   OdometryBuffer buffer({});
-  OdometryState far_off = stateAt(1);
-  OdometryState too_fast = stateAt(1);
+  OdometryState far_off = odometryAt(1);
+  OdometryState too_fast = odometryAt(1);
   for (const double factor : {1.001, -1e3, 1e293}) {
     far_off.T_odom_base.translation().z() = factor * kFarthestOdometry_m;
     EXPECT_EQ(buffer.push(far_off), Push::kOutOfRange) << factor;
@@ -111,7 +104,7 @@ TEST(OdometryBuffer, RefusesWhatNoDroneCanBe) {
   EXPECT_NE(rangeFault(too_fast).find("1e+296, beyond 1000 m/s or rad/s"), std::string::npos);
   EXPECT_TRUE(buffer.empty());
 
-  OdometryState at_the_bound = stateAt(1, -kFarthestOdometry_m);
+  OdometryState at_the_bound = odometryAt(1, {-kFarthestOdometry_m, 0, 0});
   at_the_bound.twist_base[0] = kFastestOdometry;
   EXPECT_EQ(rangeFault(at_the_bound), "");
   EXPECT_EQ(buffer.push(at_the_bound), Push::kAccepted);
@@ -119,19 +112,19 @@ TEST(OdometryBuffer, RefusesWhatNoDroneCanBe) {
 
 TEST(OdometryBuffer, AVarianceThatMeansUnknownCountsAsNotGiven) {
   const double kLargest = std::numeric_limits<double>::max();
-  OdometryState known = stateAt(0);
+  OdometryState known = odometryAt(0);
   known.covariance = 0.5 * Matrix6d::Identity();
   EXPECT_EQ(positionVariance_m2(known).value_or(-1), 0.5);
   EXPECT_EQ(covarianceFault(known), "");
   known.covariance.bottomRightCorner<3, 3>() *= -1;  // of rotation, which is not used
   EXPECT_EQ(positionVariance_m2(known).value_or(-1), 0.5);
-  OdometryState zero = stateAt(0);
+  OdometryState zero = odometryAt(0);
   EXPECT_FALSE(positionVariance_m2(zero));
   EXPECT_EQ(covarianceFault(zero), "") << "the usual way to give none";
 
   for (const double marker : {-1.0, 1.001 * kLargestVariance_m2, 99999.0, 1e12, kLargest}) {
     OdometryBuffer buffer({});
-    OdometryState unknown = stateAt(kSecond_ns / 10);
+    OdometryState unknown = odometryAt(kSecond_ns / 10);
     unknown.covariance = known.covariance;
     unknown.covariance(2, 2) = marker;  // one axis is enough
     EXPECT_FALSE(positionVariance_m2(unknown)) << marker;
@@ -151,9 +144,9 @@ TEST(OdometryBuffer, AVarianceThatMeansUnknownCountsAsNotGiven) {
 
 TEST(OdometryBuffer, TwistCovariancesOfAnySizeStayFinite) {
   OdometryBuffer buffer({});
-  OdometryState first = stateAt(0);
+  OdometryState first = odometryAt(0);
   first.twist_covariance.setConstant(std::numeric_limits<double>::max());
-  OdometryState second = stateAt(100);
+  OdometryState second = odometryAt(100);
   second.twist_covariance = -first.twist_covariance;
   ASSERT_EQ(buffer.push(first), Push::kAccepted);
   ASSERT_EQ(buffer.push(second), Push::kAccepted);
@@ -168,16 +161,16 @@ TEST(OdometryBuffer, EveryAnswerOfALookup) {
   OdometryBufferConfig config;
   config.max_gap_s = 0.5;
   OdometryBuffer buffer(config);
-  OdometryState state = stateAt(-1, 42);
+  OdometryState state = odometryAt(-1, {42, 0, 0});
   EXPECT_EQ(buffer.at(5, state), Lookup::kEmpty);
-  buffer.push(stateAt(kSecond_ns));
+  buffer.push(odometryAt(kSecond_ns));
   EXPECT_EQ(buffer.at(kSecond_ns - 1, state), Lookup::kTooOld);
   EXPECT_EQ(buffer.at(kSecond_ns + 1, state), Lookup::kNotYet);
-  buffer.push(stateAt(kSecond_ns + 500'000'001));
+  buffer.push(odometryAt(kSecond_ns + 500'000'001));
   EXPECT_EQ(buffer.at(kSecond_ns + 1, state), Lookup::kGap);
   EXPECT_EQ(state.T_odom_base.translation().x(), 42) << "untouched unless found";
   EXPECT_EQ(buffer.at(kSecond_ns + 500'000'001, state), Lookup::kFound) << "the gap's end is there";
-  buffer.push(stateAt(kSecond_ns + 1'000'000'001));
+  buffer.push(odometryAt(kSecond_ns + 1'000'000'001));
   EXPECT_EQ(buffer.at(kSecond_ns + 600'000'000, state), Lookup::kFound) << "exactly max_gap_s";
 }
 
@@ -186,11 +179,11 @@ TEST(OdometryBuffer, ForgetsWhatIsOlderThanItsLength) {
   config.buffer_s = 1;
   config.max_gap_s = 10;
   OdometryBuffer buffer(config);
-  for (int i = 0; i <= 30; ++i) buffer.push(stateAt(i * kSecond_ns / 10));
+  for (int i = 0; i <= 30; ++i) buffer.push(odometryAt(i * kSecond_ns / 10));
   OdometryState state;
   EXPECT_EQ(buffer.at(2 * kSecond_ns, state), Lookup::kFound);
   EXPECT_EQ(buffer.at(2 * kSecond_ns - 1, state), Lookup::kTooOld);
-  buffer.push(stateAt(100 * kSecond_ns));
+  buffer.push(odometryAt(100 * kSecond_ns));
   EXPECT_EQ(buffer.at(100 * kSecond_ns, state), Lookup::kFound) << "the newest always stays";
   buffer.clear();
   EXPECT_EQ(buffer.at(100 * kSecond_ns, state), Lookup::kEmpty);

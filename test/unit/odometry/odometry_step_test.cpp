@@ -59,7 +59,7 @@ TEST_F(OdometryStepTest, ACarThatStopsOrARecordingThatTurnsRoundTakesNone) {
   EXPECT_FALSE(see(2.0, 0.7)) << "a message came twice";
 }
 
-TEST_F(OdometryStepTest, WhatTheObserverSaysOfItselfIsBelieved) {
+TEST_F(OdometryStepTest, WhatTheOdometrySaysOfItselfIsBelieved) {
   for (int i = 0; i < 10; ++i) ASSERT_FALSE(see(0.1 * i, 0.1 * i, 0.01));
   EXPECT_FALSE(see(1.0, 3, 1));
   EXPECT_TRUE(see(1.1, 6, 1));

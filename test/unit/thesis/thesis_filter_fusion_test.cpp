@@ -5,19 +5,16 @@
 #include <cmath>
 #include <limits>
 
+#include "support/odometry_states.hpp"
 #include "support/printed_filter.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
+using test::odometryAt;
 using test::printedOnly;
 
-OdometryState odometryAt(double seconds, const Eigen::Vector3d& position) {
-  OdometryState state;
-  state.stamp_ns = static_cast<std::int64_t>(seconds * 1e9);
-  state.T_odom_base.translation() = position;
-  return state;
-}
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 PositionFix fixAt(const Eigen::Vector3d& position, double sigma_m, double shared_m2 = 0) {
   PositionFix fix;
@@ -38,20 +35,20 @@ TEST(ThesisFilter, WorkedExampleOfThePrintedFusion) {
   EXPECT_NEAR(filter.sigma_m(), std::sqrt((1 - gain) * 0.09), 1e-12);                   // (6.12)
 }
 
-TEST(ThesisFilter, PredictionFollowsTheObserversIncrement) {
+TEST(ThesisFilter, PredictionFollowsTheOdometrysIncrement) {
   ThesisFilterConfig config = printedOnly();
   config.initial_sigma_m = 0.1;
   config.odometry_noise_m_per_sqrt_m = 0.02;
   config.odometry_noise_m_per_sqrt_s = 0.03;
   ThesisFilter filter(config);
-  filter.start({10, 0, 0}, odometryAt(1, {0, 0, 0}));
-  filter.predict(odometryAt(3, {0, 4, 0}));
+  filter.start({10, 0, 0}, odometryAt(kSecond_ns, {0, 0, 0}));
+  filter.predict(odometryAt(3 * kSecond_ns, {0, 4, 0}));
   EXPECT_TRUE(filter.position_map().isApprox(Eigen::Vector3d(10, 4, 0), 1e-12));
   const double variance = 0.01 + 0.02 * 0.02 * 4 + 0.03 * 0.03 * 2;
   EXPECT_NEAR(filter.sigma_m(), std::sqrt(variance), 1e-12);
 }
 
-TEST(ThesisFilter, PredictionTakesTheObserversOwnGrowthIfThereIsAny) {
+TEST(ThesisFilter, PredictionTakesTheOdometrysOwnGrowthIfThereIsAny) {
   ThesisFilterConfig config = printedOnly();
   config.initial_sigma_m = 0.1;
   config.odometry_noise_m_per_sqrt_s = 0.5;
@@ -59,14 +56,14 @@ TEST(ThesisFilter, PredictionTakesTheObserversOwnGrowthIfThereIsAny) {
   OdometryState first = odometryAt(0, {0, 0, 0});
   first.covariance.topLeftCorner<3, 3>() = 0.2 * Eigen::Matrix3d::Identity();
   filter.start({0, 0, 0}, first);
-  OdometryState second = odometryAt(1, {0, 0, 0});
+  OdometryState second = odometryAt(kSecond_ns, {0, 0, 0});
   second.covariance.topLeftCorner<3, 3>() = 0.23 * Eigen::Matrix3d::Identity();
   filter.predict(second);
   EXPECT_NEAR(filter.covariance()(0, 0), 0.01 + 0.03, 1e-12);
 
   // A constant covariance tells nothing, not even when its last bit changes.
   OdometryState third = second;
-  third.stamp_ns = 2'000'000'000;
+  third.stamp_ns = 2 * kSecond_ns;
   third.covariance *= 1 + 1e-15;
   filter.predict(third);
   EXPECT_NEAR(filter.covariance()(0, 0), 0.04 + 0.25, 1e-12);
@@ -84,7 +81,7 @@ TEST(ThesisFilter, AVarianceThatIsNotGivenIsNoGrowth) {
     filter.start({0, 0, 0}, state);
     double expected = 0.01;
     for (const double variance : {marker, 0.3, marker, 2 * marker}) {
-      state.stamp_ns += 1'000'000'000;
+      state.stamp_ns += kSecond_ns;
       state.covariance = variance * Matrix6d::Identity();
       filter.predict(state);
       expected += 0.25;
@@ -137,7 +134,7 @@ TEST(CommonDrift, OldLandmarksCorrectTheDriftSinceAndNoMore) {
   ThesisFilter filter(config);
   filter.start(Eigen::Vector3d::Zero(), odometryAt(0, {0, 0, 0}));
   const double then_m2 = filter.covariance()(0, 0);
-  filter.predict(odometryAt(4, {0, 0, 0}));  // drift: 4 m^2
+  filter.predict(odometryAt(4 * kSecond_ns, {0, 0, 0}));  // drift: 4 m^2
   ASSERT_TRUE(filter.fuse(fixAt({1, 0, 0}, 0.001, then_m2)));
   EXPECT_NEAR(filter.position_map().x(), 1, 1e-6) << "the drift is all of the error";
   EXPECT_NEAR(filter.covariance()(0, 0), then_m2, 2e-6) << "P_a stays";

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "support/odometry_states.hpp"
 #include "support/odometry_window.hpp"
 
 namespace ardrone_vslam {
@@ -12,10 +13,9 @@ namespace {
 
 constexpr int kFrames = 8;
 
-OdometryState odometryAt(int frame) {
-  OdometryState state;
-  state.stamp_ns = 100'000'000LL * frame;
-  state.T_odom_base.translation() << 0.1 * frame, 0.03 * frame, 0.02 * frame;
+/// Of a climb in a left turn, tilted.
+OdometryState climbingTurnAt(int frame) {
+  OdometryState state = test::odometryOfFrame(frame, {0.1 * frame, 0.03 * frame, 0.02 * frame});
   state.T_odom_base.linear() = rotationOf({0.03 * frame, -0.02 * frame, 0.08 * frame});
   return state;
 }
@@ -44,8 +44,8 @@ void moveMean(WindowState& state, const Eigen::VectorXd& change) {
 /// corrected: else F stands by the corrected step for the reported one.
 OdometryWindow window(const OdometryNoiseConfig& config, const Eigen::Vector3d& odom_turn_rad) {
   OdometryWindow state(config);
-  state.add(odometryAt(0));
-  for (int i = 1; i < kFrames; ++i) state.add(odometryAt(i));
+  state.add(climbingTurnAt(0));
+  for (int i = 1; i < kFrames; ++i) state.add(climbingTurnAt(i));
   Eigen::VectorXd change =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(uncertainCoordinates(state).size()));
   change.segment<3>(WindowState::kAttitude) = odom_turn_rad;
@@ -80,12 +80,12 @@ void expectErrorsCarriedAsTheMeanIs(const OdometryWindow& before) {
     OdometryWindow less = before;
     moveMean(more, kStep * Eigen::VectorXd::Unit(size, k));
     moveMean(less, -kStep * Eigen::VectorXd::Unit(size, k));
-    more.add(odometryAt(kFrames));
-    less.add(odometryAt(kFrames));
+    more.add(climbingTurnAt(kFrames));
+    less.add(climbingTurnAt(kFrames));
     transition.col(k) = difference(more, less) / (2 * kStep);
   }
   OdometryWindow after = before;
-  after.add(odometryAt(kFrames));
+  after.add(climbingTurnAt(kFrames));
   // Of the errors that a step leaves alone, which take no noise: their covariance with the new ones
   // is the transition times what it was.
   std::vector<int> kept;
@@ -124,11 +124,11 @@ TEST(WindowPropagation, CarriesErrorsOfATiltThatFades) {
 TEST(Propagator, AHoleCountsAsASecondOfWhatWasKnownBefore) {
   const auto levelAfter = [](double hole_s) {
     OdometryWindow state;
-    state.add(odometryAt(0));
+    state.add(climbingTurnAt(0));
     Information found({WindowState::kBias, WindowState::kBias + 1, WindowState::kBias + 2});
     found.matrix.diagonal().setConstant(1e6);  // there is no bias
     EXPECT_TRUE(state.update(found));
-    OdometryState next = odometryAt(0);
+    OdometryState next = climbingTurnAt(0);
     next.stamp_ns += static_cast<std::int64_t>(hole_s * 1e9);
     state.propagator.learnVelocityBias(next, state);
     return state.propagator.velocityBiasSigma_m_s();
@@ -139,12 +139,12 @@ TEST(Propagator, AHoleCountsAsASecondOfWhatWasKnownBefore) {
 
 TEST(Propagator, AFactorThatComesAndGoesIsNotLearned) {
   OdometryWindow state;
-  state.add(odometryAt(0));
+  state.add(climbingTurnAt(0));
   const double configured_m_s = state.propagator.velocityBiasSigma_m_s();
   for (int i = 1; i < 2000; ++i) {
     if (i % 50 == 0) state.propagator.inflate(i % 100 == 0 ? 1 : 4, state);
-    state.propagator.learnVelocityBias(odometryAt(i), state);
-    state.add(odometryAt(i));
+    state.propagator.learnVelocityBias(climbingTurnAt(i), state);
+    state.add(climbingTurnAt(i));
     state.removeFrame(0);
   }
   EXPECT_NEAR(state.propagator.velocityBiasSigma_m_s(), configured_m_s, 1e-9);

@@ -8,24 +8,20 @@
 
 #include "ardrone_vslam/rotation.hpp"
 #include "simulation/random_source.hpp"
+#include "support/odometry_states.hpp"
 #include "support/odometry_window.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-OdometryState odometryAt(int frame, const Eigen::Vector3d& position, double yaw_rad = 0) {
-  OdometryState state;
-  state.stamp_ns = 100'000'000LL * frame;
-  state.T_odom_base.translation() = position;
-  state.T_odom_base.linear() = rotationOf({0, 0, yaw_rad});
-  return state;
-}
+using test::odometryOfFrame;
 
 OdometryWindow circling(int frames) {
   OdometryWindow state;
   for (int i = 0; i < frames; ++i) {
     const double turn = 0.1 * i;
-    const OdometryState odometry = odometryAt(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
+    const OdometryState odometry =
+        odometryOfFrame(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
     state.add(odometry);
   }
   return state;
@@ -44,7 +40,7 @@ void expectHonest(const WindowState& state) {
   EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-12);
 }
 
-TEST(WindowState, FollowsTheObserverAndGrowsLessSure) {
+TEST(WindowState, FollowsTheOdometryAndGrowsLessSure) {
   const OdometryWindow state = circling(20);
   EXPECT_LT(
       (state.frames().back().position_map - Eigen::Vector3d(std::sin(1.9), 1 - std::cos(1.9), 0))
@@ -60,11 +56,11 @@ TEST(WindowState, FollowsTheObserverAndGrowsLessSure) {
   expectHonest(state);
 }
 
-TEST(WindowState, TheObserversOwnCovarianceIsUsedWhereItGivesOne) {
+TEST(WindowState, TheOdometrysOwnCovarianceIsUsedWhereItGivesOne) {
   const auto grown = [](double variance_m2) {
     OdometryWindow state;
-    OdometryState first = odometryAt(0, {0, 0, 0});
-    OdometryState second = odometryAt(1, {0, 0, 0});
+    OdometryState first = odometryOfFrame(0, {0, 0, 0});
+    OdometryState second = odometryOfFrame(1, {0, 0, 0});
     if (variance_m2 > 0) {
       first.covariance.diagonal().head<3>().setConstant(0.5);
       second.covariance.diagonal().head<3>().setConstant(0.5 + variance_m2);
@@ -77,13 +73,13 @@ TEST(WindowState, TheObserversOwnCovarianceIsUsedWhereItGivesOne) {
   EXPECT_GT(grown(4.0) - grown(0), 3.9);
 }
 
-TEST(WindowState, ErrorsThatAreStatesAreNoWhiteNoiseInTheObserversCovariance) {
+TEST(WindowState, ErrorsThatAreStatesAreNoWhiteNoiseInTheOdometrysCovariance) {
   const OdometryNoiseConfig config;
   constexpr double kSpeed_m_s = 1;
   constexpr double kWhite_m_per_sqrt_s = 0.05;
   const auto odometry = [&config](int frame) {
     const double t_s = 0.1 * frame;
-    OdometryState state = odometryAt(frame, {kSpeed_m_s * t_s, 0, 0});
+    OdometryState state = odometryOfFrame(frame, {kSpeed_m_s * t_s, 0, 0});
     const double time_s = config.velocity_bias_time_s;
     const double by_bias_m2 = 2 * std::pow(config.velocity_bias_m_s, 2) * time_s *
                               (t_s + time_s * std::expm1(-t_s / time_s));
@@ -146,7 +142,7 @@ TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
     if (round % 4 == 0) state.makeAnchor(0);
     if (round % 10 == 9) state.removeAnchor(state.anchors().size() / 2);
     const double turn = 0.1 * (12 + round);
-    state.add(odometryAt(12 + round, {std::sin(turn), 1 - std::cos(turn), 0}, turn));
+    state.add(odometryOfFrame(12 + round, {std::sin(turn), 1 - std::cos(turn), 0}, turn));
     if (state.frames().size() > 12) state.removeFrame(3);
     expectHonest(state);
   }
@@ -182,11 +178,11 @@ TEST(WindowState, ABiasLearnedInTheClimbDoesNotStretchTheWayForward) {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   const auto fly = [&](int from, int to, const Eigen::Vector3d& step) {
     for (int i = from; i < to; ++i) {
-      state.add(odometryAt(i, position += step));
+      state.add(odometryOfFrame(i, position += step));
       state.removeFrame(0);
     }
   };
-  state.add(odometryAt(0, position));
+  state.add(odometryOfFrame(0, position));
   fly(1, 31, {0, 0, 0.02});
   const int at = state.frameCoordinate(0);
   Information height(coordinatesFrom(at + 2, at + 3));
@@ -204,7 +200,7 @@ TEST(WindowState, TheScaleIsFoundByAPositionThatIsKnown) {
   OdometryWindow state;
   constexpr double kScale = 0.02;  // reported ways are too long
   for (int i = 0; i <= 50; ++i) {
-    const OdometryState odometry = odometryAt(i, {(1 + kScale) * 0.2 * i, 0, 0});
+    const OdometryState odometry = odometryOfFrame(i, {(1 + kScale) * 0.2 * i, 0, 0});
     state.add(odometry);
     if (state.frames().size() > 2) state.removeFrame(0);
   }
@@ -223,7 +219,7 @@ TEST(WindowState, TheScaleIsFoundByAPositionThatIsKnown) {
 TEST(WindowState, AnInflatedVelocityErrorGrowsAtOnceAndFadesLikeTheOther) {
   const OdometryNoiseConfig config;
   OdometryWindow state(config);
-  state.add(odometryAt(0, {0, 0, 0}));
+  state.add(odometryOfFrame(0, {0, 0, 0}));
   const double variance = config.velocity_bias_m_s * config.velocity_bias_m_s;
   state.propagator.inflate(9, state);
   for (const int at : {3, 4, 5}) EXPECT_NEAR(state.covariance()(at, at), 9 * variance, 1e-12);
@@ -231,11 +227,11 @@ TEST(WindowState, AnInflatedVelocityErrorGrowsAtOnceAndFadesLikeTheOther) {
   EXPECT_NEAR(state.covariance()(3, 3), 9 * variance, 1e-12) << "once";
   state.propagator.inflate(1, state);
   EXPECT_NEAR(state.covariance()(3, 3), 9 * variance, 1e-12) << "what is unknown stays unknown";
-  state.add(odometryAt(10'000, {0, 0, 0}));
+  state.add(odometryOfFrame(10'000, {0, 0, 0}));
   EXPECT_NEAR(state.covariance()(3, 3), variance, 1e-6) << "after fifty time constants";
 }
 
-TEST(WindowState, ReturnsToWhereTheObserverAloneWouldBe) {
+TEST(WindowState, ReturnsToWhereTheOdometryAloneWouldBe) {
   OdometryWindow state = circling(10);
   while (state.frames().size() > 2) state.removeFrame(0);
   state.makeAnchor(0);
@@ -260,7 +256,7 @@ TEST(WindowState, ReturnsToWhereTheObserverAloneWouldBe) {
   EXPECT_GT((state.covariance().block<3, 3>(at, at).trace()), jump_m2);
   expectHonest(state);
 
-  state.add(odometryAt(10, {std::sin(1.0), 1 - std::cos(1.0), 0}, 1));
+  state.add(odometryOfFrame(10, {std::sin(1.0), 1 - std::cos(1.0), 0}, 1));
   EXPECT_TRUE(state.propagator.T_map_odom(state).isApprox(T_map_odom, 1e-9));
   expectHonest(state);
 }

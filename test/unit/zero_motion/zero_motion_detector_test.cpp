@@ -166,7 +166,7 @@ TEST(ZeroMotionDetector, AFlyingCameraIsNeverAtRest) {
   }
 }
 
-TEST(ZeroMotionDetector, ATurnThatTheObserverDoesNotSeeIsMotion) {
+TEST(ZeroMotionDetector, ATurnThatTheOdometryDoesNotSeeIsMotion) {
   // Sideways past a wall looks like a turn.
   Film film(600);
   ZeroMotionDetector detector;

@@ -7,12 +7,14 @@
 #include <yaml-cpp/exceptions.h>
 
 #include <filesystem>
+#include <limits>
 #include <new>
 #include <opencv2/core.hpp>
 #include <stdexcept>
 #include <vector>
 
 #include "bags/check/bag_check.hpp"
+#include "files/regular_file.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -32,9 +34,7 @@ void openForReading(rosbag::Bag& bag, const std::string& path) {
   if (!std::filesystem::exists(path)) {
     throw std::runtime_error(path + ": there is no such file; check the path");
   }
-  if (!std::filesystem::is_regular_file(path)) {
-    throw std::runtime_error(path + ": is no file but a folder, device or pipe; give a bag's path");
-  }
+  requireFile(path, std::numeric_limits<std::uintmax_t>::max());
   if (std::filesystem::file_size(path) == 0) {
     throw std::runtime_error(path + ": is empty (0 bytes); record it again");
   }

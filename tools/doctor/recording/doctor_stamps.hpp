@@ -30,6 +30,7 @@ StampStatistics statisticsOf(const std::vector<DoctorTime>& times);
 template <class Messages>
 std::vector<DoctorTime> timesOf(const Messages& messages) {
   std::vector<DoctorTime> times;
+  times.reserve(messages.size());
   for (const auto& message : messages) times.push_back(message.time);
   return times;
 }

@@ -105,7 +105,7 @@ std::string best(DoctorRecording& recording, const Role& role, const std::string
 }
 
 /// What the mapper publishes is no odometry, nor is the truth.
-bool isObserver(const std::string& topic) {
+bool isOdometry(const std::string& topic) {
   return topic.find("truth") == std::string::npos && !endsWith(topic, "odometry_fused") &&
          !endsWith(topic, "odometry_live") && !endsWith(topic, "observer_odometry");
 }
@@ -133,11 +133,11 @@ void chooseTopics(const DoctorTopicNames& names, DoctorRecording& recording) {
         best(recording, {"--camera-info-topic", {kCameraInfo}}, names.camera_info, anyTopic);
   }
   recording.odometry_topic =
-      best(recording, {"--odometry-topic", {kOdometry}}, names.odometry, isObserver);
+      best(recording, {"--odometry-topic", {kOdometry}}, names.odometry, isOdometry);
   // Without odometry they are the odometry, else replay looks at navdata's height only.
-  const bool is_observer = recording.odometry_topic.empty();
-  const auto option = [is_observer](const char* name) {
-    return is_observer ? std::string(name) : std::string();
+  const bool is_own_observer = recording.odometry_topic.empty();
+  const auto option = [is_own_observer](const char* name) {
+    return is_own_observer ? std::string(name) : std::string();
   };
   recording.navdata_topic =
       best(recording, {"--navdata-topic", {kNavdata, kOwnNavdata}}, names.navdata, anyTopic);
@@ -147,7 +147,7 @@ void chooseTopics(const DoctorTopicNames& names, DoctorRecording& recording) {
   }
   recording.imu_topic = best(recording, {option("--imu-topic"), {kImu}}, names.imu, anyTopic,
                              parentName(recording.navdata_topic) + "/imu");
-  if (is_observer) best(recording, {"--command-topic", {kTwist}}, {}, anyTopic, "/cmd_vel");
+  if (is_own_observer) best(recording, {"--command-topic", {kTwist}}, {}, anyTopic, "/cmd_vel");
 }
 
 bool isCompressed(const DoctorRecording& recording) {

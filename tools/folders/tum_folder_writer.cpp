@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sequences/tum_folder_writer.hpp"
+#include "folders/tum_folder_writer.hpp"
 
 #include <array>
 #include <cstdio>
@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "sequences/range_readings.hpp"
+#include "folders/range_readings.hpp"
 #include "trajectory/text_file.hpp"
 
 namespace ardrone_vslam {
@@ -72,7 +72,7 @@ void writePoses(const Sequence& sequence, const fs::path& folder, const TumFolde
   if (!sequence.truth().empty()) {
     std::vector<StampedPose> T_world_cam;
     for (const auto& pose : sequence.truth().poses()) {
-      T_world_cam.push_back({pose.stamp_ns, pose.T_map_base * T_base_cam});
+      T_world_cam.push_back({pose.stamp_ns, pose.T_frame_body * T_base_cam});
     }
     writeTumPoses((folder / "poses_tum.txt").string(), T_world_cam,
                   "T_world_cam, cam = optical frame");
@@ -85,7 +85,7 @@ void writePoses(const Sequence& sequence, const fs::path& folder, const TumFolde
     }
     writeTumPoses((folder / "odometry_tum.txt").string(), T_odom_folder,
                   "T_odom_base, base = the camera's position, x forward, y left, z up\n" +
-                      options.observer_comment);
+                      options.odometry_comment);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sequences/kitti_folder.hpp"
+#include "folders/kitti_folder.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
@@ -8,8 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sequences/folder_files.hpp"
-#include "sequences/folder_sequence.hpp"
+#include "files/regular_file.hpp"
+#include "folders/folder_files.hpp"
+#include "folders/folder_sequence.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 /// P0 = K [I | 0]; KITTI's images are rectified, so there is no distortion. The size is the first
 /// image's, as calib.txt gives none.
 CameraIntrinsics readCalibration(const std::string& path, const std::string& first_image) {
+  requireFile(path, kLargestTable_bytes);
   std::ifstream file(path);
   if (!file) {
     throw std::runtime_error(path +
@@ -88,6 +90,7 @@ Eigen::Isometry3d poseFromRow(const std::vector<long double>& row, const std::st
 }  // namespace
 
 Trajectory readKittiPoses(const std::string& path, const std::vector<std::int64_t>& stamps_ns) {
+  requireFile(path, kLargestTable_bytes);
   std::ifstream file(path);
   if (!file) return {};
   const Eigen::Isometry3d axes(forwardCamera().linear());

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/image_roll.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "ardrone_vslam/rotation.hpp"
 #include "support/point_world.hpp"
 
 namespace ardrone_vslam {

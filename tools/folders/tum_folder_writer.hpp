@@ -10,7 +10,7 @@ namespace ardrone_vslam {
 
 struct TumFolderOptions {
   /// Lines for the head of odometry_tum.txt: what drifts, and how to make it again.
-  std::string observer_comment;
+  std::string odometry_comment;
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< images; may be empty
 };
 

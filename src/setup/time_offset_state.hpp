@@ -8,7 +8,7 @@
 
 #include "ardrone_vslam/time_offset.hpp"
 #include "odometry/image_rays.hpp"
-#include "odometry/time_offset_sums.hpp"
+#include "setup/time_offset_sums.hpp"
 
 namespace ardrone_vslam {
 

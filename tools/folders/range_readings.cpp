@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sequences/range_readings.hpp"
+#include "folders/range_readings.hpp"
 
 #include <array>
 #include <cmath>
@@ -9,7 +9,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sequences/folder_files.hpp"
+#include "files/regular_file.hpp"
+#include "folders/folder_files.hpp"
 #include "simulation/random_source.hpp"
 
 namespace ardrone_vslam {
@@ -22,6 +23,7 @@ constexpr double kNoBound_m = std::numeric_limits<double>::infinity();
 std::vector<RangeReading> readRanges(const std::string& path) {
   std::vector<RangeReading> ranges;
   if (!std::filesystem::exists(path)) return ranges;
+  requireFile(path, kLargestTable_bytes);
   std::ifstream file(path);
   std::string line;
   for (std::size_t line_number = 1; std::getline(file, line); ++line_number) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "inputs/mounting.hpp"
+#include "inputs/extrinsics_tf.hpp"
 
 #include <tf2/exceptions.h>
 
@@ -21,10 +21,10 @@ Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
 
 }  // namespace
 
-Mounting::Mounting(const ros::NodeHandle& nh) : tf_(nh) {}
+ExtrinsicsTf::ExtrinsicsTf(const ros::NodeHandle& nh) : tf_(nh) {}
 
-std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
-                                                const std::string& camera_frame) {
+std::optional<Eigen::Isometry3d> ExtrinsicsTf::find(const std::string& base_frame,
+                                                    const std::string& camera_frame) {
   fault_.clear();
   if (base_frame != base_frame_) T_base_cam_.clear();
   base_frame_ = base_frame;
@@ -45,9 +45,9 @@ std::optional<Eigen::Isometry3d> Mounting::find(const std::string& base_frame,
   return std::nullopt;
 }
 
-std::optional<Eigen::Isometry3d> Mounting::T_odom_base(const std::string& odom_frame,
-                                                       const std::string& base_frame,
-                                                       std::int64_t stamp_ns) const {
+std::optional<Eigen::Isometry3d> ExtrinsicsTf::T_odom_base(const std::string& odom_frame,
+                                                           const std::string& base_frame,
+                                                           std::int64_t stamp_ns) const {
   const tf2::BufferCore& tf = tf_.buffer().core();
   for (const ros::Time& time : {toRosTime(stamp_ns), ros::Time(0)}) {
     if (!tf.canTransform(odom_frame, base_frame, time)) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sequences/folder_files.hpp"
+#include "folders/folder_files.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -9,6 +9,9 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+
+#include "files/regular_file.hpp"
+#include "files/shortened.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -67,14 +70,15 @@ std::vector<long double> parseNumbers(const std::string& line, const std::string
     char* end = nullptr;
     numbers.push_back(std::strtold(word.c_str(), &end));
     if (end != word.c_str() + word.size()) {
-      throw std::runtime_error(path + ", line " + std::to_string(line_number) + ": '" + word +
-                               "' is not a number");
+      throw std::runtime_error(path + ", line " + std::to_string(line_number) + ": '" +
+                               shortened(word) + "' is not a number");
     }
   }
   return numbers;
 }
 
 std::vector<std::int64_t> readImageStamps(const std::string& path, std::size_t image_count) {
+  requireFile(path, kLargestTable_bytes);
   std::ifstream file(path);
   if (!file) {
     throw std::runtime_error(path +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sequences/folder_sequence.hpp"
+#include "folders/folder_sequence.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -7,13 +7,15 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/regular_file.hpp"
+#include "folders/kitti_folder.hpp"
+#include "folders/tum_folder.hpp"
 #include "input_checks/decode_image.hpp"
-#include "sequences/kitti_folder.hpp"
-#include "sequences/tum_folder.hpp"
 
 namespace ardrone_vslam {
 
 cv::Mat readGreyImage(const std::string& path) {
+  requireFile(path, kLargestImage_bytes);
   std::ifstream file(path, std::ios::binary);
   const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
   cv::Mat image = decodeGrey(bytes);

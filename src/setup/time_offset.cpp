@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "odometry/time_offset_state.hpp"
+#include "setup/time_offset_state.hpp"
 
 namespace ardrone_vslam {
 namespace {

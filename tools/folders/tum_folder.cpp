@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sequences/tum_folder.hpp"
+#include "folders/tum_folder.hpp"
 
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
 
-#include "sequences/camera_yaml.hpp"
-#include "sequences/folder_files.hpp"
-#include "sequences/folder_sequence.hpp"
-#include "sequences/range_readings.hpp"
+#include "folders/camera_yaml.hpp"
+#include "folders/folder_files.hpp"
+#include "folders/folder_sequence.hpp"
+#include "folders/range_readings.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -53,7 +53,7 @@ std::unique_ptr<Sequence> openTumFolder(const std::string& path) {
 
   const Eigen::Isometry3d T_cam_base = contents.T_base_cam.inverse();
   for (const auto& pose : readOptional(path + "/poses_tum.txt", true, contents.stamps_ns)) {
-    contents.truth.append({pose.stamp_ns, pose.T_map_base * T_cam_base});
+    contents.truth.append({pose.stamp_ns, pose.T_frame_body * T_cam_base});
   }
   const std::string old_name = path + "/observer_tum.txt";
   if (std::filesystem::exists(old_name))
@@ -61,7 +61,7 @@ std::unique_ptr<Sequence> openTumFolder(const std::string& path) {
   // A recorded odometry keeps its repeated and backward stamps: to stand them is the pipeline's
   // job.
   for (const auto& pose : readOptional(path + "/odometry_tum.txt", false, contents.stamps_ns)) {
-    contents.odometry.push_back({pose.stamp_ns, pose.T_map_base, Matrix6d::Zero()});
+    contents.odometry.push_back({pose.stamp_ns, pose.T_frame_body, Matrix6d::Zero()});
   }
   contents.ranges = readRanges(path + "/range.txt");
   return std::make_unique<FolderSequence>(std::move(contents));

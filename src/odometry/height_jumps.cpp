@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ardrone_vslam/height_jumps.hpp"
+#include "odometry/height_jumps.hpp"
 
 #include <cmath>
 

@@ -2,16 +2,17 @@
 // KITTI and TUM-like folders as sequences, and what is said of wrong ones.
 
 #include "sequences/sequence.hpp"
+#include "support/real_data.hpp"
+#include "support/same_pose.hpp"
 #include "support/sequence_folders.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using test::expectSamePose;
+using test::realData;
 
-void expectSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  EXPECT_TRUE(a.isApprox(b, 1e-9)) << a.matrix() << "\nis not\n" << b.matrix();
-}
+constexpr double kPi = 3.14159265358979323846;
 
 TEST(KittiFolder, ImagesStampsAndCalibration) {
   TemporaryFolder folder;
@@ -28,7 +29,7 @@ TEST(KittiFolder, ImagesStampsAndCalibration) {
   EXPECT_EQ(sequence->camera().cy_px, 12);
   EXPECT_EQ(sequence->camera().k1, 0);
   EXPECT_TRUE(sequence->odometry().empty());
-  expectSamePose(sequence->T_base_cam(), forwardCamera());
+  expectSamePose(sequence->T_base_cam(), forwardCamera(), 1e-9);
 }
 
 TEST(KittiFolder, TruthHasTheAxesOfRep103AndKeepsItsStart) {
@@ -41,9 +42,9 @@ TEST(KittiFolder, TruthHasTheAxesOfRep103AndKeepsItsStart) {
   Eigen::Isometry3d expected = Eigen::Isometry3d::Identity();
   expected.linear() = Eigen::AngleAxisd(-kPi / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   expected.translation() << 7, -3, 2;
-  expectSamePose(sequence->truth().poses()[0].T_map_base, expected);
+  expectSamePose(sequence->truth().poses()[0].T_frame_body, expected, 1e-9);
   expected.translation() << 7, -4, 2;
-  expectSamePose(sequence->truth().poses()[2].T_map_base, expected);
+  expectSamePose(sequence->truth().poses()[2].T_frame_body, expected, 1e-9);
 }
 
 TEST(KittiFolder, TruthIsOptional) {
@@ -127,7 +128,7 @@ TEST(TumFolder, ImagesCalibrationAndTruthOfOtherStamps) {
   // 0.4 s, the image between two of them.
   Eigen::Isometry3d expected = Eigen::Isometry3d::Identity();
   expected.translation() << 0.1, 2, 3;
-  expectSamePose(sequence->truth().at(sequence->stamp_ns(1)), expected);
+  expectSamePose(sequence->truth().at(sequence->stamp_ns(1)), expected, 1e-9);
 }
 
 TEST(TumFolder, RecordedOdometryKeepsItsStamps) {
@@ -211,10 +212,11 @@ TEST(RealFolders, KittiClipDoesNotStartAtTheOrigin) {
   EXPECT_EQ(sequence->stamp_ns(1), 100'000'000);
   const auto& poses = sequence->truth().poses();
   // poses.txt: (-2.54, -2.04, 93.75) in camera axes.
-  EXPECT_TRUE(poses[0].T_map_base.translation().isApprox(
+  EXPECT_TRUE(poses[0].T_frame_body.translation().isApprox(
       Eigen::Vector3d(93.75397, 2.538278, 2.044394), 1e-9));
   // A car drives forward: in its own axes the first step, 0.8 m, is along +x.
-  const Eigen::Vector3d step = (poses[0].T_map_base.inverse() * poses[1].T_map_base).translation();
+  const Eigen::Vector3d step =
+      (poses[0].T_frame_body.inverse() * poses[1].T_frame_body).translation();
   EXPECT_NEAR(step.x(), 0.816, 0.01);
   EXPECT_LT(step.tail<2>().norm(), 0.05);
   EXPECT_EQ(sequence->image(59).size(), cv::Size(1226, 370));

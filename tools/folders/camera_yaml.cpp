@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sequences/camera_yaml.hpp"
+#include "folders/camera_yaml.hpp"
 
 #include <yaml-cpp/yaml.h>
 
@@ -8,10 +8,13 @@
 #include <stdexcept>
 #include <vector>
 
+#include "files/regular_file.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
 YAML::Node loadFile(const std::string& path) {
+  requireFile(path, kLargestYaml_bytes);
   try {
     return YAML::LoadFile(path);
   } catch (const YAML::BadFile&) {

@@ -15,18 +15,18 @@ namespace ardrone_vslam {
 
 /// Where the cameras sit on the drone, from tf. Taken as rigid: once found they are kept. And what
 /// else the mapper asks of tf.
-class Mounting {
+class ExtrinsicsTf {
  public:
-  explicit Mounting(const ros::NodeHandle& nh);
+  explicit ExtrinsicsTf(const ros::NodeHandle& nh);
 
-  /// The latest transform, whatever its stamp: drivers stamp the mounting later than the image.
+  /// The latest transform, whatever its stamp: drivers stamp the extrinsics later than the image.
   /// @return T_base_cam; nothing when there is none or none that can be (extrinsicsFault): then
   /// there is a fault()
   std::optional<Eigen::Isometry3d> find(const std::string& base_frame,
                                         const std::string& camera_frame);
-  /// The mounting cannot be asked for yet. @param fault  why
+  /// The extrinsics cannot be asked for yet. @param fault  why
   void wait(const std::string& fault) { fault_ = fault; }
-  /// What is missing and how to mend it; empty once the mounting is known.
+  /// What is missing and how to mend it; empty once the extrinsics are known.
   const std::string& fault() const { return fault_; }
 
   /// Of the drone, as tf itself has it at this time, else the latest; nothing: it does not know.

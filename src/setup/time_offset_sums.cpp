@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "odometry/time_offset_sums.hpp"
+#include "setup/time_offset_sums.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

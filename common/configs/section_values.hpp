@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ardrone_vslam/parameters.hpp"
+#include "files/shortened.hpp"
 
 namespace ardrone_vslam {
 
@@ -42,7 +43,8 @@ struct SectionValues {
                                           : "number") +
                 " [" + info.unit + "]";
     }
-    faults->push_back(section_name + "/" + info.name + " is '" + text + "' but must be " + must_be +
+    faults->push_back(section_name + "/" + info.name + " is '" + shortened(text) +
+                      "' but must be " + must_be +
                       whatBecameOf(OldName::Kind::kChoice, text, info.name));
   }
 

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace ardrone_vslam {
+
+constexpr std::uintmax_t kLargestYaml_bytes = 1'000'000;         ///< configuration, calibration
+constexpr std::uintmax_t kLargestImage_bytes = 256'000'000;      ///< an encoded one
+constexpr std::uintmax_t kLargestTable_bytes = 1'000'000'000;    ///< poses, stamps, ranges
+constexpr std::uintmax_t kLargestStream_bytes = 16'000'000'000;  ///< a video
+
+/// What keeps a path from being read as a file: a pipe or a device may never end. Empty when there
+/// is nothing at the path: who opens it says so.
+inline std::string faultOfFile(const std::string& path, std::uintmax_t most_bytes) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (error || !std::filesystem::exists(status)) return "";
+  if (!std::filesystem::is_regular_file(status))
+    return "is no file but a folder, device or pipe; name a file";
+  if (std::filesystem::file_size(path, error) > most_bytes)
+    return "is larger than " + std::to_string(most_bytes / 1'000'000) +
+           " MB, which no such file is; check the path";
+  return "";
+}
+
+/// @throws std::runtime_error with the faultOfFile
+inline void requireFile(const std::string& path, std::uintmax_t most_bytes) {
+  const std::string fault = faultOfFile(path, most_bytes);
+  if (!fault.empty()) throw std::runtime_error(path + ": " + fault);
+}
+
+}  // namespace ardrone_vslam

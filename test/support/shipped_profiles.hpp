@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "simulation/odometry_model.hpp"
+#include "test_paths.hpp"
+
+namespace ardrone_vslam::test {
+
+/// The file of the odometry profiles that the package ships.
+inline const std::string kShippedProfiles =
+    ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml";
+
+/// The profile of that name among them.
+inline OdometryProfile shippedProfile(const std::string& name) {
+  return loadOdometryProfile(name, kShippedProfiles);
+}
+
+}  // namespace ardrone_vslam::test
