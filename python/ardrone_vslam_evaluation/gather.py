@@ -15,6 +15,8 @@ from .run_folder import find_runs, read_run
 def is_bag(path):
     if path.endswith(".bag"):
         return True
+    if not os.path.isfile(path):
+        return False
     try:
         with open(path, "rb") as file:
             return file.read(8) == b"#ROSBAG "
@@ -105,7 +107,7 @@ def _odometry_row(run, rows, name, settings):
 
 
 def rows_of_folders(arguments, settings):
-    """Observers before what was made of them."""
+    """Odometries before what was made of them."""
     folders = list(dict.fromkeys(run for folder in arguments.folder for run in find_runs(folder)))
     check_names(arguments.name, folders, "runs")
     names = arguments.name or short_names(folders)
@@ -115,6 +117,8 @@ def rows_of_folders(arguments, settings):
         names = [f"{name} ({estimator})" if estimator and estimator not in name else name for name, estimator in zip(names, estimators)]
     odometries, estimates, notes = [], [], []
     for name, run in zip(names, runs):
+        if run.summary.get("is_finished") is False:
+            notes.append(f"{name}: the run was interrupted, so its numbers are of the part that it had done")
         row = Row(name, "estimate", run.truth, run.fused, run)
         evaluate_row(row, settings)
         estimates.append(row)

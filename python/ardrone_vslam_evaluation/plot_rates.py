@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from .plot_style import ESTIMATES, OBSERVERS, TRUTH, LeftOut, family_of, legend, panels
+from .plot_style import ESTIMATES, ODOMETRIES, TRUTH, LeftOut, family_of, legend, panels
 from .table import look_up
 from .trajectory import NS_PER_S
 
@@ -37,7 +37,7 @@ def draw_error_against_rate(rows):
     if not has_several_rates(rows):
         raise LeftOut("all runs use as many images a second")
     figure, (axes,) = panels(1, 4.2)
-    colours = {"odometry": OBSERVERS[0], **dict(zip((name for name in known if name != "odometry"), ESTIMATES))}
+    colours = {"odometry": ODOMETRIES[0], **dict(zip((name for name in known if name != "odometry"), ESTIMATES))}
     for name, by_rate in known.items():
         rates = sorted(by_rate)
         colour = colours.get(name, TRUTH)

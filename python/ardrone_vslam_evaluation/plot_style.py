@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 TRUTH, GREY = "#333333", "#b5b5b5"
-OBSERVERS = ("#d62728", "#ff9896", "#e377c2", "#8c564b")
+ODOMETRIES = ("#d62728", "#ff9896", "#e377c2", "#8c564b")
 ESTIMATES = ("#1f77b4", "#2ca02c", "#ff7f0e", "#9467bd", "#17becf", "#bcbd22", "#7f7f7f", "#aec7e8")
 WIDTH_IN = 11.0
 MOST_PANELS = 8
@@ -33,10 +33,10 @@ def family_of(row):
 def looks(rows):
     """{row's name: colour and label}, the same in all plots. Too many rows for the colours: one for each family."""
     kinds = [row.kind for row in rows]
-    is_crowded = kinds.count("estimate") > len(ESTIMATES) or kinds.count("odometry") > len(OBSERVERS)
+    is_crowded = kinds.count("estimate") > len(ESTIMATES) or kinds.count("odometry") > len(ODOMETRIES)
     keys = [family_of(row) if is_crowded else row.name for row in rows]
     colours, result = {}, {}
-    free = {"odometry": list(OBSERVERS), "estimate": list(ESTIMATES)}
+    free = {"odometry": list(ODOMETRIES), "estimate": list(ESTIMATES)}
     for key, row in zip(keys, rows):
         is_first = key not in colours
         if is_first:

@@ -7,6 +7,7 @@ import re
 import numpy as np
 
 from .faults import InputFault, reason
+from .input_files import open_input
 from .trajectory import NS_PER_S, Trajectory, nearest_rotations, rotations_of_quaternions
 
 TUM_VALUES, KITTI_VALUES = 8, 12
@@ -30,7 +31,7 @@ def stamp_ns(text):
 def lines_of(path):
     """(number, words) of each line that is more than a comment."""
     try:
-        with open(path, encoding="utf-8") as file:
+        with open_input(path) as file:
             for number, line in enumerate(file, start=1):
                 words = line.split("#", 1)[0].split()
                 if words:

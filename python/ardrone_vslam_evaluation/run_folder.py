@@ -2,14 +2,14 @@
 """What replay, simulate_landmarks and record_run leave in a folder."""
 
 import csv
-import json
 import os
 import re
 from dataclasses import dataclass
 
 import numpy as np
 
-from .faults import InputFault, reason
+from .faults import InputFault
+from .input_files import open_input, read_json
 from .read_text import read_tum
 from .trajectory import Trajectory
 
@@ -39,7 +39,7 @@ class RunFolder:
 def read_columns(path):
     """A csv file of numbers as {column: array}; columns with words are left out."""
     try:
-        with open(path, newline="", encoding="utf-8") as file:
+        with open_input(path, newline="") as file:
             rows = list(csv.reader(file))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise InputFault(f"{path}: cannot be read ({error}); make the run again") from None
@@ -64,13 +64,7 @@ def read_columns(path):
 
 
 def read_summary(path):
-    try:
-        with open(path, encoding="utf-8") as file:
-            summary = json.load(file)
-    except json.JSONDecodeError as error:
-        raise InputFault(f"{path}:{error.lineno}: is no JSON ({error.msg}); make the run again") from None
-    except OSError as error:
-        raise InputFault(f"{path}: cannot be read ({reason(error)}); check the path") from None
+    summary = read_json(path)
     if not isinstance(summary, dict):
         raise InputFault(f"{path}:1: is no JSON object; make the run again")
     return summary

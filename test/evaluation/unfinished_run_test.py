@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A replay that is killed leaves what it had, and says so; summaries that cannot be read are named."""
+
+import json
+import os
+import subprocess
+import tempfile
+import time
+import unittest
+
+from paths import evaluate, straight, write_tum
+
+REPLAY, MAKE_WORLD = os.environ.get("ARDRONE_VSLAM_REPLAY", ""), os.environ.get("ARDRONE_VSLAM_MAKE_WORLD", "")  # ctest sets them
+PATIENCE_S = 120
+
+
+class UnfinishedRunTest(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.temporary.name, name)
+
+    def text(self, name, what):
+        with open(self.path(name), "w", encoding="latin-1") as file:
+            file.write(what)
+
+    def killed(self, out, *options):
+        """A run that is killed once it has written something."""
+        run = subprocess.Popen([REPLAY, self.path("flight"), "--odometry-profile", "drone", "--out", out, "--threads", "1", *options],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        end_s = time.monotonic() + PATIENCE_S
+        while not os.path.exists(f"{out}/summary.json"):
+            self.assertIsNone(run.poll(), "it ended before it was killed: fly longer")
+            self.assertLess(time.monotonic(), end_s)
+            time.sleep(0.02)
+        run.kill()
+        run.wait()
+
+    def test_a_killed_replay_leaves_what_it_had(self):
+        subprocess.run([MAKE_WORLD, "laps", "--seconds", "20", "--rate", "15", "--out", self.path("flight")], check=True, capture_output=True)
+        # So many seeds take many times the two seconds after which it begins to write.
+        self.killed(self.path("run"), "--seeds", "1:30")
+        with open(self.path("run") + "/summary.json", encoding="utf-8") as file:
+            summary = json.load(file)
+        self.assertEqual([run["is_finished"] for run in summary["runs"]], [False] * 30)
+        frames = summary["runs"][0]["frames"]
+        self.assertGreater(frames, 0)
+        self.assertLess(frames, 300)
+        with open(self.path("run") + "/seed_30/fused.tum", encoding="utf-8") as file:
+            self.assertEqual(len(file.readlines()), 1 + frames)
+        self.assertEqual([name for _, _, names in os.walk(self.path("run")) for name in names if name.endswith(".part")], [])
+        code, _, told = evaluate(self.path("run") + "/seed_1", "--table")
+        self.assertEqual(code, 0, told)
+        self.assertIn("the run was interrupted", told)
+        done = subprocess.run([REPLAY, self.path("flight"), "--odometry-profile", "drone", "--out", self.path("run"), "--frames", "0:5"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(os.listdir(self.path("run"))),
+                         ["frames.csv", "fused.tum", "landmarks.csv", "odometry.tum", "summary.json", "truth.tum"])
+        with open(self.path("run") + "/summary.json", encoding="utf-8") as file:
+            self.assertTrue(json.load(file)["is_finished"])
+
+    def test_summaries_that_cannot_be_are_named(self):
+        write_tum(self.path("fused.tum"), straight(10, 11))
+        for content, what in (("{\"a\": \"\xff\"}", "no text"), (100_000 * "[", "too deep"), ("{", "no JSON"), ("[]", "no JSON object")):
+            self.text("summary.json", content)
+            code, _, told = evaluate(self.temporary.name, "--table")
+            self.assertNotEqual(code, 0)
+            self.assertIn("summary.json", told)
+            self.assertIn(what, told)
+            self.assertNotIn("Traceback", told)
+
+    def test_what_never_ends_is_no_file(self):
+        write_tum(self.path("good"), straight(10, 11))
+        os.mkfifo(self.path("pipe"))
+        for path in (self.path("pipe"), "/dev/zero"):
+            for files in (("--truth", path, "--estimate", self.path("good")), ("--truth", self.path("good"), "--estimate", path)):
+                code, _, told = evaluate(*files)
+                self.assertNotEqual(code, 0)
+                self.assertIn(f"{path}: is no file but a folder, device or pipe", told)
