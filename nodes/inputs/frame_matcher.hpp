@@ -29,8 +29,8 @@ class FrameMatcher {
 
   /// Takes out the oldest waiting frame if its odometry is there. Drops before it those that waited
   /// too long or whose odometry can never come.
-  /// @param can_use  asked once the odometry is there: false holds the frame (its camera's mounting
-  /// is unknown) until it is late
+  /// @param can_use  asked once the odometry is there: false holds the frame (its camera's
+  /// extrinsics are unknown) until it is late
   std::optional<Frame> next(double now_s, const std::function<bool(const Features&)>& can_use);
 
   /// Time began again: forgets what belongs to the run before, that is odometry and waiting frames
@@ -42,7 +42,6 @@ class FrameMatcher {
   /// Why the latest frame without odometry had none.
   OdometryBuffer::Lookup lastMiss() const { return last_miss_; }
   const OdometryBuffer& odometries() const { return buffer_; }
-  std::int64_t newestObserver_ns() const { return buffer_.newestStamp_ns(); }
 
  private:
   struct Waiting {

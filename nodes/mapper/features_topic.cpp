@@ -34,6 +34,10 @@ bool FeaturesTopic::accept(const Features& features) {
       ++dropped_stamp_;
       warnings_.refuse(name(), "its stamp is not after the one before; stamps must ascend");
       return false;
+    case StampGuard::Answer::kAlone:
+      ++dropped_stamp_;
+      warnings_.refuse(name(), kAloneFault);
+      return false;
     case StampGuard::Answer::kRestart:
       calls_.restart(toNanoseconds(features.header.stamp));
       return true;

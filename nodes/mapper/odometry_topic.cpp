@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "conversions/frame_names.hpp"
-#include "timing/stamp_guard.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -25,7 +24,7 @@ OdometryTopic::OdometryTopic(const ros::NodeHandle& nh, const MapperSettings& se
       calls_(std::move(calls)),
       name_(nh.resolveName(isMadeOfNavdata(settings) ? "navdata" : "odometry")),
       watch_(name_, warnings),
-      adapter_(settings.slam.odometry_adapter) {
+      intake_(settings.slam.odometry_adapter) {
   frames_.map = withTfPrefix(settings.tf_prefix, settings.node.map_frame);
 }
 
@@ -47,9 +46,9 @@ void OdometryTopic::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
   const auto checked = toUnboundedState(*odometry);
   std::string fault = checked.fault;
   if (checked.value) {
-    const std::int64_t back_ns = matcher_.newestObserver_ns() - checked.value->stamp_ns;
-    if (back_ns >= StampGuard::kRestart_ns) calls_.restart(checked.value->stamp_ns);
-    fault = take(*checked.value);
+    const StampGuard::Answer answer = intake_.check(checked.value->stamp_ns);
+    if (answer == StampGuard::Answer::kRestart) calls_.restart(checked.value->stamp_ns);
+    fault = answer == StampGuard::Answer::kAlone ? kAloneFault : take(*checked.value);
     watch_.seeFaults(faults());
     if (fault.empty()) {
       takeFrameNames(*odometry);
@@ -61,9 +60,8 @@ void OdometryTopic::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
 }
 
 std::string OdometryTopic::take(const OdometryState& message) {
-  ready_.clear();
-  std::string fault = explain(adapter_.push(message, ready_), message);
-  for (const OdometryState& state : ready_) {
+  std::string fault = intake_.take(message);
+  for (const OdometryState& state : intake_.ready()) {
     const OdometryBuffer::Push answer = matcher_.addOdometry(state);
     if (answer == OdometryBuffer::Push::kAccepted) {
       watch_.seeState(state);
@@ -118,7 +116,7 @@ void OdometryTopic::refuse(const std::string& topic, const std::string& fault) {
 }
 
 OdometryFaultCounts OdometryTopic::faults() const {
-  OdometryFaultCounts faults = adapter_.faults();
+  OdometryFaultCounts faults = intake_.faults();
   if (navdata_) add(navdata_->faults(), faults);
   return faults;
 }

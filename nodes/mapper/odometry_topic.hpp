@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "ardrone_vslam/odometry_adapter.hpp"
 #include "inputs/frame_matcher.hpp"
 #include "inputs/navdata_input.hpp"
+#include "inputs/odometry_intake.hpp"
 #include "mapper/mapper_settings.hpp"
 #include "mapper/odometry_watch.hpp"
 
@@ -60,11 +60,10 @@ class OdometryTopic {
   Calls calls_;
   std::string name_;
   OdometryWatch watch_;
-  OdometryAdapter adapter_;
+  OdometryIntake intake_;
   std::unique_ptr<NavdataInput> navdata_;  // odometry_mode navdata
   ros::Subscriber subscriber_;             // without navdata
   Frames frames_;
-  std::vector<OdometryState> ready_;  // from the adapter; kept for its memory
   std::uint64_t refused_ = 0;
 };
 

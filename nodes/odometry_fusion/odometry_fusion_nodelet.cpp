@@ -4,7 +4,6 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "from_ros/params.hpp"
-#include "inputs/frame_matcher.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -45,7 +44,7 @@ void OdometryFusionNodelet::readParameters() {
   try {
     reader.finish();
     fusion_ = std::make_unique<DelayedFusion>(config);
-    adapter_ = std::make_unique<OdometryAdapter>(config.odometry_adapter);
+    intake_ = std::make_unique<OdometryIntake>(config.odometry_adapter);
   } catch (const ConfigError& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;
@@ -61,7 +60,9 @@ void OdometryFusionNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometr
   const auto checked = toUnboundedState(*odometry);
   if (!checked.value) return status_->refuseOdometry(checked.fault);
   const OdometryState& message = *checked.value;
-  if (fusion_->newestStamp_ns() - message.stamp_ns >= StampGuard::kRestart_ns) {
+  const StampGuard::Answer answer = intake_->check(message.stamp_ns);
+  if (answer == StampGuard::Answer::kAlone) return status_->refuseOdometry(kAloneFault);
+  if (answer == StampGuard::Answer::kRestart) {
     status_->countRestart();
     NODELET_WARN_STREAM(
         "stamps on " << odometry_topic_
@@ -71,10 +72,9 @@ void OdometryFusionNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometr
     corrections_->clear();
   }
   frames_.see(odometry->child_frame_id);
-  ready_.clear();
-  const std::string fault = explain(adapter_->push(message, ready_), message);
+  const std::string fault = intake_->take(message);
   if (!fault.empty()) status_->refuseOdometry(fault);
-  for (const OdometryState& state : ready_) take(state);
+  for (const OdometryState& state : intake_->ready()) take(state);
 }
 
 void OdometryFusionNodelet::take(const OdometryState& state) {

@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "ardrone_vslam/delayed_fusion.hpp"
-#include "ardrone_vslam/odometry_adapter.hpp"
+#include "inputs/odometry_intake.hpp"
 #include "odometry_fusion/correction_queue.hpp"
 #include "odometry_fusion/fusion_frames.hpp"
 #include "odometry_fusion/fusion_outputs.hpp"
 #include "odometry_fusion/fusion_status.hpp"
-#include "timing/stamp_guard.hpp"
 #include "timing/timers.hpp"
 #include "timing/warning_limiter.hpp"
 
@@ -38,8 +37,7 @@ class OdometryFusionNodelet : public nodelet::Nodelet {
   Warnings warnings_{[this](const std::string& sentence) { NODELET_WARN_STREAM(sentence); }};
 
   std::string odometry_topic_;
-  std::unique_ptr<OdometryAdapter> adapter_;
-  std::vector<OdometryState> ready_;  // from the adapter; kept for its memory
+  std::unique_ptr<OdometryIntake> intake_;
   std::unique_ptr<DelayedFusion> fusion_;
   std::unique_ptr<CorrectionQueue> corrections_;
   std::unique_ptr<FusionStatus> status_;

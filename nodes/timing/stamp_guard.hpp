@@ -5,29 +5,54 @@
 
 namespace ardrone_vslam {
 
-/// Tells ascending stamps from late messages and from a clock that began again (a bag that loops).
+/// Tells ascending stamps from late messages, from single ones with a wrong stamp, and from a clock
+/// that began again (a bag that loops).
 class StampGuard {
  public:
   enum class Answer {
     kAscending,  ///< the first one, or after the one before
     kNotAfter,   ///< equal to the newest stamp or up to `kRestart_ns` before it: to be dropped
-    kRestart     ///< further back: time began again, the stamp is the first of a new run
+    kAlone,      ///< further back, or far ahead, and no others say so: to be dropped
+    kRestart     ///< further back, as others before: time began again, the first of a new run
   };
   static constexpr std::int64_t kRestart_ns = 1'000'000'000;
+  static constexpr std::int64_t kFarAhead_ns = 10'000'000'000;
+  /// So many stamps one after the other are no mistake.
+  static constexpr int kAgreeing = 3;
 
   Answer check(std::int64_t stamp_ns) {
     const bool is_first = newest_ns_ == 0;
-    if (!is_first && stamp_ns <= newest_ns_ && stamp_ns > newest_ns_ - kRestart_ns) {
-      return Answer::kNotAfter;
+    const std::int64_t step_ns = stamp_ns - newest_ns_;
+    if (is_first || (step_ns > 0 && step_ns <= kFarAhead_ns)) {
+      newest_ns_ = stamp_ns;
+      alone_ = 0;
+      return Answer::kAscending;
     }
-    const bool is_restart = !is_first && stamp_ns <= newest_ns_;
+    if (step_ns <= 0 && step_ns > -kRestart_ns) return Answer::kNotAfter;
+    if (!agrees(stamp_ns)) return Answer::kAlone;
     newest_ns_ = stamp_ns;
-    return is_restart ? Answer::kRestart : Answer::kAscending;
+    alone_ = 0;
+    return step_ns < 0 ? Answer::kRestart : Answer::kAscending;
   }
 
  private:
+  /// Whether enough stamps have gone on from each other, this one included.
+  bool agrees(std::int64_t stamp_ns) {
+    const std::int64_t step_ns = stamp_ns - alone_ns_;
+    if (alone_ > 0 && step_ns == 0) return false;  // of a burst with one stamp
+    alone_ = alone_ > 0 && step_ns > 0 && step_ns <= kFarAhead_ns ? alone_ + 1 : 1;
+    alone_ns_ = stamp_ns;
+    return alone_ >= kAgreeing;
+  }
+
   std::int64_t newest_ns_ = 0;  // stamps of zero are refused before they come here
+  std::int64_t alone_ns_ = 0;   // the newest of those that agree on another time
+  int alone_ = 0;               // how many they are
 };
+
+/// Why a message with StampGuard::Answer::kAlone is not used.
+constexpr const char* kAloneFault =
+    "its stamp is far from those of all other messages; three that agree begin a new run";
 
 /// Counts messages that were lost between two nodes, by the gaps in their sequence numbers.
 class GapCounter {

@@ -77,6 +77,8 @@ std::string TrackerNodelet::stampFault(const std_msgs::Header& header) {
   switch (stamps_.check(toNanoseconds(header.stamp))) {
     case StampGuard::Answer::kNotAfter:
       return "its stamp is not after the one before; stamps must ascend";
+    case StampGuard::Answer::kAlone:
+      return kAloneFault;
     case StampGuard::Answer::kRestart:
       NODELET_WARN_STREAM("stamps on " << images_->imageTopic() << " jumped back to "
                                        << header.stamp

@@ -42,6 +42,27 @@ class BadMessages(unittest.TestCase):
         self.assertIsNotNone(status)
         return status
 
+    def begin_again(self):
+        """Time goes back, and messages come until one is answered: some must agree before that."""
+        self.drone.time_s -= 100
+        for _ in range(20):
+            stamp = self.drone.next()
+            self.drone.send(self.drone.odometry(), self.drone.image(), self.drone.info())
+            if self.drone.answered(stamp, 1.0):
+                return
+        self.fail("images are not answered any more")
+
+    def publish_away(self, away_s):
+        """An image, an odometry message and features of another time, one of each."""
+        self.drone.next()
+        self.drone.time_s += away_s
+        features = Features()
+        features.header = self.drone.image().header
+        features.width, features.height, features.focal_length = WIDTH, HEIGHT, 300
+        self.drone.send(self.drone.odometry(), self.drone.image(), self.drone.info())
+        self.features.publish(features)
+        self.drone.time_s -= away_s
+
     def assert_said(self, *parts):
         said = self.drone.log.wait(lambda log: all(part in log.msg for part in parts))
         self.assertIsNotNone(said, "nothing in the log with %s" % (parts,))
@@ -205,7 +226,7 @@ class BadMessages(unittest.TestCase):
 
     def test_zero_odometry(self):
         """All zeros but well formed: the reason names the topic, until the odometry moves."""
-        self.drone.time_s -= 100  # a new map
+        self.begin_again()  # a new map
         for _ in range(45):  # 4.5 s
             stamp = self.drone.next()
             odometry = self.drone.odometry()
@@ -216,7 +237,7 @@ class BadMessages(unittest.TestCase):
         self.assertEqual(status.state, Status.BUILDING_MAP)
         self.assertIn("/odometry does not move", status.reason)
         self.assert_said("/odometry does not move", "rostopic echo", "remap")
-        self.drone.time_s -= 100
+        self.begin_again()
         self.assertNotIn("does not move", self.fly_well().reason)
 
     # features
@@ -238,10 +259,19 @@ class BadMessages(unittest.TestCase):
 
     # Time
 
+    def test_one_message_of_another_time_deletes_no_map(self):
+        """One image, one odometry, one Features message, each from long before or long after."""
+        before = self.fly_well()
+        for away_s in (-100, 1000):
+            self.publish_away(away_s)
+            after = self.fly_well()
+            self.assertEqual(after.restarts, before.restarts)
+            self.assertGreater(after.state, Status.BUILDING_MAP)
+
     def test_time_begins_again(self):
         """A bag that loops: the map begins anew, and images are answered again."""
         before = self.fly_well()
-        self.drone.time_s -= 100
+        self.begin_again()
         after = self.fly_well()
         self.assertEqual(after.restarts, before.restarts + 1)
         self.assertEqual(after.state, Status.BUILDING_MAP)

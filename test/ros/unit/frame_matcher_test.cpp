@@ -7,11 +7,14 @@
 
 #include "conversions/conversions.hpp"
 #include "conversions/frame_names.hpp"
+#include "support/odometry_states.hpp"
 #include "timing/stamp_guard.hpp"
 #include "timing/warning_limiter.hpp"
 
 namespace ardrone_vslam {
 namespace {
+
+using test::odometryAt;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
@@ -19,13 +22,6 @@ FeaturesConstPtr featuresAt(std::int64_t stamp_ns) {
   auto features = boost::make_shared<Features>();
   features->header.stamp = toRosTime(stamp_ns);
   return features;
-}
-
-OdometryState odometryAt(std::int64_t stamp_ns, double x_m) {
-  OdometryState state;
-  state.stamp_ns = stamp_ns;
-  state.T_odom_base.translation().x() = x_m;
-  return state;
 }
 
 bool usable(const Features& /*unused*/) {
@@ -42,9 +38,9 @@ class FrameMatcherTest : public testing::Test {
 
 TEST_F(FrameMatcherTest, WaitsForTheOdometryAfterTheImage) {
   matcher_.addFeatures(featuresAt(10 * kSecond_ns), 0);
-  matcher_.addOdometry(odometryAt(10 * kSecond_ns - 100, 1));
+  matcher_.addOdometry(odometryAt(10 * kSecond_ns - 100, {1, 0, 0}));
   EXPECT_FALSE(matcher_.next(0.1, usable));
-  matcher_.addOdometry(odometryAt(10 * kSecond_ns + 100, 3));
+  matcher_.addOdometry(odometryAt(10 * kSecond_ns + 100, {3, 0, 0}));
   const auto frame = matcher_.next(0.2, usable);
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->odometry.stamp_ns, 10 * kSecond_ns);
@@ -58,10 +54,10 @@ TEST_F(FrameMatcherTest, TheOdometryIsThatOfTheExposure) {
     FrameMatcher matcher({}, 0.5, offset_s);
     const std::int64_t exposed_ns = 10 * kSecond_ns + (offset_s > 0 ? 1 : -1) * kSecond_ns / 10;
     matcher.addFeatures(featuresAt(10 * kSecond_ns), 0);
-    matcher.addOdometry(odometryAt(exposed_ns - kSecond_ns / 20, 1));
+    matcher.addOdometry(odometryAt(exposed_ns - kSecond_ns / 20, {1, 0, 0}));
     // With a positive offset this is after the image's stamp, and still too early.
     EXPECT_FALSE(matcher.next(0.1, usable));
-    matcher.addOdometry(odometryAt(exposed_ns + kSecond_ns / 20, 3));
+    matcher.addOdometry(odometryAt(exposed_ns + kSecond_ns / 20, {3, 0, 0}));
     const auto frame = matcher.next(0.2, usable);
     ASSERT_TRUE(frame);
     EXPECT_EQ(frame->odometry.stamp_ns, exposed_ns);
@@ -72,7 +68,8 @@ TEST_F(FrameMatcherTest, TheOdometryIsThatOfTheExposure) {
 
 TEST_F(FrameMatcherTest, FramesComeInOrder) {
   for (int i = 1; i <= 3; ++i) matcher_.addFeatures(featuresAt(i * kSecond_ns), 0);
-  for (int i = 0; i <= 30; ++i) matcher_.addOdometry(odometryAt(i * kSecond_ns / 10 + 1, i));
+  for (int i = 0; i <= 30; ++i)
+    matcher_.addOdometry(odometryAt(i * kSecond_ns / 10 + 1, {1.0 * i, 0, 0}));
   for (int i = 1; i <= 2; ++i) {
     const auto frame = matcher_.next(0, usable);
     ASSERT_TRUE(frame);
@@ -90,8 +87,8 @@ TEST_F(FrameMatcherTest, WithoutOdometryTheWaitIsBounded) {
 }
 
 TEST_F(FrameMatcherTest, OdometryThatCanNeverComeIsNotWaitedFor) {
-  matcher_.addOdometry(odometryAt(10 * kSecond_ns, 0));
-  matcher_.addOdometry(odometryAt(12 * kSecond_ns, 0));
+  matcher_.addOdometry(odometryAt(10 * kSecond_ns, {0, 0, 0}));
+  matcher_.addOdometry(odometryAt(12 * kSecond_ns, {0, 0, 0}));
   matcher_.addFeatures(featuresAt(9 * kSecond_ns), 0);
   matcher_.addFeatures(featuresAt(11 * kSecond_ns), 0);  // in a hole of 2 s
   matcher_.addFeatures(featuresAt(12 * kSecond_ns), 0);
@@ -103,7 +100,7 @@ TEST_F(FrameMatcherTest, OdometryThatCanNeverComeIsNotWaitedFor) {
 }
 
 TEST_F(FrameMatcherTest, HeldFramesWaitAsLong) {
-  matcher_.addOdometry(odometryAt(kSecond_ns, 0));
+  matcher_.addOdometry(odometryAt(kSecond_ns, {0, 0, 0}));
   matcher_.addFeatures(featuresAt(kSecond_ns), 0);
   EXPECT_FALSE(matcher_.next(0.4, unusable));
   EXPECT_EQ(matcher_.droppedHeld(), 0U);
@@ -114,11 +111,12 @@ TEST_F(FrameMatcherTest, HeldFramesWaitAsLong) {
 }
 
 TEST_F(FrameMatcherTest, ARestartForgetsTheRunBeforeWhicheverInputComesFirst) {
-  matcher_.addOdometry(odometryAt(100 * kSecond_ns, 0));
+  matcher_.addOdometry(odometryAt(100 * kSecond_ns, {0, 0, 0}));
   matcher_.addFeatures(featuresAt(101 * kSecond_ns), 0);
   EXPECT_TRUE(matcher_.forgetAfter(2 * kSecond_ns));
   EXPECT_EQ(matcher_.droppedNoOdometry(), 1U);
-  EXPECT_EQ(matcher_.addOdometry(odometryAt(kSecond_ns, 5)), OdometryBuffer::Push::kAccepted);
+  EXPECT_EQ(matcher_.addOdometry(odometryAt(kSecond_ns, {5, 0, 0})),
+            OdometryBuffer::Push::kAccepted);
   EXPECT_FALSE(matcher_.forgetAfter(2 * kSecond_ns));  // the second input: nothing old is left
   matcher_.addFeatures(featuresAt(kSecond_ns), 0);
   const auto frame = matcher_.next(0, usable);
@@ -138,7 +136,7 @@ TEST(OdometryMiss, EachReasonNamesTheTopic) {
   EXPECT_EQ(sentences.size(), 4U);
 }
 
-TEST(StampGuardTest, LateIsDroppedFarBackIsARestart) {
+TEST(StampGuardTest, LateIsDroppedSeveralFarBackAreARestart) {
   using Answer = StampGuard::Answer;
   StampGuard guard;
   EXPECT_EQ(guard.check(50 * kSecond_ns), Answer::kAscending);
@@ -146,8 +144,33 @@ TEST(StampGuardTest, LateIsDroppedFarBackIsARestart) {
   EXPECT_EQ(guard.check(51 * kSecond_ns), Answer::kNotAfter);
   EXPECT_EQ(guard.check(50 * kSecond_ns + 1), Answer::kNotAfter);
   EXPECT_EQ(guard.check(51 * kSecond_ns + 1), Answer::kAscending);  // the late one did not count
-  EXPECT_EQ(guard.check(10 * kSecond_ns), Answer::kRestart);
-  EXPECT_EQ(guard.check(11 * kSecond_ns), Answer::kAscending);
+  EXPECT_EQ(guard.check(10 * kSecond_ns), Answer::kAlone);
+  EXPECT_EQ(guard.check(11 * kSecond_ns), Answer::kAlone);
+  EXPECT_EQ(guard.check(11 * kSecond_ns), Answer::kAlone) << "one stamp twice says no more";
+  EXPECT_EQ(guard.check(12 * kSecond_ns), Answer::kRestart);
+  EXPECT_EQ(guard.check(13 * kSecond_ns), Answer::kAscending);
+}
+
+TEST(StampGuardTest, SingleWrongStampsChangeNothing) {
+  using Answer = StampGuard::Answer;
+  StampGuard guard;
+  EXPECT_EQ(guard.check(50 * kSecond_ns), Answer::kAscending);
+  for (int i = 1; i < 100; ++i) {
+    const std::int64_t wrong_ns = (i % 2 == 0 ? 1000 : 1) * kSecond_ns + i;
+    EXPECT_EQ(guard.check(wrong_ns), Answer::kAlone);
+    EXPECT_EQ(guard.check(wrong_ns + 1), Answer::kAlone) << "and two";
+    EXPECT_EQ(guard.check(50 * kSecond_ns + i), Answer::kAscending);
+  }
+}
+
+TEST(StampGuardTest, ALongSilenceIsNoRestart) {
+  using Answer = StampGuard::Answer;
+  StampGuard guard;
+  EXPECT_EQ(guard.check(50 * kSecond_ns), Answer::kAscending);
+  EXPECT_EQ(guard.check(59 * kSecond_ns), Answer::kAscending);
+  EXPECT_EQ(guard.check(100 * kSecond_ns), Answer::kAlone);
+  EXPECT_EQ(guard.check(101 * kSecond_ns), Answer::kAlone);
+  EXPECT_EQ(guard.check(102 * kSecond_ns), Answer::kAscending);
 }
 
 TEST(GapCounterTest, CountsWhatIsMissing) {
