@@ -100,7 +100,10 @@ class Damage {
         std::generate(begin, end, [this] { return static_cast<char>(below(256)); });
         break;
       default:
-        for (int i = 0; i < 8; ++i) bytes = at(std::move(bytes), below(bytes.size()));
+        for (int i = 0; i < 8; ++i) {
+          const std::size_t place = below(bytes.size());
+          bytes = at(std::move(bytes), place);
+        }
     }
     return bytes;
   }

@@ -56,8 +56,7 @@ Section readSection(const std::string& path, const std::string& name, const YAML
     const std::string value =
         entry.second.IsScalar() ? entry.second.as<std::string>() : YAML::Dump(entry.second);
     if (!section.emplace(key, value).second)
-      faults.push_back(std::string(path).append(": '").append(name).append("/").append(key).append(
-          "' is there twice; keep one of them"));
+      faults.push_back(path + ": '" + name + "/" + key + "' is there twice; keep one of them");
   }
   return section;
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <random>
 
 #include "run/offline_run.hpp"
@@ -48,7 +50,7 @@ TEST(SpeedWatch, JumpsNoiseAndStampsThatGoBackAreNoSpeed) {
   }
   EXPECT_EQ(watch.absurd_m_s(), 0);
   for (int i = 0; i < 2000; ++i)  // six at a time
-    watch.see(stateAt(100 + 0.03 * (i / 6) + 1e-6 * (i % 6), {0.01 * i, 0, 0}));
+    watch.see(stateAt(100 + 0.03 * std::floor(i / 6.0) + 1e-6 * (i % 6), {0.01 * i, 0, 0}));
   EXPECT_EQ(watch.absurd_m_s(), 0);
   // A bag from the start, again and again, elsewhere each time.
   for (int i = 0; i < 100; ++i) watch.see(stateAt(i % 2 == 0 ? 0 : 20, {1e5 * i, 0, 0}));
@@ -57,6 +59,7 @@ TEST(SpeedWatch, JumpsNoiseAndStampsThatGoBackAreNoSpeed) {
 
 TEST(SpeedWatch, ReplayWatchesItsOdometry) {
   std::vector<OdometryState> states;
+  states.reserve(30);
   for (int i = 0; i < 30; ++i) states.push_back(stateAt(0.1 * i, {30.0 * i, 0, 0}));
   BackEnd back_end(SlamConfig{}, Eigen::Isometry3d::Identity(), states);
   TrackedFrame frame;

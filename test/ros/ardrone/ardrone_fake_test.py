@@ -14,6 +14,7 @@ from ardrone_vslam.msg import PoseCorrection
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import Path
 from sensor_msgs.msg import CameraInfo
+from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from drone import Recorder  # noqa: E402
@@ -43,6 +44,7 @@ class ArdroneFake(unittest.TestCase):
         corrections = Recorder("/vslam/correction", PoseCorrection)
         truth = Recorder("/truth/pose", PoseStamped)
         path = Recorder("/vslam/truth_path", Path)
+        tf = Recorder("/tf", TFMessage)
         buffer = tf2_ros.Buffer()
         listener = tf2_ros.TransformListener(buffer)
         self.addCleanup(listener.unregister)
@@ -57,6 +59,10 @@ class ArdroneFake(unittest.TestCase):
         self.assertEqual(answered, images)
         self.assertGreater(len(images), 60)
 
+        # The driver's bursts have one stamp; listeners print two lines for each transform that comes with it again.
+        stamps = [t.header.stamp for m in tf.all() for t in m.transforms if t.child_frame_id == "ardrone_base_link"]
+        self.assertGreater(len(stamps), 100)
+        self.assertEqual(len(stamps), len(set(stamps)))
         tf_m = self.tf_error_m(buffer, poses.all()[-60:])
         times_s, places = [], []
         for m in truth.all():

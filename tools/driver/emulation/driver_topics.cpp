@@ -30,6 +30,10 @@ void DriverTopics::publish(const DriverMessages& messages) {
   navdata_.publish(messages.navdata);
   imu_.publish(messages.imu);
   odometry_.publish(messages.odometry);
+  // The driver sends those of a burst, too. tf keeps the first of a stamp, and each listener prints
+  // two lines for every other one, which would drown all warnings.
+  if (messages.T_odom_base.header.stamp <= newest_tf_) return;
+  newest_tf_ = messages.T_odom_base.header.stamp;
   tf_.sendTransform(messages.T_odom_base);
 }
 

@@ -42,6 +42,7 @@ class DriverTopics {
   std::map<std::string, image_transport::CameraPublisher> images_;  // by name in /ardrone
   ros::Publisher navdata_, imu_, mag_, odometry_, truth_;
   tf2_ros::TransformBroadcaster tf_;
+  ros::Time newest_tf_;  // of T_odom_base
 };
 
 }  // namespace ardrone_vslam
