@@ -104,4 +104,4 @@ class RecordRun(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rostest.rosrun("ardrone_vslam", "record_run", RecordRun)
+    rostest.rosrun("ardrone_vslam", "recording", RecordRun)
