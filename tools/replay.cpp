@@ -274,7 +274,7 @@ int run(const Options& o) {
   const std::vector<RunResult> results =
       runAll(*sequence, config, odometries, o.threads, show, speed, maps);
   progress.reset();  // ends its line
-  removeEarlierRun(o.out);
+  if (!unfinished.hasWritten()) removeEarlierRun(o.out);
   const auto of_runs = reportRuns(*sequence, odometries, results, report);
   faults.insert(faults.end(), of_runs.begin(), of_runs.end());
   if (const auto& map = results.front().map)

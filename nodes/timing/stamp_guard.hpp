@@ -16,7 +16,7 @@ class StampGuard {
     kRestart     ///< further back, as others before: time began again, the first of a new run
   };
   static constexpr std::int64_t kRestart_ns = 1'000'000'000;
-  static constexpr std::int64_t kFarAhead_ns = 10'000'000'000;
+  static constexpr std::int64_t kFarAhead_ns = 3'000'000'000;
   /// So many stamps one after the other are no mistake.
   static constexpr int kAgreeing = 3;
 
@@ -39,8 +39,8 @@ class StampGuard {
   /// Whether enough stamps have gone on from each other, this one included.
   bool agrees(std::int64_t stamp_ns) {
     const std::int64_t step_ns = stamp_ns - alone_ns_;
-    if (alone_ > 0 && step_ns == 0) return false;  // of a burst with one stamp
-    alone_ = alone_ > 0 && step_ns > 0 && step_ns <= kFarAhead_ns ? alone_ + 1 : 1;
+    if (alone_ > 0 && step_ns <= 0 && step_ns > -kRestart_ns) return false;  // late, or a burst
+    alone_ = alone_ > 0 && step_ns > 0 ? alone_ + 1 : 1;
     alone_ns_ = stamp_ns;
     return alone_ >= kAgreeing;
   }

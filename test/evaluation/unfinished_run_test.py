@@ -26,12 +26,12 @@ class UnfinishedRunTest(unittest.TestCase):
         with open(self.path(name), "w", encoding="latin-1") as file:
             file.write(what)
 
-    def killed(self, out, *options):
-        """A run that is killed once it has written something."""
+    def killed(self, out, last, *options):
+        """A run that is killed once it has written its last file for the first time."""
         run = subprocess.Popen([REPLAY, self.path("flight"), "--odometry-profile", "drone", "--out", out, "--threads", "1", *options],
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         end_s = time.monotonic() + PATIENCE_S
-        while not os.path.exists(f"{out}/summary.json"):
+        while not os.path.exists(f"{out}/{last}"):
             self.assertIsNone(run.poll(), "it ended before it was killed: fly longer")
             self.assertLess(time.monotonic(), end_s)
             time.sleep(0.02)
@@ -41,10 +41,11 @@ class UnfinishedRunTest(unittest.TestCase):
     def test_a_killed_replay_leaves_what_it_had(self):
         subprocess.run([MAKE_WORLD, "laps", "--seconds", "20", "--rate", "15", "--out", self.path("flight")], check=True, capture_output=True)
         # So many seeds take many times the two seconds after which it begins to write.
-        self.killed(self.path("run"), "--seeds", "1:30")
+        self.killed(self.path("run"), "seed_30/summary.json", "--seeds", "1:30")
         with open(self.path("run") + "/summary.json", encoding="utf-8") as file:
             summary = json.load(file)
         self.assertEqual([run["is_finished"] for run in summary["runs"]], [False] * 30)
+        self.assertIs(summary["is_finished"], False)
         frames = summary["runs"][0]["frames"]
         self.assertGreater(frames, 0)
         self.assertLess(frames, 300)

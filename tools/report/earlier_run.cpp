@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "files/regular_file.hpp"
 #include "report/run_files.hpp"
 
 namespace ardrone_vslam {
@@ -13,7 +14,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json readSummary(const std::string& folder) {
-  std::ifstream file(folder + "/summary.json");
+  const std::string path = folder + "/summary.json";
+  if (!faultOfFile(path, kLargestTable_bytes).empty()) return {};
+  std::ifstream file(path);
   constexpr bool kThrows = false;
   return file ? Json::parse(file, nullptr, kThrows) : Json();
 }
@@ -28,7 +31,10 @@ bool isOurs(const Json& summary) {
 
 void removeFiles(const std::string& folder) {
   std::error_code ignored;  // what cannot be removed cannot be overwritten, which is told then
-  for (const char* name : kRunFiles) std::filesystem::remove(folder + "/" + name, ignored);
+  for (const char* name : kRunFiles) {
+    std::filesystem::remove(folder + "/" + name, ignored);
+    std::filesystem::remove(folder + "/" + name + ".part", ignored);  // of a run that was killed
+  }
   for (const char* name : kPageFiles) std::filesystem::remove(folder + "/" + name, ignored);
 }
 

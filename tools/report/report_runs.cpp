@@ -17,6 +17,7 @@ std::vector<std::string> reportRuns(const Sequence& sequence,
                                     const std::vector<RunResult>& results,
                                     const ReportOptions& options) {
   std::vector<nlohmann::ordered_json> summaries;
+  std::vector<RunEvaluation> evaluations;
   std::vector<std::string> faults;
   for (std::size_t i = 0; i < results.size(); ++i) {
     bool truth_moved = false;
@@ -25,27 +26,31 @@ std::vector<std::string> reportRuns(const Sequence& sequence,
         results[i].is_in_loaded_map
             ? sequence.truth()
             : truthFromOdometryStart(sequence.truth(), odometries[i], truth_moved);
-    const RunEvaluation evaluation = evaluate(results[i], truth);
+    evaluations.push_back(evaluate(results[i], truth));
     if (results[i].is_finished) {
-      const RunVerdict verdict = judgeRun(sequence.name(), results[i], evaluation, truth_moved);
+      const RunVerdict verdict =
+          judgeRun(sequence.name(), results[i], evaluations.back(), truth_moved);
       for (const std::string& text : verdict.warnings) options.warn(text);
       faults.insert(faults.end(), verdict.faults.begin(), verdict.faults.end());
     }
     const RunLabel label{sequence.name(), odometries[i].profile, odometries[i].seed,
                          options.estimator};
-    summaries.push_back(summaryOf(results[i], evaluation, label));
-    const std::string folder =
-        options.is_of_seeds ? seedFolder(options.folder, *label.seed) : options.folder;
+    summaries.push_back(summaryOf(results[i], evaluations.back(), label));
     summaries.back()["is_finished"] = results[i].is_finished;
-    writeRun(folder, results[i], evaluation, summaries.back());
   }
+  nlohmann::ordered_json all;
   if (options.is_of_seeds) {
-    const auto all = summaryOfSeeds(summaries);
+    all = summaryOfSeeds(summaries);
+    all["is_finished"] = results.front().is_finished;
+    // First: it tells a later run which folders are this one's.
     writeText(options.folder + "/summary.json", all.dump(2) + "\n");
-    if (results.front().is_finished) printSeeds(all, std::cout);
-  } else if (results.front().is_finished) {
-    printSummary(summaries.front());
   }
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    writeRun(options.is_of_seeds ? seedFolder(options.folder, *odometries[i].seed) : options.folder,
+             results[i], evaluations[i], summaries[i]);
+  }
+  if (!results.front().is_finished) return faults;
+  options.is_of_seeds ? printSeeds(all, std::cout) : printSummary(summaries.front());
   return faults;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/unfinished_runs.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "report/earlier_run.hpp"
@@ -11,6 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 constexpr auto kFirst = 2s;
 constexpr auto kBetween = 10s;
+constexpr int kShare = 20;
 
 }  // namespace
 
@@ -22,14 +24,16 @@ UnfinishedRuns::UnfinishedRuns(const Sequence& sequence, const std::vector<RunOd
       next_(std::chrono::steady_clock::now() + kFirst) {}
 
 void UnfinishedRuns::offer(const ResultsSoFar& so_far) {
-  if (std::chrono::steady_clock::now() < next_) return;
+  const auto began = std::chrono::steady_clock::now();
+  if (began < next_) return;
   const std::vector<RunResult> results = so_far();
   if (!results.front().frames.empty()) {
     if (!has_written_) removeEarlierRun(options_.folder);
     has_written_ = true;
     reportRuns(sequence_, odometries_, results, options_);
   }
-  next_ = std::chrono::steady_clock::now() + kBetween;
+  const auto ended = std::chrono::steady_clock::now();
+  next_ = ended + std::max<std::chrono::steady_clock::duration>(kBetween, kShare * (ended - began));
 }
 
 }  // namespace ardrone_vslam

@@ -15,10 +15,12 @@ class UnfinishedRuns {
   /// @param sequence, odometries  must outlive this
   UnfinishedRuns(const Sequence& sequence, const std::vector<RunOdometry>& odometries,
                  ReportOptions options);
-  /// Writes two seconds after the beginning, then every ten: what it costs is nothing beside that.
-  /// The first time an earlier run's files go. @throws std::runtime_error for a file that cannot be
-  /// written
+  /// Writes two seconds after the beginning, then every ten, or more seldom where that would take
+  /// more than a twentieth of the time. The first time an earlier run's files go. @throws
+  /// std::runtime_error for a file that cannot be written
   void offer(const ResultsSoFar& so_far);
+  /// Whether the folder holds this run's files.
+  bool hasWritten() const { return has_written_; }
 
  private:
   const Sequence& sequence_;

@@ -12,13 +12,16 @@ void writeText(const std::string& path, const std::string& text) {
   // What is there and no file, a device say, is written to as it is.
   const bool is_file =
       !std::filesystem::exists(path, error) || std::filesystem::is_regular_file(path, error);
-  const std::string written = is_file ? path + ".part" : path;
+  // Through links to the file itself, which they go on naming.
+  const std::string file = std::filesystem::weakly_canonical(path, error).string();
+  const std::string target = error || file.empty() ? path : file;
+  const std::string written = is_file ? target + ".part" : path;
   std::ofstream out(written);
   out << text;
   out.close();
   bool is_written = static_cast<bool>(out);
   if (is_file && is_written) {
-    std::filesystem::rename(written, path, error);
+    std::filesystem::rename(written, target, error);
     is_written = !error;
   }
   if (is_file && !is_written) std::filesystem::remove(written, error);
