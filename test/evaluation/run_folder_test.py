@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 import unittest
 
-from paths import evaluate, there_and_back, write_tum
+from paths import evaluate, straight, there_and_back, write_tum
 
 PROGRAM = os.environ.get("ARDRONE_VSLAM_SIMULATE_LANDMARKS", "")  # ctest sets it
 # Python's key -> summary.json's. TUM files keep nine digits.
@@ -39,6 +39,12 @@ class RunFolderTest(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.temporary.cleanup()
+
+    def test_a_path_that_stands_still_has_no_street(self):
+        path = write_tum(os.path.join(self.temporary.name, "still.tum"), straight(0.5, 60))
+        done = subprocess.run([PROGRAM, path, "--out", os.path.join(self.temporary.name, "still")], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(f"{path}: its poses do not move by a metre", done.stderr)
 
     def numbers(self, *arguments):
         """And the table."""
