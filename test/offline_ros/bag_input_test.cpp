@@ -272,6 +272,23 @@ TEST(BagInput, AMountingThatCannotBeIsRefusedWithTheBagsName) {
   bag.expectRefused({bag.path(), "'base'", "'cam'", "101 m from base", "beyond 100 m"});
 }
 
+TEST(BagInput, ATransformThatIsNoneCountsAsNotThereWithoutLinesOfTf) {
+  BagRecipe recipe;
+  recipe.has_tf = false;
+  const TestBag bag(recipe, [&](rosbag::Bag& opened) {
+    tf2_msgs::TFMessage tf;
+    tf.transforms = {toTransformMessage(forwardCamera(), ros::Time(1.0), "base", "cam")};
+    for (const double w : {0.0, std::nan("")}) {
+      tf.transforms[0].transform.rotation = geometry_msgs::Quaternion();
+      tf.transforms[0].transform.rotation.w = w;
+      for (int i = 0; i < 100; ++i) opened.write("/tf", ros::Time(1.0), tf);
+    }
+  });
+  testing::internal::CaptureStderr();
+  bag.expectRefused({bag.path(), "'base'", "'cam'", "/tf_static"});
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(BagInput, NoTransformToTheCamera) {
   BagRecipe recipe;
   recipe.has_tf = false;
