@@ -9,7 +9,6 @@
 #include <iostream>
 #include <new>
 #include <opencv2/core.hpp>
-#include <stdexcept>
 #include <system_error>
 
 #include "ardrone_vslam/instruction_set.hpp"
@@ -48,6 +47,14 @@ bool readWhole(const std::string& text, std::uint64_t& number) {
   return error == std::errc() && rest == end;
 }
 
+std::string sentenceOf(const std::exception& e) {
+  const auto* opencv = dynamic_cast<const cv::Exception*>(&e);
+  const bool has_no_memory = dynamic_cast<const std::bad_alloc*>(&e) != nullptr ||
+                             (opencv != nullptr && opencv->code == cv::Error::StsNoMem);
+  if (has_no_memory) return kNoMemory;
+  return opencv != nullptr ? opencv->err : e.what();
+}
+
 /// What stood in a buffer and did not get out would be lost in silence.
 bool isWritten(const CLI::App& app) {
   const bool is_good = std::cout.flush().good() && std::fflush(stdout) == 0 && !std::ferror(stdout);
@@ -60,7 +67,7 @@ bool isWritten(const CLI::App& app) {
 
 int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& run) {
   const auto fault = [&app](const std::exception& e, int exit_code) {
-    std::cerr << app.get_name() << ": " << e.what() << '\n';
+    std::cerr << app.get_name() << ": " << sentenceOf(e) << '\n';
     return exit_code;
   };
   // What OpenCV throws is told here, once and in our words.
@@ -78,12 +85,6 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& ru
     return 2;
   } catch (const UsageError& e) {
     return fault(e, 2);
-  } catch (const std::bad_alloc&) {
-    return fault(std::runtime_error(kNoMemory), 1);
-  } catch (const cv::Exception& e) {
-    return fault(
-        e.code == cv::Error::StsNoMem ? std::runtime_error(kNoMemory) : std::runtime_error(e.err),
-        1);
   } catch (const std::exception& e) {
     return fault(e, 1);
   }
