@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -31,6 +32,16 @@ inline std::string faultOfFile(const std::string& path, std::uintmax_t most_byte
 inline void requireFile(const std::string& path, std::uintmax_t most_bytes) {
   const std::string fault = faultOfFile(path, most_bytes);
   if (!fault.empty()) throw std::runtime_error(path + ": " + fault);
+}
+
+/// @param advice  what to do when it cannot be read
+/// @throws std::runtime_error with the faultOfFile, or when it cannot be read
+inline std::ifstream openFile(const std::string& path, std::uintmax_t most_bytes,
+                              const std::string& advice = "check the path") {
+  requireFile(path, most_bytes);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": cannot be read; " + advice);
+  return file;
 }
 
 }  // namespace ardrone_vslam

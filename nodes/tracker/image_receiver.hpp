@@ -9,7 +9,7 @@
 #include <string>
 
 #include "configs/node_config.hpp"
-#include "inputs/image_queue.hpp"
+#include "images/image_queue.hpp"
 
 namespace ardrone_vslam {
 

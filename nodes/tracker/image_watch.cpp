@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracker/image_watch.hpp"
 
-#include "inputs/image_topics.hpp"
+#include "images/image_topics.hpp"
 
 namespace ardrone_vslam {
 

@@ -78,13 +78,8 @@ std::vector<long double> parseNumbers(const std::string& line, const std::string
 }
 
 std::vector<std::int64_t> readImageStamps(const std::string& path, std::size_t image_count) {
-  requireFile(path, kLargestTable_bytes);
-  std::ifstream file(path);
-  if (!file) {
-    throw std::runtime_error(path +
-                             ": cannot be read; write one stamp in seconds a line, in the order "
-                             "of the images");
-  }
+  std::ifstream file = openFile(path, kLargestTable_bytes,
+                                "write one stamp in seconds a line, in the order of the images");
   std::vector<std::int64_t> stamps_ns;
   std::string line;
   for (std::size_t line_number = 1; std::getline(file, line); ++line_number) {

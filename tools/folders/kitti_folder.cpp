@@ -18,13 +18,8 @@ namespace {
 /// P0 = K [I | 0]; KITTI's images are rectified, so there is no distortion. The size is the first
 /// image's, as calib.txt gives none.
 CameraIntrinsics readCalibration(const std::string& path, const std::string& first_image) {
-  requireFile(path, kLargestTable_bytes);
-  std::ifstream file(path);
-  if (!file) {
-    throw std::runtime_error(path +
-                             ": cannot be read; the folder needs KITTI's calibration file with its "
-                             "line P0");
-  }
+  std::ifstream file = openFile(path, kLargestTable_bytes,
+                                "the folder needs KITTI's calibration file with its line P0");
   std::string line;
   for (std::size_t line_number = 1; std::getline(file, line); ++line_number) {
     if (line.compare(0, 3, "P0:") != 0) continue;

@@ -24,9 +24,7 @@ struct FirstLook {
 };
 
 FirstLook lookInto(const std::string& path) {
-  requireFile(path, kLargestTable_bytes);
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": cannot be read; give a file of KITTI or TUM poses");
+  std::ifstream file = openFile(path, kLargestTable_bytes, "give a file of KITTI or TUM poses");
   FirstLook look;
   std::string line;
   for (std::size_t line_number = 1; std::getline(file, line); ++line_number) {

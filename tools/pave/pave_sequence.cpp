@@ -21,11 +21,7 @@ namespace ardrone_vslam {
 namespace {
 
 std::vector<std::uint8_t> readBytes(const std::string& path) {
-  requireFile(path, kLargestStream_bytes);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw std::runtime_error(path + ": cannot be read; check the path");
-  }
+  std::ifstream file = openFile(path, kLargestStream_bytes);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 

@@ -100,9 +100,7 @@ std::string parseLine(const std::string& line, StampedPose& pose) {
 
 template <class Check>
 std::vector<StampedPose> readLines(const std::string& path, Check&& check) {
-  requireFile(path, kLargestTable_bytes);
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": cannot be read; check the path");
+  std::ifstream file = openFile(path, kLargestTable_bytes);
   std::vector<StampedPose> poses;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {

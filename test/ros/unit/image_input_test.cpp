@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "inputs/image_input.hpp"
+#include "images/image_input.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "inputs/image_queue.hpp"
+#include "images/image_queue.hpp"
 
 #include <gtest/gtest.h>
 

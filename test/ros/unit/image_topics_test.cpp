@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "inputs/image_topics.hpp"
+#include "images/image_topics.hpp"
 
 #include <gtest/gtest.h>
 

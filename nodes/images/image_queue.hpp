@@ -8,7 +8,7 @@
 #include <mutex>
 #include <optional>
 
-#include "inputs/image_input.hpp"
+#include "images/image_input.hpp"
 
 namespace ardrone_vslam {
 
