@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
 #include <opencv2/video/tracking.hpp>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -34,6 +35,11 @@ void thinOut(std::vector<Value>& values) {
   values.resize(kFeatures);
 }
 
+std::optional<kernels::AlignPatch> patchAt(const ImageView& image, const cv::Point2f& corner_px) {
+  return patchOf(
+      surroundingsOf(image, static_cast<int>(corner_px.x), static_cast<int>(corner_px.y)));
+}
+
 ImagePair pairOf(std::size_t image, const ImageFeatures& before, const ImageFeatures& now) {
   std::unordered_map<std::uint32_t, std::size_t> place_of;
   for (std::size_t i = 0; i < before.size(); ++i) place_of[before.track_id[i]] = i;
@@ -43,8 +49,7 @@ ImagePair pairOf(std::size_t image, const ImageFeatures& before, const ImageFeat
     const auto place = place_of.find(now.track_id[i]);
     if (place == place_of.end()) continue;
     const Eigen::Vector2f from_px = before.pixel_px[place->second];
-    const auto patch = patchOf(streetFrames().view(image - 1), static_cast<int>(from_px.x()),
-                               static_cast<int>(from_px.y()));
+    const auto patch = patchAt(streetFrames().view(image - 1), {from_px.x(), from_px.y()});
     if (!patch) continue;
     pair.patches.push_back(*patch);
     pair.points_px.emplace_back(from_px.x(), from_px.y());
@@ -95,9 +100,7 @@ auto ours(bool is_prepared) {
         const auto at = [&](const kernels::AlignPatch& patch) {
           return align(patch, now.data, now.stride_bytes, start_px.x, start_px.y);
         };
-        benchmark::DoNotOptimize(is_prepared ? at(pair.patches[k])
-                                             : at(*patchOf(before, static_cast<int>(from_px.x),
-                                                           static_cast<int>(from_px.y))));
+        benchmark::DoNotOptimize(is_prepared ? at(pair.patches[k]) : at(*patchAt(before, from_px)));
       }
       return pair.patches.size();
     };

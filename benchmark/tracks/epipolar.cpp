@@ -23,11 +23,12 @@ std::optional<PlanePoint> planePointOf(const CameraModel& camera, const Eigen::V
   return point;
 }
 
-Eigen::Matrix3d RelativePose::essential() const {
-  return skew(direction_second) * R_second_first;
+Eigen::Matrix3d RelativePose::essential(double row_second) const {
+  return skew(direction_second) * rotationOf(row_second * turn_per_row) * R_second_first;
 }
 
-EpipolarDistance epipolarDistance(const Eigen::Matrix3d& essential, const PointPair& pair) {
+EpipolarDistance epipolarDistance(const RelativePose& pose, const PointPair& pair) {
+  const Eigen::Matrix3d essential = pose.essential(pair.second.plane.y());
   const Eigen::Vector3d first = pair.first.plane.homogeneous();
   const Eigen::Vector3d second = pair.second.plane.homogeneous();
   const Eigen::Vector3d line_second = essential * first;

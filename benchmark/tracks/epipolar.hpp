@@ -30,8 +30,12 @@ struct PointPair {
 struct RelativePose {
   Eigen::Matrix3d R_second_first = Eigen::Matrix3d::Identity();
   Eigen::Vector3d direction_second = Eigen::Vector3d::UnitZ();  ///< of the first camera
+  /// What further down in the second image the camera has turned more, per focal length [rad]: a
+  /// shutter that rolls while the camera's turn rate changes.
+  Eigen::Vector3d turn_per_row = Eigen::Vector3d::Zero();
 
-  Eigen::Matrix3d essential() const;
+  /// @param row_second  y on the second image's plane
+  Eigen::Matrix3d essential(double row_second) const;
 };
 
 /// How far a pair is from what a relative pose allows, in pixels as seen (distorted).
@@ -41,6 +45,6 @@ struct EpipolarDistance {
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  ///< of that line, in the second image
 };
 
-EpipolarDistance epipolarDistance(const Eigen::Matrix3d& essential, const PointPair& pair);
+EpipolarDistance epipolarDistance(const RelativePose& pose, const PointPair& pair);
 
 }  // namespace ardrone_vslam::bench

@@ -11,7 +11,7 @@
 namespace ardrone_vslam::bench {
 namespace {
 
-constexpr int kUnknowns = 5;  // a rotation, and a direction's two
+constexpr int kUnknowns = 8;  // a rotation, a direction's two, and a turn's three along the rows
 using Change = Eigen::Matrix<double, kUnknowns, 1>;
 using Products = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
@@ -24,16 +24,17 @@ RelativePose changed(const RelativePose& pose, const Change& change) {
   result.R_second_first = rotationOf(change.head<3>()) * pose.R_second_first;
   result.direction_second =
       (pose.direction_second + change[3] * across + change[4] * other).normalized();
+  result.turn_per_row = pose.turn_per_row + change.tail<3>();
   return result;
 }
 
 /// Beyond this pairs count less and less.
-double scaleOf_px(const Eigen::Matrix3d& essential, const std::vector<PointPair>& pairs) {
+double scaleOf_px(const RelativePose& pose, const std::vector<PointPair>& pairs) {
   constexpr double kLeast_px = 0.02;
   std::vector<double> distances_px;
   distances_px.reserve(pairs.size());
   for (const PointPair& pair : pairs)
-    distances_px.push_back(epipolarDistance(essential, pair).sampson_px);
+    distances_px.push_back(epipolarDistance(pose, pair).sampson_px);
   return 2 * (deviationOf(std::move(distances_px)) + kLeast_px);
 }
 
@@ -44,17 +45,16 @@ double weightOf(double distance_px, double scale_px) {
 }
 
 RelativePose stepFrom(const RelativePose& pose, const std::vector<PointPair>& pairs) {
-  const Eigen::Matrix3d essential = pose.essential();
-  std::array<Eigen::Matrix3d, kUnknowns> beside;
+  std::array<RelativePose, kUnknowns> beside;
   for (int i = 0; i < kUnknowns; ++i)
-    beside[static_cast<std::size_t>(i)] = changed(pose, kDifference * Change::Unit(i)).essential();
-  const double scale_px = scaleOf_px(essential, pairs);
+    beside[static_cast<std::size_t>(i)] = changed(pose, kDifference * Change::Unit(i));
+  const double scale_px = scaleOf_px(pose, pairs);
   // What the pairs do not tell stays: the direction, where the camera hardly moved.
   constexpr double kStays = 1e-3;
   Products products = kStays * Products::Identity();
   Change sums = Change::Zero();
   for (const PointPair& pair : pairs) {
-    const double distance_px = epipolarDistance(essential, pair).sampson_px;
+    const double distance_px = epipolarDistance(pose, pair).sampson_px;
     Change slope;
     for (int i = 0; i < kUnknowns; ++i) {
       const double moved_px =

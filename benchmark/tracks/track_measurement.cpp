@@ -102,10 +102,9 @@ std::optional<RelativePose> refinedOn(const std::vector<TrackPair>& pairs,
 
 void addDistances(const std::vector<TrackPair>& pairs, const RelativePose& pose,
                   std::size_t which_apart, TruthMeasurement& measurement) {
-  const Eigen::Matrix3d essential = pose.essential();
   Distances& distances = measurement.apart[which_apart];
   for (const TrackPair& pair : pairs) {
-    const EpipolarDistance distance = epipolarDistance(essential, pair.points());
+    const EpipolarDistance distance = epipolarDistance(pose, pair.points());
     distances.all_px.push_back(distance.sampson_px);
     if (!pair.first->variance_px2 || !pair.second->variance_px2) continue;
     distances.aligned_px.push_back(distance.sampson_px);

@@ -59,18 +59,20 @@ PatchSums sumsOf(const AlignPatch& patch) {
   return sums;
 }
 
-}  // namespace
+/// Between four pixels.
+float levelAt(const Surroundings& surroundings, const Eigen::Vector2f& at) {
+  const auto x = static_cast<int>(at.x());
+  const auto y = static_cast<int>(at.y());
+  const float right = at.x() - static_cast<float>(x);
+  const float below = at.y() - static_cast<float>(y);
+  const auto between = [x, right](const std::uint8_t* row) {
+    return static_cast<float>(row[x]) * (1 - right) + static_cast<float>(row[x + 1]) * right;
+  };
+  return between(surroundings.rows[y]) * (1 - below) + between(surroundings.rows[y + 1]) * below;
+}
 
-std::optional<AlignPatch> patchOf(const ImageView& image, int x_px, int y_px) {
-  assert(x_px >= kernels::kPatchStride && x_px < image.width_px - kernels::kPatchStride &&
-         y_px >= kernels::kPatchStride && y_px < image.height_px - kernels::kPatchStride &&
-         "the patch is too near to the image's border");
-  AlignPatch patch;
-  for (int row = 0; row < kernels::kPatchRows; ++row) {
-    std::memcpy(patch.rows[row],
-                image.row(y_px + row - kernels::kPatchCentre) + x_px - kernels::kPatchCentre,
-                kernels::kPatchStride);
-  }
+/// Fills in what follows from the levels.
+std::optional<AlignPatch> prepared(AlignPatch patch) {
   const PatchSums sums = sumsOf(patch);
   const Eigen::Vector3d mean = sums.sum.cast<double>() / kPixels;
   const Eigen::Matrix3d products =
@@ -89,12 +91,71 @@ std::optional<AlignPatch> patchOf(const ImageView& image, int x_px, int y_px) {
   return patch;
 }
 
+/// Inverse of the structure without what is there along an edge, too, where nothing tells the
+/// place: the gradients of noise, and those of an edge that is sampled.
+/// @param noise  what noise alone gives in each direction
+Eigen::Matrix2f trustedInverse(const Eigen::Matrix2f& structure, float noise) {
+  constexpr float kSampled = 0.05F;  // of the structure across an edge
+  constexpr float kLeast = 1;
+  const Eigen::Vector2f spread(structure(0, 0) - structure(1, 1), 2 * structure(0, 1));
+  const float half = spread.norm() / 2;
+  const float middle = structure.trace() / 2 - noise;
+  const float large = std::max(middle + half, kLeast);
+  const float small = std::max(middle - half - kSampled * large, kLeast);
+  // Of the same directions as the structure, with the inverse of both.
+  const float mean = (1 / large + 1 / small) / 2;
+  const Eigen::Vector2f difference = (1 / large - 1 / small) / 2 * spread.normalized();
+  Eigen::Matrix2f inverse;
+  inverse << mean + difference.x(), difference.y(), difference.y(), mean - difference.x();
+  return inverse;
+}
+
+}  // namespace
+
+Surroundings surroundingsOf(const ImageView& image, int x_px, int y_px) {
+  constexpr int kBefore = Surroundings::kCentre;
+  assert(x_px >= kBefore && x_px <= image.width_px - kBefore && y_px >= kBefore &&
+         y_px <= image.height_px - kBefore && "too near to the image's border");
+  Surroundings surroundings;
+  for (int row = 0; row < Surroundings::kSide; ++row)
+    std::memcpy(surroundings.rows[row], image.row(y_px + row - kBefore) + x_px - kBefore,
+                Surroundings::kSide);
+  return surroundings;
+}
+
+std::optional<AlignPatch> patchOf(const Surroundings& surroundings) {
+  constexpr int kFirst = Surroundings::kCentre - kernels::kPatchCentre;
+  AlignPatch patch{};
+  for (int row = 0; row < kernels::kPatchRows; ++row)
+    std::memcpy(patch.rows[row], surroundings.rows[kFirst + row] + kFirst, kernels::kPatchRows);
+  return prepared(patch);
+}
+
+std::optional<AlignPatch> patchOf(const Surroundings& surroundings, const ViewChange& change) {
+  assert(change.growth() >= Surroundings::kLeastGrowth && "the surroundings do not reach so far");
+  constexpr auto kCentre = static_cast<float>(Surroundings::kCentre);
+  const ViewChange back = change.inverse();
+  AlignPatch patch{};
+  for (int row = 0; row < kernels::kPatchRows; ++row) {
+    for (int column = 0; column < kernels::kPatchRows; ++column) {
+      const Eigen::Vector2f offset_px(static_cast<float>(column - kernels::kPatchCentre),
+                                      static_cast<float>(row - kernels::kPatchCentre));
+      const Eigen::Vector2f at = (back * offset_px).array() + kCentre;
+      patch.rows[row][column] = static_cast<std::uint8_t>(levelAt(surroundings, at) + 0.5F);
+    }
+  }
+  return prepared(patch);
+}
+
 Eigen::Matrix2f positionVariance_px2(const AlignPatch& patch, const kernels::AlignResult& found) {
   constexpr float kFreedom = kPixels - 4;  // shift, gain and offset are taken out
-  const float level2 = std::max(found.rest, 0.F) / kFreedom;
-  Eigen::Matrix2f variance;
-  variance << patch.inverse[0], patch.inverse[1], patch.inverse[1], patch.inverse[3];
-  return variance * (4 * level2 / (found.gain * found.gain));
+  const float level2 = std::max(found.rest, 0.F) / (kFreedom * found.gain * found.gain);
+  // Three quarters of what is left are the patch's own noise: the image's is smoothed between
+  // pixels. A gradient is a difference of two levels, hence twice.
+  constexpr float kNoise = 2 * kPixels * 0.75F;
+  Eigen::Matrix2f inverse;
+  inverse << patch.inverse[0], patch.inverse[1], patch.inverse[1], patch.inverse[3];
+  return 4 * level2 * trustedInverse(inverse.inverse(), kNoise * level2);
 }
 
 float explainedShare(const kernels::AlignResult& found) {

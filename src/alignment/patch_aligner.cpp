@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "alignment/patch.hpp"
-
 namespace ardrone_vslam {
 namespace {
 
@@ -15,13 +13,17 @@ namespace {
 constexpr float kLeastExplained = 0.7F;
 // The view has changed: the next images are compared with this one.
 constexpr float kRenewBelow = 0.9F;
+// The patch is made anew where the view has turned or grown so much more: 3 degrees, or 5 %. Beyond
+// kMostGrowth the surroundings have too little detail.
+constexpr float kTurnAgain = 0.05F;
+constexpr float kMostGrowth = 1.6F;
 // A track is seldom hidden for longer: after so many images its corner counts.
 constexpr int kMostFailures = 2;
 // Of a corner on a whole pixel, each way.
 constexpr float kCornerVariance_px2 = 0.4F;
 // What the grey levels' noise does not tell: sampling, and that the view changes.
-constexpr float kModelFactor2 = 1.8F * 1.8F;
-constexpr float kModelVariance_px2 = 0.05F * 0.05F;
+constexpr float kModelFactor2 = 1.4F * 1.4F;
+constexpr float kModelVariance_px2 = 0.025F * 0.025F;
 constexpr float kPixels = kernels::kPatchSide * kernels::kPatchSide;
 
 Eigen::Vector2i nearestPixel(const Eigen::Vector2f& pixel_px) {
@@ -32,35 +34,94 @@ Eigen::Vector2i nearestPixel(const Eigen::Vector2f& pixel_px) {
 
 void PatchAligner::reserve(std::size_t features) {
   references_.reserve(features);
-  next_.reserve(features);
+  free_.reserve(features);
+  before_.reserve(features);
+  now_.reserve(features);
+  before_px_.reserve(features);
+  moves_.reserve(features);
 }
 
 void PatchAligner::align(const ImageView& image, const std::vector<int>& previous_of,
                          ImageFeatures& features) {
   features.information.assign(features.size(), {});
   features.residual.assign(features.size(), 0);
-  next_.clear();
+  takeOver(previous_of);
   for (std::size_t i = 0; i < features.size(); ++i) {
-    const int previous = previous_of[i];
-    Reference& reference = next_.emplace_back(
-        previous < 0 ? Reference{} : references_[static_cast<std::size_t>(previous)]);
-    if (previous >= 0) {
+    if (previous_of[i] >= 0) {
+      Reference& reference = references_[now_[i]];
+      turnTo(change_ * reference.change, reference);  // it goes on as it was
       goOn(image, i, reference, features);
       continue;
     }
+    now_[i] = freeReference();
+    Reference& reference = references_[now_[i]];
     // The corner is the track's point, so that it is where it is by definition.
+    reference.variance_px2 = 0;
     begin(image, features.pixel_px[i], reference);
     if (reference.patch)
       features.information[i] = {1 / kModelVariance_px2, 0, 1 / kModelVariance_px2};
   }
-  std::swap(references_, next_);
+  measureChange(previous_of, features);
+  before_px_.assign(features.pixel_px.begin(), features.pixel_px.end());
+  std::swap(before_, now_);
+}
+
+void PatchAligner::takeOver(const std::vector<int>& previous_of) {
+  constexpr auto kTaken = static_cast<std::size_t>(-1);
+  now_.assign(previous_of.size(), kTaken);
+  for (std::size_t i = 0; i < previous_of.size(); ++i) {
+    if (previous_of[i] < 0) continue;
+    now_[i] = std::exchange(before_[static_cast<std::size_t>(previous_of[i])], kTaken);
+  }
+  for (const std::size_t place : before_)
+    if (place != kTaken) free_.push_back(place);
+}
+
+std::size_t PatchAligner::freeReference() {
+  if (free_.empty()) {
+    references_.emplace_back();
+    return references_.size() - 1;
+  }
+  const std::size_t place = free_.back();
+  free_.pop_back();
+  return place;
+}
+
+void PatchAligner::measureChange(const std::vector<int>& previous_of,
+                                 const ImageFeatures& features) {
+  moves_.clear();
+  for (std::size_t i = 0; i < previous_of.size(); ++i) {
+    if (previous_of[i] < 0) continue;
+    moves_.push_back({before_px_[static_cast<std::size_t>(previous_of[i])], features.pixel_px[i]});
+  }
+  change_ = commonViewChange(moves_);
+  for (const std::size_t place : now_) {
+    Reference& reference = references_[place];
+    if (!std::exchange(reference.is_new, false)) reference.change = change_ * reference.change;
+  }
+}
+
+void PatchAligner::turnTo(const ViewChange& change, Reference& reference) {
+  const float growth = change.growth();
+  if (!reference.patch || change.differenceFrom(reference.applied) < kTurnAgain ||
+      growth < Surroundings::kLeastGrowth || growth > kMostGrowth)
+    return;
+  const auto turned = patchOf(reference.surroundings, change);
+  if (!turned) return;
+  reference.patch = turned;
+  reference.offset_px = change * (reference.applied.inverse() * reference.offset_px);
+  reference.applied = change;
 }
 
 void PatchAligner::begin(const ImageView& image, const Eigen::Vector2f& point_px,
                          Reference& reference) const {
   const Eigen::Vector2i pixel = nearestPixel(point_px);
-  reference.patch = patchOf(image, pixel.x(), pixel.y());
+  reference.surroundings = surroundingsOf(image, pixel.x(), pixel.y());
+  reference.patch = patchOf(reference.surroundings);
   reference.offset_px = point_px - pixel.cast<float>();
+  reference.change = {};
+  reference.applied = {};
+  reference.is_new = true;
   reference.failures = 0;
 }
 

@@ -52,7 +52,7 @@ TEST_P(AlignKernels, EqualScalarBitForBit) {
     for (int i = 0; i < 50; ++i) {
       const int x_px = uniformInt(random, 25, 94);
       const int y_px = uniformInt(random, 25, 74);
-      const auto patch = patchOf(first.view(), x_px, y_px);
+      const auto patch = patchOf(surroundingsOf(first.view(), x_px, y_px));
       if (!patch) continue;
       const auto x_start = static_cast<float>(x_px + uniformInt(random, -64, 64) / 64.0);
       const auto y_start = static_cast<float>(y_px + uniformInt(random, -64, 64) / 64.0);
@@ -79,7 +79,7 @@ TEST_P(AlignKernels, EqualScalarOnNoiseAndExtremeLevels) {
     const int y_px = uniformInt(random, 25, 64);
     for (const GreyImage* from :
          std::initializer_list<const GreyImage*>{&noise, &black_and_white}) {
-      const auto patch = patchOf(from->view(), x_px, y_px);
+      const auto patch = patchOf(surroundingsOf(from->view(), x_px, y_px));
       ASSERT_TRUE(patch);
       for (const GreyImage* to :
            std::initializer_list<const GreyImage*>{&noise, &black_and_white, &white})
@@ -105,7 +105,7 @@ TEST(AlignScalar, FindsAKnownShiftWhateverGainAndOffset) {
     int count = 0;
     for (int y = 28; y < 52; y += 4) {
       for (int x = 28; x < 52; x += 4) {
-        const auto patch = patchOf(first.view(), x, y);
+        const auto patch = patchOf(surroundingsOf(first.view(), x, y));
         if (!patch) continue;
         const AlignResult found =
             alignScalar(*patch, second.view().data, second.view().stride_bytes,
@@ -132,7 +132,7 @@ TEST(AlignScalar, SaysHowWellItKnowsThePosition) {
   // Noise of one patch in many images: the variance claimed is that of the errors.
   const Texture texture(4);
   const GreyImage first = texture.image(80, 80, 0, 0);
-  const auto patch = patchOf(first.view(), 40, 40);
+  const auto patch = patchOf(surroundingsOf(first.view(), 40, 40));
   ASSERT_TRUE(patch);
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   Eigen::Matrix2d claimed = Eigen::Matrix2d::Zero();
@@ -157,11 +157,11 @@ TEST(AlignScalar, SaysHowWellItKnowsThePosition) {
 
 TEST(Patch, IsNothingWithoutStructure) {
   const GreyImage grey(64, 64, 0, 128);
-  EXPECT_FALSE(patchOf(grey.view(), 32, 32));
+  EXPECT_FALSE(patchOf(surroundingsOf(grey.view(), 32, 32)));
   GreyImage edge(64, 64, 0, 20);
   for (int y = 0; y < 64; ++y)
     for (int x = 32; x < 64; ++x) edge.at(x, y) = 200;
-  EXPECT_FALSE(patchOf(edge.view(), 32, 32)) << "it slides along the edge";
+  EXPECT_FALSE(patchOf(surroundingsOf(edge.view(), 32, 32))) << "it slides along the edge";
 }
 
 TEST(Patch, OfAWeakEdgeSaysThatItSlides) {
@@ -171,7 +171,7 @@ TEST(Patch, OfAWeakEdgeSaysThatItSlides) {
     for (int x = 0; x < 64; ++x)
       edge.at(x, y) = static_cast<std::uint8_t>((x < 32 ? 50 : 180) + uniformInt(random, -6, 6));
   }
-  const auto patch = patchOf(edge.view(), 32, 32);
+  const auto patch = patchOf(surroundingsOf(edge.view(), 32, 32));
   ASSERT_TRUE(patch);
   AlignResult found;
   found.gain = 1;

@@ -34,19 +34,37 @@ class Texture {
   /// An image that shows, at its pixel (x, y), the texture's place (x - dx, y - dy).
   GreyImage image(int width_px, int height_px, double dx_px, double dy_px, double gain = 1,
                   double middle = 128, int noise = 0, unsigned seed = 1) const {
+    return noisyImage(width_px, height_px, noise, seed,
+                      [&](int x, int y) { return middle + gain * at(x - dx_px, y - dy_px); });
+  }
+
+  /// The image without a shift, turned (from x to y) and grown about its middle.
+  GreyImage turnedImage(int width_px, int height_px, double turn_rad, double growth, int noise,
+                        unsigned seed) const {
+    const double c = std::cos(turn_rad) / growth;
+    const double s = std::sin(turn_rad) / growth;
+    return noisyImage(width_px, height_px, noise, seed, [&](int x_px, int y_px) {
+      const double x = x_px - width_px / 2.0;
+      const double y = y_px - height_px / 2.0;
+      return 128 + at(width_px / 2.0 + c * x + s * y, height_px / 2.0 - s * x + c * y);
+    });
+  }
+
+ private:
+  template <class Level>
+  static GreyImage noisyImage(int width_px, int height_px, int noise, unsigned seed,
+                              const Level& level_at) {
     GreyImage image(width_px, height_px, 5);
     std::mt19937 random(seed);
     for (int y = 0; y < height_px; ++y) {
       for (int x = 0; x < width_px; ++x) {
-        const double level = middle + gain * at(x - dx_px, y - dy_px) +
-                             (noise > 0 ? uniformInt(random, -noise, noise) : 0);
+        const double level = level_at(x, y) + (noise > 0 ? uniformInt(random, -noise, noise) : 0);
         image.at(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
       }
     }
     return image;
   }
 
- private:
   static constexpr int kWaves = 12;
   struct Wave {
     double x, y, phase;

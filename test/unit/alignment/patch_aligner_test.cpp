@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "support/intrinsics.hpp"
 #include "support/median.hpp"
 #include "support/textured_image.hpp"
@@ -90,6 +94,98 @@ TEST_F(PatchAlignerTest, TracksLieBetweenPixelsAndDoNotDriftAway) {
     if (features.information[some].empty()) continue;
     const auto bearing = camera_.bearing(features.pixel_px[some].cast<double>());
     EXPECT_LT((bearing->cast<float>() - features.bearing_cam[some]).norm(), 1e-6F);
+  }
+}
+
+/// A view that turns and grows about its middle, and how far the aligned features are off.
+class TurningViewTest : public PatchAlignerTest {
+ protected:
+  TurningViewTest() {
+    begin_px_.clear();
+    previous_of_.clear();
+    for (int i = 0; i < kPlaces; ++i) {  // all remain in the image
+      const double angle = 2.4 * i;
+      const double radius_px = 8 * std::sqrt(i);
+      begin_px_.emplace_back(std::round(kMiddle_px.x() + radius_px * std::cos(angle)),
+                             std::round(kMiddle_px.y() + radius_px * std::sin(angle)));
+      previous_of_.push_back(i);
+    }
+    begin(texture_.turnedImage(kWidth_px, kHeight_px, 0, 1, kNoise, 7));
+  }
+
+  /// @return median error of the aligned features [px]
+  double errorAfter(int images, double turn_rad, double growth) {
+    double error_px = 0;
+    for (int i = 1; i <= images; ++i) {
+      const Eigen::Matrix2d change =
+          std::pow(growth, i) * Eigen::Rotation2Dd(i * turn_rad).toRotationMatrix();
+      const GreyImage image =
+          texture_.turnedImage(kWidth_px, kHeight_px, i * turn_rad, std::pow(growth, i), kNoise,
+                               static_cast<unsigned>(i));
+      ImageFeatures features;
+      std::vector<Eigen::Vector2d> true_px;
+      for (const Eigen::Vector2d& begin_px : begin_px_) {
+        true_px.emplace_back(kMiddle_px + change * (begin_px - kMiddle_px));
+        features.pixel_px.push_back(true_px.back().array().round().cast<float>());
+        features.bearing_cam.emplace_back();
+      }
+      aligner_.align(image.view(), previous_of_, features);
+      EXPECT_GT(features.aligned(), 9U * kPlaces / 10) << "image " << i;
+      std::vector<double> errors_px;
+      for (std::size_t k = 0; k < features.size(); ++k)
+        if (!features.information[k].empty())
+          errors_px.push_back((features.pixel_px[k].cast<double>() - true_px[k]).norm());
+      error_px = test::median(errors_px);
+    }
+    return error_px;
+  }
+
+  static constexpr int kPlaces = 90;
+  static constexpr int kNoise = 2;
+  const Eigen::Vector2d kMiddle_px{kWidth_px / 2.0, kHeight_px / 2.0};
+};
+
+TEST_F(TurningViewTest, AWholeTurnLeavesTracksWhereTheyBegan) {
+  EXPECT_LT(errorAfter(120, 3 * M_PI / 180, 1), 0.001);
+}
+
+TEST_F(TurningViewTest, AViewThatGrowsByAQuarterDoesNotMoveTracks) {
+  EXPECT_LT(errorAfter(20, 0, std::pow(1.25, 1 / 20.0)), 0.001);
+}
+
+TEST_F(TurningViewTest, AViewThatShrinksDoesNotMoveTracks) {
+  EXPECT_LT(errorAfter(20, 0, std::pow(0.82, 1 / 20.0)), 0.001);
+}
+
+TEST_F(PatchAlignerTest, AnEdgeTellsNothingAlongItself) {
+  constexpr unsigned kSeeds = 20;
+  begin_px_ = {{160, 120}};
+  previous_of_ = {0};
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    const auto slanted = [seed](unsigned which) {
+      std::mt19937 random(2 * seed + which);
+      GreyImage image(kWidth_px, kHeight_px, 3);
+      for (int y = 0; y < kHeight_px; ++y) {
+        for (int x = 0; x < kWidth_px; ++x) {
+          const double across_px = std::cos(0.2) * (x - 160) + std::sin(0.2) * (y - 120);
+          const double line = -90 * std::exp(-across_px * across_px);
+          image.at(x, y) =
+              static_cast<std::uint8_t>(std::lround(150 + line) + test::uniformInt(random, -3, 3));
+        }
+      }
+      return image;
+    };
+    begin(slanted(0));
+    const ImageFeatures features = goOn(slanted(1), {0, 0}, 0);
+    const PixelInformation& known = features.information[0];
+    if (known.empty()) continue;  // no structure, which is right, too
+    Eigen::Matrix2f information;
+    information << known.xx_per_px2, known.xy_per_px2, known.xy_per_px2, known.yy_per_px2;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2f> solver(information);
+    EXPECT_LT(solver.eigenvalues()[0], 1) << "seed " << seed;
+    EXPECT_GT(solver.eigenvalues()[1], 1 / (0.1F * 0.1F)) << "seed " << seed;
+    const Eigen::Vector2f along(-std::sin(0.2F), std::cos(0.2F));
+    EXPECT_GT(std::abs(solver.eigenvectors().col(0).dot(along)), std::cos(0.1F)) << "seed " << seed;
   }
 }
 

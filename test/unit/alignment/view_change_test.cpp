@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "alignment/view_change.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <random>
+
+#include "support/grey_images.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+/// Tracks all over an image that turns and grows, on whole pixels.
+std::vector<TrackMove> movesOf(float turn_rad, float growth, int tracks, int wrong) {
+  std::mt19937 random(5);
+  const Eigen::Matrix2f change = growth * Eigen::Rotation2Df(turn_rad).toRotationMatrix();
+  const auto anywhere_px = [&random] {
+    return Eigen::Vector2f(static_cast<float>(test::uniformInt(random, 24, 615)),
+                           static_cast<float>(test::uniformInt(random, 24, 335)));
+  };
+  std::vector<TrackMove> moves;
+  for (int i = 0; i < tracks; ++i) {
+    const Eigen::Vector2f before_px = anywhere_px();
+    const Eigen::Vector2f now_px = change * before_px + Eigen::Vector2f(31, -17);
+    const Eigen::Vector2f wrong_px = before_px + (anywhere_px() - before_px) / 8;
+    moves.push_back({before_px, i < wrong ? wrong_px : now_px.array().round().matrix().eval()});
+  }
+  return moves;
+}
+
+void expectChange(const ViewChange& change, float turn_rad, float growth, float error) {
+  EXPECT_NEAR(change.along, growth * std::cos(turn_rad), error);
+  EXPECT_NEAR(change.across, growth * std::sin(turn_rad), error);
+}
+
+TEST(CommonViewChange, IsTheSimilarityThatMovedTheTracks) {
+  for (const float turn_rad : {-0.3F, 0.F, 0.05F})
+    for (const float growth : {0.8F, 1.F, 1.2F})
+      expectChange(commonViewChange(movesOf(turn_rad, growth, 300, 0)), turn_rad, growth, 4e-4F);
+}
+
+TEST(CommonViewChange, WrongMatchesHardlyCount) {
+  expectChange(commonViewChange(movesOf(0.06F, 1.02F, 300, 100)), 0.06F, 1.02F, 3e-3F);
+}
+
+TEST(CommonViewChange, IsNoneWhereTooLittleTellsIt) {
+  expectChange(commonViewChange({}), 0, 1, 0);
+  expectChange(commonViewChange(movesOf(0.1F, 1, 7, 0)), 0, 1, 0);
+  expectChange(commonViewChange(std::vector<TrackMove>(50, {{40, 40}, {50, 60}})), 0, 1, 0);
+  expectChange(commonViewChange(movesOf(2, 1, 300, 0)), 0, 1, 0);  // not between two images
+}
+
+TEST(ViewChange, IsComposedAndInverted) {
+  const ViewChange first{0.9F, 0.3F};
+  const ViewChange second{1.1F, -0.2F};
+  const Eigen::Vector2f offset_px(3, -4);
+  EXPECT_LT((second * (first * offset_px) - (second * first) * offset_px).norm(), 1e-5F);
+  EXPECT_LT((first.inverse() * (first * offset_px) - offset_px).norm(), 1e-5F);
+  EXPECT_NEAR(first.differenceFrom(first), 0, 1e-7);
+  EXPECT_NEAR((ViewChange{std::cos(0.1F), std::sin(0.1F)}.differenceFrom({})), 0.1, 1e-3);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam
