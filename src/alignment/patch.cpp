@@ -94,14 +94,14 @@ std::optional<AlignPatch> prepared(AlignPatch patch) {
 /// Inverse of the structure without what is there along an edge, too, where nothing tells the
 /// place: the gradients of noise, and those of an edge that is sampled.
 /// @param noise  what noise alone gives in each direction
-Eigen::Matrix2f trustedInverse(const Eigen::Matrix2f& structure, float noise) {
+/// @param least  what is left at least
+Eigen::Matrix2f trustedInverse(const Eigen::Matrix2f& structure, float noise, float least) {
   constexpr float kSampled = 0.05F;  // of the structure across an edge
-  constexpr float kLeast = 1;
   const Eigen::Vector2f spread(structure(0, 0) - structure(1, 1), 2 * structure(0, 1));
   const float half = spread.norm() / 2;
   const float middle = structure.trace() / 2 - noise;
-  const float large = std::max(middle + half, kLeast);
-  const float small = std::max(middle - half - kSampled * large, kLeast);
+  const float large = std::max(middle + half, least);
+  const float small = std::max(middle - half - kSampled * large, least);
   // Of the same directions as the structure, with the inverse of both.
   const float mean = (1 / large + 1 / small) / 2;
   const Eigen::Vector2f difference = (1 / large - 1 / small) / 2 * spread.normalized();
@@ -153,9 +153,12 @@ Eigen::Matrix2f positionVariance_px2(const AlignPatch& patch, const kernels::Ali
   // Three quarters of what is left are the patch's own noise: the image's is smoothed between
   // pixels. A gradient is a difference of two levels, hence twice.
   constexpr float kNoise = 2 * kPixels * 0.75F;
+  // Along an edge the match of corners still tells so much.
+  constexpr float kMost_px2 = 0.8F * 0.8F;
+  const float unit = 4 * std::max(level2, 1e-6F);
   Eigen::Matrix2f inverse;
   inverse << patch.inverse[0], patch.inverse[1], patch.inverse[1], patch.inverse[3];
-  return 4 * level2 * trustedInverse(inverse.inverse(), kNoise * level2);
+  return unit * trustedInverse(inverse.inverse(), kNoise * level2, unit / kMost_px2);
 }
 
 float explainedShare(const kernels::AlignResult& found) {

@@ -1,7 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "odometry/image_rays.hpp"
 
+#include <cmath>
+
 namespace ardrone_vslam {
+namespace {
+
+/// Whether alignment tells the place in every direction: a corner on an edge slides along it, and
+/// where alignment fails most matches are wrong. Of a tracker that does not align: every one.
+bool isSharp(const ImageFeatures& features, std::size_t i) {
+  if (features.information.empty()) return true;
+  constexpr float kLeast_per_px2 = 1 / (0.5F * 0.5F);
+  const PixelInformation& told = features.information[i];
+  const float half = (told.xx_per_px2 - told.yy_per_px2) / 2;
+  const float spread = std::sqrt(half * half + told.xy_per_px2 * told.xy_per_px2);
+  return (told.xx_per_px2 + told.yy_per_px2) / 2 - spread > kLeast_per_px2;
+}
+
+}  // namespace
 
 void ImageRays::take(const ImageFeatures& features, TrackOrder& order) {
   stamp_ns = features.stamp_ns;
@@ -9,7 +25,8 @@ void ImageRays::take(const ImageFeatures& features, TrackOrder& order) {
   rays.clear();
   order.reset(features);
   for (const TrackedFeature& one : order)
-    rays.push_back({one.track_id, features.bearing_cam[one.feature]});
+    if (isSharp(features, one.feature))
+      rays.push_back({one.track_id, features.bearing_cam[one.feature]});
 }
 
 void findPairs(const ImageRays& then, const ImageRays& now, std::size_t most,

@@ -146,15 +146,16 @@ class TurningViewTest : public PatchAlignerTest {
 };
 
 TEST_F(TurningViewTest, AWholeTurnLeavesTracksWhereTheyBegan) {
-  EXPECT_LT(errorAfter(120, 3 * M_PI / 180, 1), 0.001);
+  // 0.035 is measured, 1.35 without turning the patch.
+  EXPECT_LT(errorAfter(120, 3 * M_PI / 180, 1), 0.06);
 }
 
 TEST_F(TurningViewTest, AViewThatGrowsByAQuarterDoesNotMoveTracks) {
-  EXPECT_LT(errorAfter(20, 0, std::pow(1.25, 1 / 20.0)), 0.001);
+  EXPECT_LT(errorAfter(20, 0, std::pow(1.25, 1 / 20.0)), 0.11);  // 0.072; without 0.44
 }
 
 TEST_F(TurningViewTest, AViewThatShrinksDoesNotMoveTracks) {
-  EXPECT_LT(errorAfter(20, 0, std::pow(0.82, 1 / 20.0)), 0.001);
+  EXPECT_LT(errorAfter(20, 0, std::pow(0.82, 1 / 20.0)), 0.08);  // 0.047; without 0.46
 }
 
 TEST_F(PatchAlignerTest, AnEdgeTellsNothingAlongItself) {
