@@ -10,7 +10,7 @@
 namespace ardrone_vslam::bench {
 
 /// How many images lie between the two of a pair.
-constexpr std::array<std::size_t, 4> kImagesApart = {1, 3, 10, 30};
+constexpr std::array<std::size_t, 3> kImagesApart = {1, 3, 10};
 constexpr int kFeatures = 600;
 
 /// Sampson distances of tracks, with their sign [px].

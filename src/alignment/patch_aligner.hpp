@@ -2,10 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
-#include "alignment/patch.hpp"
+#include "alignment/patch_references.hpp"
 #include "alignment/view_change.hpp"
 #include "ardrone_vslam/camera_model.hpp"
 #include "ardrone_vslam/features.hpp"
@@ -30,34 +29,13 @@ class PatchAligner {
   void align(const ImageView& image, const std::vector<int>& previous_of, ImageFeatures& features);
 
  private:
-  /// What a track keeps of the image that it is compared with.
-  struct Reference {
-    Surroundings surroundings;
-    std::optional<kernels::AlignPatch> patch;
-    Eigen::Vector2f offset_px = Eigen::Vector2f::Zero();  // of the track's point from the patch's
-    float variance_px2 = 0;  // of that point beside the track's first corner
-    int failures = 0;        // in a row
-    ViewChange change;       // of the view, from the surroundings to the image before
-    ViewChange applied;      // of it, in the patch and the offset
-    bool is_new = true;      // of this image
-  };
-
-  std::size_t freeReference();
-  /// Tracks that have ended give theirs back.
-  void takeOver(const std::vector<int>& previous_of);
   /// From the image before to this one.
   void measureChange(const std::vector<int>& previous_of, const ImageFeatures& features);
-  static void turnTo(const ViewChange& change, Reference& reference);
-  void begin(const ImageView& image, const Eigen::Vector2f& corner_px, Reference& reference) const;
-  void goOn(const ImageView& image, std::size_t feature, Reference& reference,
-            ImageFeatures& features) const;
+  void goOn(const ImageView& image, std::size_t feature, ImageFeatures& features);
 
   const CameraModel& camera_;
   decltype(kernels::Kernels::align) align_;
-  std::vector<Reference> references_;  // in no order
-  std::vector<std::size_t> free_;      // places in it
-  std::vector<std::size_t> before_;    // place of each feature's, in the image before
-  std::vector<std::size_t> now_;
+  PatchReferences references_;
   std::vector<Eigen::Vector2f> before_px_;  // the features of the image before
   std::vector<TrackMove> moves_;
   ViewChange change_;  // of the last two images

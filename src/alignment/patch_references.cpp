@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "alignment/patch_references.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace ardrone_vslam {
+
+void PatchReference::begin(const ImageView& image, const Eigen::Vector2f& point_px) {
+  const auto x_px = static_cast<int>(std::lround(point_px.x()));
+  const auto y_px = static_cast<int>(std::lround(point_px.y()));
+  surroundings = surroundingsOf(image, x_px, y_px);
+  patch = patchOf(surroundings);
+  offset_px = point_px - Eigen::Vector2i(x_px, y_px).cast<float>();
+  change = {};
+  applied = {};
+  is_new = true;
+  failures = 0;
+}
+
+void PatchReference::turnTo(const ViewChange& change_since) {
+  constexpr float kTurnAgain = 0.05F;  // 3 degrees, or 5 %
+  constexpr float kMostGrowth = 1.6F;  // beyond it the surroundings have too little detail
+  const float growth = change_since.growth();
+  if (!patch || change_since.differenceFrom(applied) < kTurnAgain ||
+      growth < Surroundings::kLeastGrowth || growth > kMostGrowth)
+    return;
+  const auto turned = patchOf(surroundings, change_since);
+  if (!turned) return;
+  patch = turned;
+  offset_px = change_since * (applied.inverse() * offset_px);
+  applied = change_since;
+}
+
+void PatchReferences::reserve(std::size_t features) {
+  references_.reserve(features);
+  free_.reserve(features);
+  before_.reserve(features);
+  now_.reserve(features);
+}
+
+void PatchReferences::takeOver(const std::vector<int>& previous_of) {
+  constexpr auto kTaken = static_cast<std::size_t>(-1);
+  std::swap(before_, now_);
+  now_.assign(previous_of.size(), kTaken);
+  for (std::size_t i = 0; i < previous_of.size(); ++i)
+    if (previous_of[i] >= 0)
+      now_[i] = std::exchange(before_[static_cast<std::size_t>(previous_of[i])], kTaken);
+  for (const std::size_t place : before_)
+    if (place != kTaken) free_.push_back(place);
+  for (std::size_t& place : now_) {
+    if (place != kTaken) continue;
+    if (free_.empty()) {
+      free_.push_back(references_.size());
+      references_.emplace_back();
+    }
+    place = free_.back();
+    free_.pop_back();
+    references_[place].variance_px2 = 0;
+  }
+}
+
+}  // namespace ardrone_vslam
