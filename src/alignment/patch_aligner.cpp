@@ -79,20 +79,21 @@ void PatchAligner::goOn(const ImageView& image, std::size_t feature, ImageFeatur
   const auto bearing = fits ? camera_.bearing(point_px.cast<double>()) : std::nullopt;
   if (!bearing) {
     if (++reference.failures < kMostFailures) return;
-    reference.variance_px2 += kCornerVariance_px2;
+    reference.variance_px2.diagonal().array() += kCornerVariance_px2;
     reference.begin(image, corner_px);
     return;
   }
   reference.failures = 0;
   Eigen::Matrix2f variance_px2 = kModelFactor2 * positionVariance_px2(*reference.patch, found);
-  variance_px2.diagonal().array() += reference.variance_px2 + kModelVariance_px2;
+  variance_px2 += reference.variance_px2;
+  variance_px2.diagonal().array() += kModelVariance_px2;
   const Eigen::Matrix2f information = variance_px2.inverse();
   features.pixel_px[feature] = point_px;
   features.bearing_cam[feature] = bearing->cast<float>();
   features.information[feature] = {information(0, 0), information(0, 1), information(1, 1)};
   features.residual[feature] = std::sqrt(std::max(found.rest, 0.F) / kPixels);
   if (explainedShare(found) >= kRenewBelow) return;
-  reference.variance_px2 = variance_px2.trace() / 2;
+  reference.variance_px2 = variance_px2;
   reference.begin(image, point_px);
 }
 

@@ -28,7 +28,11 @@ void PatchReference::turnTo(const ViewChange& change_since) {
   const auto turned = patchOf(surroundings, change_since);
   if (!turned) return;
   patch = turned;
-  offset_px = change_since * (applied.inverse() * offset_px);
+  const ViewChange more = change_since * applied.inverse();
+  offset_px = more * offset_px;
+  Eigen::Matrix2f turn;
+  turn << more.along, -more.across, more.across, more.along;
+  variance_px2 = turn * variance_px2 * turn.transpose();
   applied = change_since;
 }
 
@@ -56,7 +60,7 @@ void PatchReferences::takeOver(const std::vector<int>& previous_of) {
     }
     place = free_.back();
     free_.pop_back();
-    references_[place].variance_px2 = 0;
+    references_[place].variance_px2.setZero();
   }
 }
 
