@@ -23,6 +23,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_window = hammingWindowAvx2;
     kernels.project = projectAvx2;
     kernels.product_tile = productTileAvx2;
+    // Four rows in a vector of AVX-512 were measured: 8 % slower than two of AVX2.
     kernels.align = alignAvx2;
   }
   if (set == InstructionSet::kAvx512) {
