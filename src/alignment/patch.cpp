@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -59,16 +60,41 @@ PatchSums sumsOf(const AlignPatch& patch) {
   return sums;
 }
 
-/// Between four pixels.
-float levelAt(const Surroundings& surroundings, const Eigen::Vector2f& at) {
-  const auto x = static_cast<int>(at.x());
-  const auto y = static_cast<int>(at.y());
-  const float right = at.x() - static_cast<float>(x);
-  const float below = at.y() - static_cast<float>(y);
-  const auto between = [x, right](const std::uint8_t* row) {
-    return static_cast<float>(row[x]) * (1 - right) + static_cast<float>(row[x + 1]) * right;
+/// A place in the surroundings, and what it moves by from column to column or row to row.
+struct Place {
+  static constexpr int kBits = 16;  // behind the point
+  std::int32_t x;
+  std::int32_t y;
+
+  explicit Place(const Eigen::Vector2f& px) : x(fixed(px.x())), y(fixed(px.y())) {}
+  void operator+=(const Place& step) {
+    x += step.x;
+    y += step.y;
+  }
+
+ private:
+  static std::int32_t fixed(float px) {
+    return static_cast<std::int32_t>(std::lround(px * (1 << kBits)));
+  }
+};
+
+/// Between four pixels, at steps of 1/128 px.
+std::uint8_t levelAt(const Surroundings& surroundings, const Place& at) {
+  constexpr int kLevelBits = 7;
+  constexpr int kSteps = 1 << kLevelBits;
+  const auto fraction = [](std::int32_t px) {
+    return px >> (Place::kBits - kLevelBits) & (kSteps - 1);
   };
-  return between(surroundings.rows[y]) * (1 - below) + between(surroundings.rows[y + 1]) * below;
+  const std::int32_t right = fraction(at.x);
+  const std::uint8_t* above = &surroundings.rows[at.y >> Place::kBits][at.x >> Place::kBits];
+  const auto between = [right](const std::uint8_t* row) {
+    return row[0] * kSteps + (row[1] - row[0]) * right;
+  };
+  const std::int32_t first = between(above);
+  const std::int32_t second = between(above + Surroundings::kSide);
+  constexpr std::int32_t kHalf = kSteps * kSteps / 2;
+  return static_cast<std::uint8_t>((first * kSteps + (second - first) * fraction(at.y) + kHalf) >>
+                                   (2 * kLevelBits));
 }
 
 /// Fills in what follows from the levels.
@@ -123,26 +149,19 @@ Surroundings surroundingsOf(const ImageView& image, int x_px, int y_px) {
   return surroundings;
 }
 
-std::optional<AlignPatch> patchOf(const Surroundings& surroundings) {
-  constexpr int kFirst = Surroundings::kCentre - kernels::kPatchCentre;
-  AlignPatch patch{};
-  for (int row = 0; row < kernels::kPatchRows; ++row)
-    std::memcpy(patch.rows[row], surroundings.rows[kFirst + row] + kFirst, kernels::kPatchRows);
-  return prepared(patch);
-}
-
 std::optional<AlignPatch> patchOf(const Surroundings& surroundings, const ViewChange& change) {
   assert(change.growth() >= Surroundings::kLeastGrowth && "the surroundings do not reach so far");
-  constexpr auto kCentre = static_cast<float>(Surroundings::kCentre);
   const ViewChange back = change.inverse();
+  constexpr auto kFirst = static_cast<float>(-kernels::kPatchCentre);
+  const Place column_step(back * Eigen::Vector2f::UnitX());
+  const Place row_step(back * Eigen::Vector2f::UnitY());
+  Place row_begin((back * Eigen::Vector2f(kFirst, kFirst)).array() + Surroundings::kCentre);
   AlignPatch patch{};
-  for (int row = 0; row < kernels::kPatchRows; ++row) {
-    for (int column = 0; column < kernels::kPatchRows; ++column) {
-      const Eigen::Vector2f offset_px(static_cast<float>(column - kernels::kPatchCentre),
-                                      static_cast<float>(row - kernels::kPatchCentre));
-      const Eigen::Vector2f at = (back * offset_px).array() + kCentre;
-      patch.rows[row][column] = static_cast<std::uint8_t>(levelAt(surroundings, at) + 0.5F);
-    }
+  for (auto& row : patch.rows) {
+    Place at = row_begin;
+    for (int column = 0; column < kernels::kPatchRows; ++column, at += column_step)
+      row[column] = levelAt(surroundings, at);
+    row_begin += row_step;
   }
   return prepared(patch);
 }

@@ -24,14 +24,11 @@ struct Surroundings {
 /// @param x_px, y_px  at least Surroundings::kCentre inside the image (asserted)
 Surroundings surroundingsOf(const ImageView& image, int x_px, int y_px);
 
-/// The patch in the middle.
-/// @return nothing where there is no structure to align
-std::optional<kernels::AlignPatch> patchOf(const Surroundings& surroundings);
-
-/// The same as a later view shows it.
+/// The patch in the middle, as a later view shows it. The levels are sampled in whole numbers.
 /// @param change  from the surroundings' image on, of a growth of at least kLeastGrowth (asserted)
+/// @return nothing where there is no structure to align
 std::optional<kernels::AlignPatch> patchOf(const Surroundings& surroundings,
-                                           const ViewChange& change);
+                                           const ViewChange& change = {});
 
 /// How well an alignment tells the position, by the patch's structure and what the alignment left.
 /// @return variance [px^2], columns and rows

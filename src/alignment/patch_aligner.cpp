@@ -46,8 +46,7 @@ void PatchAligner::align(const ImageView& image, const std::vector<int>& previou
     }
     // The corner is the track's point, so that it is where it is by definition.
     reference.begin(image, features.pixel_px[i]);
-    if (reference.patch)
-      features.information[i] = {1 / kModelVariance_px2, 0, 1 / kModelVariance_px2};
+    features.information[i] = {1 / kModelVariance_px2, 0, 1 / kModelVariance_px2};
   }
   measureChange(previous_of, features);
   before_px_.assign(features.pixel_px.begin(), features.pixel_px.end());

@@ -10,7 +10,8 @@ void PatchReference::begin(const ImageView& image, const Eigen::Vector2f& point_
   const auto x_px = static_cast<int>(std::lround(point_px.x()));
   const auto y_px = static_cast<int>(std::lround(point_px.y()));
   surroundings = surroundingsOf(image, x_px, y_px);
-  patch = patchOf(surroundings);
+  patch.reset();
+  is_to_be_made = true;
   offset_px = point_px - Eigen::Vector2i(x_px, y_px).cast<float>();
   change = {};
   applied = {};
@@ -22,18 +23,19 @@ void PatchReference::turnTo(const ViewChange& change_since) {
   constexpr float kTurnAgain = 0.05F;  // 3 degrees, or 5 %
   constexpr float kMostGrowth = 1.6F;  // beyond it the surroundings have too little detail
   const float growth = change_since.growth();
-  if (!patch || change_since.differenceFrom(applied) < kTurnAgain ||
-      growth < Surroundings::kLeastGrowth || growth > kMostGrowth)
-    return;
-  const auto turned = patchOf(surroundings, change_since);
-  if (!turned) return;
-  patch = turned;
-  const ViewChange more = change_since * applied.inverse();
+  const bool is_turned = change_since.differenceFrom(applied) >= kTurnAgain &&
+                         growth >= Surroundings::kLeastGrowth && growth <= kMostGrowth;
+  if (!std::exchange(is_to_be_made, false) && !(patch && is_turned)) return;
+  const ViewChange wanted = is_turned ? change_since : applied;
+  const auto made = patchOf(surroundings, wanted);
+  if (!made) return;
+  patch = made;
+  const ViewChange more = wanted * applied.inverse();
   offset_px = more * offset_px;
   Eigen::Matrix2f turn;
   turn << more.along, -more.across, more.across, more.along;
   variance_px2 = turn * variance_px2 * turn.transpose();
-  applied = change_since;
+  applied = wanted;
 }
 
 void PatchReferences::reserve(std::size_t features) {

@@ -15,7 +15,8 @@ namespace ardrone_vslam {
 /// What a track keeps of the image that it is compared with.
 struct PatchReference {
   Surroundings surroundings;
-  std::optional<kernels::AlignPatch> patch;
+  std::optional<kernels::AlignPatch> patch;  ///< of the surroundings, if they have structure
+  bool is_to_be_made = true;                 ///< the patch: most tracks end before it is needed
   Eigen::Vector2f offset_px = Eigen::Vector2f::Zero();  ///< of the track's point from the patch's
   /// Of that point beside the track's first corner.
   Eigen::Matrix2f variance_px2 = Eigen::Matrix2f::Zero();
@@ -26,7 +27,7 @@ struct PatchReference {
 
   /// From now on the track is compared with this image. The point's variance stays.
   void begin(const ImageView& image, const Eigen::Vector2f& point_px);
-  /// Makes the patch anew where the view has turned or grown by more since.
+  /// Makes the patch, and anew where the view has turned or grown by more since.
   void turnTo(const ViewChange& change_since);
 };
 
