@@ -11,7 +11,7 @@ namespace {
 constexpr double kVelocityNoiseRate_hz = 15;  // at which velocity_noise_m_s is stated
 
 /// One stream of random numbers for each cause, so that switching one off leaves the others alone.
-enum Stream : std::uint64_t { kScale, kVelocity, kStep, kAttitude, kYaw };
+enum Stream : std::uint64_t { kScale, kVelocity, kStep, kAttitude, kYaw, kYawScale = 6 };
 
 /// Ornstein-Uhlenbeck process, discretised exactly and started in its stationary distribution.
 class DriftingBias {
@@ -36,6 +36,11 @@ Eigen::Quaterniond fromRotationVector(const Eigen::Vector3d& v) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, v / angle));
 }
 
+double turnAboutZ(const Eigen::Matrix3d& R_then_now) {
+  const Eigen::AngleAxisd turn(R_then_now);
+  return turn.angle() * turn.axis().z();
+}
+
 /// True attitude -> reported attitude.
 class AttitudeCorruption {
  public:
@@ -44,16 +49,19 @@ class AttitudeCorruption {
         dt_s_(dt_s),
         noise_(seed, kAttitude),
         yaw_noise_(seed, kYaw),
+        yaw_scale_error_(profile.yaw_scale_sigma * RandomSource(seed, kYawScale).normal()),
         tilt_bias_(profile.attitude_bias_rad, profile.attitude_bias_time_s, dt_s, noise_.normal3()),
         walk_(Eigen::Quaterniond::Identity()) {}
 
-  /// The walk over a step of this length turns about the body's own z axis, which is up whatever
-  /// the convention of the map is (a map of camera poses may have its y axis down).
-  void advance(double step_m, const Eigen::Quaterniond& true_map_base) {
+  /// The error of a step of this length turns about the body's own z axis, which is up whatever the
+  /// convention of the map is (a map of camera poses may have its y axis down).
+  /// @param yaw_rad  what the body turned by in the step about that axis
+  void advance(double step_m, double yaw_rad, const Eigen::Quaterniond& true_map_base) {
     const double variance =
         profile_.yaw_walk_rad_per_sqrt_m * profile_.yaw_walk_rad_per_sqrt_m * step_m +
         profile_.yaw_walk_rad_per_sqrt_s * profile_.yaw_walk_rad_per_sqrt_s * dt_s_;
-    const Eigen::Vector3d turn(0, 0, std::sqrt(variance) * yaw_noise_.normal());
+    const Eigen::Vector3d turn(
+        0, 0, std::sqrt(variance) * yaw_noise_.normal() + yaw_scale_error_ * yaw_rad);
     walk_ =
         (walk_ * true_map_base * fromRotationVector(turn) * true_map_base.conjugate()).normalized();
     tilt_bias_.advance(noise_.normal3());
@@ -77,6 +85,7 @@ class AttitudeCorruption {
   double dt_s_;
   RandomSource noise_;
   RandomSource yaw_noise_;
+  double yaw_scale_error_;
   DriftingBias tilt_bias_;   // rotation vector, body; z unused
   Eigen::Quaterniond walk_;  // in the map, left of the true attitude
 };
@@ -151,11 +160,13 @@ Eigen::Isometry3d OdometryDrift::report(const Eigen::Isometry3d& T_map_base, dou
   const Eigen::Quaterniond q_map_base(T_map_base.linear());
   Eigen::Vector3d position = T_map_base.translation();
   if (has_last_) {
+    const Eigen::Matrix3d R_last_map = T_map_last_.linear().transpose();
     const Eigen::Vector3d step_base =
-        T_map_last_.linear().transpose() * (T_map_base.translation() - T_map_last_.translation());
+        R_last_map * (T_map_base.translation() - T_map_last_.translation());
     position =
         T_odom_last_.translation() + T_odom_last_.linear() * noise_->steps.corrupt(step_base);
-    noise_->attitude.advance(step_base.norm(), q_map_base);
+    noise_->attitude.advance(step_base.norm(), turnAboutZ(R_last_map * T_map_base.linear()),
+                             q_map_base);
   }
   has_last_ = true;
   T_map_last_ = T_map_base;

@@ -20,6 +20,7 @@ struct OdometryProfile {
   double velocity_bias_m_s = 0;      ///< OU deviation per axis
   double velocity_bias_time_s = 20;  ///< OU time constant
   double velocity_noise_m_s = 0;     ///< white at 15 Hz, scaled by the root of the rate
+  double yaw_scale_sigma = 0;  ///< of the error of turns, as a share of them, drawn once per run
   double yaw_walk_rad_per_sqrt_m = 0;
   double yaw_walk_rad_per_sqrt_s = 0;
   double attitude_bias_rad = 0;  ///< OU deviation of roll and pitch
@@ -28,7 +29,7 @@ struct OdometryProfile {
   double delay_s = 0;             ///< unknown to the user: stamps are late by this
   double loss = 0;                ///< share of the states lost
   bool bursts = false;            ///< bursts of states with equal stamps
-  /// Profiles that take its place later, as to noise and biases; rate, scale error and transport
+  /// Profiles that take its place later, as to noise and biases; rate, scale errors and transport
   /// stay.
   std::vector<OdometryProfile> later;
   double from_s = 0;  ///< of a later one: after the truth's begin

@@ -29,6 +29,7 @@ const std::vector<Key>& numberKeys() {
       {"velocity_bias_m_s", &OdometryProfile::velocity_bias_m_s, 1, true},
       {"velocity_bias_time_s", &OdometryProfile::velocity_bias_time_s, 1, false},
       {"velocity_noise_m_s", &OdometryProfile::velocity_noise_m_s, 1, true},
+      {"yaw_scale_sigma", &OdometryProfile::yaw_scale_sigma, 1, true},
       {"yaw_walk_deg_per_sqrt_m", &OdometryProfile::yaw_walk_rad_per_sqrt_m, kRadPerDeg, true},
       {"yaw_walk_deg_per_sqrt_min", &OdometryProfile::yaw_walk_rad_per_sqrt_s,
        kRadPerDeg / std::sqrt(60.0), true},
