@@ -72,7 +72,7 @@ RelativePose stepFrom(const RelativePose& pose, const std::vector<PointPair>& pa
 
 std::optional<RelativePose> refined(const RelativePose& start,
                                     const std::vector<PointPair>& pairs) {
-  constexpr std::size_t kFewest = 40;
+  constexpr std::size_t kFewest = 60;
   constexpr int kSteps = 8;
   if (pairs.size() < kFewest) return std::nullopt;
   RelativePose pose = start;

@@ -63,7 +63,9 @@ struct ImageFeatures {
 
   /// Number of features.
   std::size_t size() const { return pixel_px.size(); }
-  /// How many of them have a position between pixels, or begin a track that can be aligned.
+  /// How many of them carry on a track.
+  std::size_t tracked() const;
+  /// How many of these are aligned: the others are where their corner is.
   std::size_t aligned() const;
   /// No features; the arrays keep their memory.
   void clear();

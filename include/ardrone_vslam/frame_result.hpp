@@ -88,6 +88,8 @@ struct FrameResult {
 
   MatchMethod match_method = MatchMethod::kGuided;  ///< how landmarks were looked for
   int features = 0;                                 ///< in the image
+  int tracks = 0;                                   ///< features that carry on a track
+  int tracks_aligned = 0;       ///< of them, those with a position between pixels
   int landmarks_in_view = 0;    ///< landmarks that the prediction puts into the image
   int landmark_candidates = 0;  ///< landmark matches before the removal of mismatches
   int landmark_matches = 0;     ///< and after

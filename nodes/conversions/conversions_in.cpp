@@ -50,6 +50,9 @@ std::string faultOfFeature(const Features& m, std::size_t i) {
   if (!m.information.empty() && !isInformation(&m.information[3 * i])) {
     return text("information ", i, " is neither positive definite nor all 0");
   }
+  if (!m.residual.empty() && !std::isfinite(m.residual[i])) {
+    return text("residual ", i, " is not a finite number");
+  }
   if (m.track_id[i] == 0) return text("track_id ", i, " is 0, which is not a track");
   return {};
 }

@@ -52,7 +52,8 @@ void TrackerStatus::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status
   status.add("images waiting", counts.waiting);
   if (parts_.attitude) status.add("images without attitude", parts_.attitude->imagesWithout());
   status.add("features in the latest image", parts_.tracker.features().size());
-  status.add("features aligned in the latest image", parts_.tracker.features().aligned());
+  status.add("tracks in the latest image", parts_.tracker.features().tracked());
+  status.add("tracks aligned in the latest image", parts_.tracker.features().aligned());
 }
 
 }  // namespace ardrone_vslam

@@ -66,7 +66,7 @@ struct Place {
   std::int32_t x;
   std::int32_t y;
 
-  explicit Place(const Eigen::Vector2f& px) : x(fixed(px.x())), y(fixed(px.y())) {}
+  explicit Place(const std::complex<float>& px) : x(fixed(px.real())), y(fixed(px.imag())) {}
   void operator+=(const Place& step) {
     x += step.x;
     y += step.y;
@@ -150,12 +150,13 @@ Surroundings surroundingsOf(const ImageView& image, int x_px, int y_px) {
 }
 
 std::optional<AlignPatch> patchOf(const Surroundings& surroundings, const ViewChange& change) {
-  assert(change.growth() >= Surroundings::kLeastGrowth && "the surroundings do not reach so far");
-  const ViewChange back = change.inverse();
+  assert(std::abs(change) >= Surroundings::kLeastGrowth && "the surroundings do not reach so far");
   constexpr auto kFirst = static_cast<float>(-kernels::kPatchCentre);
-  const Place column_step(back * Eigen::Vector2f::UnitX());
-  const Place row_step(back * Eigen::Vector2f::UnitY());
-  Place row_begin((back * Eigen::Vector2f(kFirst, kFirst)).array() + Surroundings::kCentre);
+  constexpr auto kCentre = static_cast<float>(Surroundings::kCentre);
+  const ViewChange back = kSameView / change;
+  const Place column_step(back);
+  const Place row_step(back * ViewChange(0, 1));
+  Place row_begin(back * ViewChange(kFirst, kFirst) + ViewChange(kCentre, kCentre));
   AlignPatch patch{};
   for (auto& row : patch.rows) {
     Place at = row_begin;

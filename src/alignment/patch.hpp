@@ -28,7 +28,7 @@ Surroundings surroundingsOf(const ImageView& image, int x_px, int y_px);
 /// @param change  from the surroundings' image on, of a growth of at least kLeastGrowth (asserted)
 /// @return nothing where there is no structure to align
 std::optional<kernels::AlignPatch> patchOf(const Surroundings& surroundings,
-                                           const ViewChange& change = {});
+                                           const ViewChange& change = kSameView);
 
 /// How well an alignment tells the position, by the patch's structure and what the alignment left.
 /// @return variance [px^2], columns and rows

@@ -24,6 +24,19 @@ constexpr float kModelFactor2 = 1.4F * 1.4F;
 constexpr float kModelVariance_px2 = 0.025F * 0.025F;
 constexpr float kPixels = kernels::kPatchSide * kernels::kPatchSide;
 
+/// The track is where its corner is, whatever was known of it before.
+void beginAtCorner(const ImageView& image, const Eigen::Vector2f& corner_px,
+                   PatchReference& reference) {
+  reference.begin(image, corner_px);
+  reference.variance_px2 = kCornerVariance_px2 * Eigen::Matrix2f::Identity();
+}
+
+/// In the direction that is known best.
+float leastVariance(const Eigen::Matrix2f& variance) {
+  return variance.trace() / 2 -
+         Eigen::Vector2f((variance(0, 0) - variance(1, 1)) / 2, variance(0, 1)).norm();
+}
+
 }  // namespace
 
 void PatchAligner::reserve(std::size_t features) {
@@ -57,7 +70,8 @@ void PatchAligner::measureChange(const std::vector<int>& previous_of,
   moves_.clear();
   for (std::size_t i = 0; i < previous_of.size(); ++i) {
     if (previous_of[i] < 0) continue;
-    moves_.push_back({before_px_[static_cast<std::size_t>(previous_of[i])], features.pixel_px[i]});
+    moves_.push_back({complexOf(before_px_[static_cast<std::size_t>(previous_of[i])]),
+                      complexOf(features.pixel_px[i])});
   }
   change_ = commonViewChange(moves_);
   for (std::size_t i = 0; i < features.size(); ++i) {
@@ -78,8 +92,7 @@ void PatchAligner::goOn(const ImageView& image, std::size_t feature, ImageFeatur
   const auto bearing = fits ? camera_.bearing(point_px.cast<double>()) : std::nullopt;
   if (!bearing) {
     if (++reference.failures < kMostFailures) return;
-    reference.variance_px2.diagonal().array() += kCornerVariance_px2;
-    reference.begin(image, corner_px);
+    beginAtCorner(image, corner_px, reference);
     return;
   }
   reference.failures = 0;
@@ -92,8 +105,12 @@ void PatchAligner::goOn(const ImageView& image, std::size_t feature, ImageFeatur
   features.information[feature] = {information(0, 0), information(0, 1), information(1, 1)};
   features.residual[feature] = std::sqrt(std::max(found.rest, 0.F) / kPixels);
   if (explainedShare(found) >= kRenewBelow) return;
-  reference.variance_px2 = variance_px2;
+  if (leastVariance(variance_px2) > kCornerVariance_px2) {
+    beginAtCorner(image, corner_px, reference);  // the chain of views has lost more
+    return;
+  }
   reference.begin(image, point_px);
+  reference.variance_px2 = variance_px2;
 }
 
 }  // namespace ardrone_vslam

@@ -38,7 +38,7 @@ class PatchAligner {
   PatchReferences references_;
   std::vector<Eigen::Vector2f> before_px_;  // the features of the image before
   std::vector<TrackMove> moves_;
-  ViewChange change_;  // of the last two images
+  ViewChange change_ = kSameView;  // of the last two images
 };
 
 }  // namespace ardrone_vslam

@@ -13,8 +13,7 @@ void PatchReference::begin(const ImageView& image, const Eigen::Vector2f& point_
   patch.reset();
   is_to_be_made = true;
   offset_px = point_px - Eigen::Vector2i(x_px, y_px).cast<float>();
-  change = {};
-  applied = {};
+  change = applied = kSameView;
   is_new = true;
   failures = 0;
 }
@@ -22,18 +21,18 @@ void PatchReference::begin(const ImageView& image, const Eigen::Vector2f& point_
 void PatchReference::turnTo(const ViewChange& change_since) {
   constexpr float kTurnAgain = 0.05F;  // 3 degrees, or 5 %
   constexpr float kMostGrowth = 1.6F;  // beyond it the surroundings have too little detail
-  const float growth = change_since.growth();
-  const bool is_turned = change_since.differenceFrom(applied) >= kTurnAgain &&
+  const float growth = std::abs(change_since);
+  const bool is_turned = differenceOf(change_since, applied) >= kTurnAgain &&
                          growth >= Surroundings::kLeastGrowth && growth <= kMostGrowth;
   if (!std::exchange(is_to_be_made, false) && !(patch && is_turned)) return;
   const ViewChange wanted = is_turned ? change_since : applied;
   const auto made = patchOf(surroundings, wanted);
   if (!made) return;
   patch = made;
-  const ViewChange more = wanted * applied.inverse();
-  offset_px = more * offset_px;
+  const ViewChange more = wanted / applied;
+  offset_px = vectorOf(more * complexOf(offset_px));
   Eigen::Matrix2f turn;
-  turn << more.along, -more.across, more.across, more.along;
+  turn << more.real(), -more.imag(), more.imag(), more.real();
   variance_px2 = turn * variance_px2 * turn.transpose();
   applied = wanted;
 }

@@ -20,10 +20,10 @@ struct PatchReference {
   Eigen::Vector2f offset_px = Eigen::Vector2f::Zero();  ///< of the track's point from the patch's
   /// Of that point beside the track's first corner.
   Eigen::Matrix2f variance_px2 = Eigen::Matrix2f::Zero();
-  int failures = 0;    ///< in a row
-  ViewChange change;   ///< of the view, from the surroundings to the image before
-  ViewChange applied;  ///< of it, in the patch and the offset
-  bool is_new = true;  ///< of this image
+  int failures = 0;                ///< in a row
+  ViewChange change = kSameView;   ///< of the view, from the surroundings to the image before
+  ViewChange applied = kSameView;  ///< of it, in the patch and the offset
+  bool is_new = true;              ///< of this image
 
   /// From now on the track is compared with this image. The point's variance stays.
   void begin(const ImageView& image, const Eigen::Vector2f& point_px);

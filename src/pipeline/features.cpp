@@ -16,10 +16,16 @@ void ImageFeatures::clear() {
   residual.clear();
 }
 
+std::size_t ImageFeatures::tracked() const {
+  return static_cast<std::size_t>(std::count_if(age_frames.begin(), age_frames.end(),
+                                                [](std::uint16_t age) { return age > 0; }));
+}
+
 std::size_t ImageFeatures::aligned() const {
-  const auto none = std::count_if(information.begin(), information.end(),
-                                  [](const PixelInformation& known) { return known.empty(); });
-  return information.size() - static_cast<std::size_t>(none);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < information.size(); ++i)
+    if (age_frames[i] > 0 && !information[i].empty()) ++count;
+  return count;
 }
 
 void ImageFeatures::reserve(std::size_t count) {

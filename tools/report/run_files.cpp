@@ -36,7 +36,8 @@ void writeEstimates(std::ostream& out, const FrameResult& r) {
 }
 
 void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e) {
-  out << "index,stamp_ns,state,match_method,features,landmarks_in_view,landmark_candidates,"
+  out << "index,stamp_ns,state,match_method,features,tracks,tracks_aligned,landmarks_in_view,"
+         "landmark_candidates,"
          "landmark_matches,"
          "landmark_mismatches,"
          "feature_candidates,feature_matches,feature_mismatches,new_landmarks,removed_landmarks,"
@@ -52,10 +53,10 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
     out << i << ',' << r.stamp_ns << ',' << kSlamStateNames[static_cast<std::size_t>(r.state)]
         << ',' << nameOf(r.match_method);
     for (const int count :
-         {r.features, r.landmarks_in_view, r.landmark_candidates, r.landmark_matches,
-          r.landmark_candidates - r.landmark_matches, r.feature_candidates, r.feature_matches,
-          r.feature_candidates - r.feature_matches, r.new_landmarks, r.removed_landmarks,
-          r.landmarks, r.map_features}) {
+         {r.features, r.tracks, r.tracks_aligned, r.landmarks_in_view, r.landmark_candidates,
+          r.landmark_matches, r.landmark_candidates - r.landmark_matches, r.feature_candidates,
+          r.feature_matches, r.feature_candidates - r.feature_matches, r.new_landmarks,
+          r.removed_landmarks, r.landmarks, r.map_features}) {
       out << ',' << count;
     }
     writeEstimates(out, r);

@@ -102,6 +102,16 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   summary["frames_error_not_finite"] = e.frames_error_not_finite;
 }
 
+void addAligned(const RunResult& run, Json& summary) {
+  double tracks = 0;
+  double aligned = 0;
+  for (const RunFrame& frame : run.frames) {
+    tracks += frame.result.tracks;
+    aligned += frame.result.tracks_aligned;
+  }
+  summary["tracks_aligned_share"] = tracks > 0 ? Json(aligned / tracks) : Json(nullptr);
+}
+
 void addConsistency(const RunResult& run, Json& summary) {
   std::vector<double> of_tracks =
       collect(run, [](const RunFrame& f) { return f.result.track_nis; });
@@ -238,6 +248,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["landmarks"] = run.landmarks.size();
   summary["landmarks_not_finite"] =
       std::count_if(run.landmarks.begin(), run.landmarks.end(), isNotFinite);
+  addAligned(run, summary);
   addConsistency(run, summary);
   addScale(run, summary);
   addCost(run, summary);

@@ -14,8 +14,8 @@ using Json = nlohmann::ordered_json;
 // A number that is added to the summary, and of which more is better or says nothing, belongs here.
 bool isWorseWhenLarger(const std::string& key) {
   for (const char* name :
-       {"seed", "landmark_matches_median", "landmarks", "heights_used", "camera_frames",
-        "frames_per_second", "odometry_scale_error", "velocity_bias_learned_m_s",
+       {"seed", "tracks_aligned_share", "landmark_matches_median", "landmarks", "heights_used",
+        "camera_frames", "frames_per_second", "odometry_scale_error", "velocity_bias_learned_m_s",
         "image_time_offset_s", "image_time_offset_estimate_s"}) {
     if (key == name) return false;
   }

@@ -37,6 +37,8 @@ RunResult someRun() {
     if (i > 0) frame.result.track_nis = 0.5 * i;
     frame.result.velocity_bias_sigma_m_s = 0.01 * (1 + i);
     frame.result.features = 100;
+    frame.result.tracks = 80;
+    frame.result.tracks_aligned = 20 * i;
     if (i == 3) {
       frame.result.state = SlamState::kLocalised;
       frame.result.landmark_position_map = Eigen::Vector3d(3, 0.4, 0);
@@ -111,6 +113,7 @@ TEST(RunReport, SummaryHasAllThatIsAskedFor) {
   EXPECT_NEAR(summary["ratio_scale_removed"], 0.5, 1e-12);
   EXPECT_NEAR(summary["fused_error_mean_m"], 0.15, 1e-12);
   EXPECT_NEAR(summary["fused_error_max_m"], 0.3, 1e-12);
+  EXPECT_NEAR(summary["tracks_aligned_share"], 120.0 / 320, 1e-12);
   EXPECT_NEAR(summary["track_nis_mean"], 1, 1e-12) << "of the frames that have one";
   EXPECT_NEAR(summary["velocity_bias_learned_m_s"], 0.04, 1e-12) << "of the last frame";
   EXPECT_NEAR(summary["nees_mean"], 100 * mean_square, 1e-9);
@@ -186,7 +189,8 @@ TEST(RunReport, WorstOfSeedsIsTheLargestWhereLargerIsWorse) {
   EXPECT_EQ(all["seeds"], (Json{1, 2, 3}));
   EXPECT_EQ(all["runs"].size(), 3U);
   for (const char* better :
-       {"frames_per_second", "landmark_matches_median", "landmarks", "heights_used"})
+       {"frames_per_second", "landmark_matches_median", "landmarks", "heights_used",
+        "tracks_aligned_share"})
     EXPECT_FALSE(all["worst"].contains(better)) << better;
   EXPECT_FALSE(all["median"].contains("t_rel_percent")) << "null in some";
 }
@@ -236,6 +240,8 @@ TEST(RunReport, FilesOfARun) {
   EXPECT_EQ(rows[2][column("fix_nis")], "1.5");
   EXPECT_EQ(rows[0][column("fix_nis")], "") << "not known";
   EXPECT_EQ(rows[2][column("track_nis")], "1");
+  EXPECT_EQ(rows[2][column("tracks")], "80");
+  EXPECT_EQ(rows[2][column("tracks_aligned")], "40");
   EXPECT_EQ(rows[0][column("track_nis")], "") << "no track was used";
   EXPECT_EQ(rows[2][column("velocity_bias_sigma_m_s")], "0.03");
 

@@ -47,11 +47,13 @@ class PatchAlignerTest : public ::testing::Test {
 
   ImageFeatures begin(const GreyImage& image) {
     ImageFeatures features = corners({0, 0});
+    features.age_frames.assign(features.size(), 0);
     aligner_.align(image.view(), std::vector<int>(features.size(), -1), features);
     return features;
   }
   ImageFeatures goOn(const GreyImage& image, const Eigen::Vector2d& shift_px, int off_px = 0) {
     ImageFeatures features = corners(shift_px, off_px);
+    features.age_frames.assign(features.size(), 1);
     aligner_.align(image.view(), previous_of_, features);
     return features;
   }
@@ -128,6 +130,7 @@ class TurningViewTest : public PatchAlignerTest {
         true_px.emplace_back(kMiddle_px + change * (begin_px - kMiddle_px));
         features.pixel_px.push_back(true_px.back().array().round().cast<float>());
         features.bearing_cam.emplace_back();
+        features.age_frames.push_back(1);
       }
       aligner_.align(image.view(), previous_of_, features);
       EXPECT_GT(features.aligned(), 9U * kPlaces / 10) << "image " << i;
@@ -193,7 +196,7 @@ TEST_F(PatchAlignerTest, AnEdgeTellsNothingAlongItself) {
 TEST_F(PatchAlignerTest, TheFirstCornerIsWhereItIsByDefinition) {
   const ImageFeatures features = begin(shifted({0, 0}));
   EXPECT_EQ(features.pixel_px, corners({0, 0}).pixel_px);
-  EXPECT_GT(features.aligned(), 9U * kSide * kSide / 10);
+  EXPECT_EQ(features.aligned(), 0U) << "nothing is compared yet";
 }
 
 TEST_F(PatchAlignerTest, ClaimsTheNoiseThatItHas) {
@@ -209,9 +212,9 @@ TEST_F(PatchAlignerTest, ClaimsTheNoiseThatItHas) {
                       2.0 * known.xy_per_px2 * error.x() * error.y() +
                       known.yy_per_px2 * error.y() * error.y());
   }
-  // 1.39 is the median of two squared deviations; on rendered images less of it is left.
-  EXPECT_GT(test::median(squared), 0.1);
-  EXPECT_LT(test::median(squared), 2.8);
+  // 1.39 is the median of two squared deviations; 0.60 is measured: a deviation of two thirds.
+  EXPECT_GT(test::median(squared), 0.4);
+  EXPECT_LT(test::median(squared), 1.4);
 }
 
 TEST_F(PatchAlignerTest, BrightnessMayChange) {
@@ -277,8 +280,51 @@ TEST_F(PatchAlignerTest, NothingIsReadOutsideTheImageAtItsBorder) {
   }
   begin(shifted({0, 0}));
   // The texture goes on to the outside by more than alignment follows; sanitizers watch.
-  for (double out_px = 0.5; out_px < 5; out_px += 0.5) goOn(shifted({-out_px, -out_px}), {0, 0});
-  for (double out_px = 0.5; out_px < 5; out_px += 0.5) goOn(shifted({out_px, out_px}), {0, 0});
+  for (const int side : {-1, 1}) {
+    for (double out_px = 0.5; out_px < 5; out_px += 0.5) {
+      const ImageFeatures features = goOn(shifted({side * out_px, side * out_px}), {0, 0});
+      for (std::size_t i = 0; i < features.size(); ++i) {
+        const Eigen::Vector2d moved_px = features.pixel_px[i].cast<double>() - begin_px_[i];
+        EXPECT_LE(moved_px.cwiseAbs().maxCoeff(), kernels::kAlignFarthest_px + 1) << out_px;
+      }
+    }
+  }
+}
+
+TEST_F(PatchAlignerTest, BlurAndClippedLevelsDoNoHarm) {
+  const Eigen::Vector2d shift_px(0.6, -0.3);
+  GreyImage blurred = shifted(shift_px);
+  const GreyImage sharp = blurred;
+  constexpr int kBlur_px = 3;  // each way
+  for (int y = 0; y < kHeight_px; ++y) {
+    for (int x = kBlur_px; x < kWidth_px - kBlur_px; ++x) {
+      int sum = 0;
+      for (int dx = -kBlur_px; dx <= kBlur_px; ++dx) sum += sharp.at(x + dx, y);
+      blurred.at(x, y) = static_cast<std::uint8_t>(sum / (2 * kBlur_px + 1));
+    }
+  }
+  for (const GreyImage& image : {blurred, shifted(shift_px, 2, 240)}) {
+    begin(shifted({0, 0}));
+    const ImageFeatures features = goOn(image, shift_px);
+    EXPECT_GT(features.aligned(), 9U * kSide * kSide / 14);  // 143 and 106 of 144
+    EXPECT_LT(error_px(features, shift_px), 0.4);            // 0.29 and 0.21
+  }
+}
+
+TEST_F(PatchAlignerTest, NoiseLeavesATrackAboutAsGoodAsItsCorner) {
+  const auto noisy = [this](unsigned image) {
+    return texture_.image(kWidth_px, kHeight_px, 0, 0, 1, 128, 20, image);
+  };
+  begin(noisy(1));
+  std::vector<double> claimed_px;
+  for (unsigned image = 2; image < 60; ++image) {
+    const ImageFeatures features = goOn(noisy(image), {0, 0}, 1);
+    claimed_px.clear();
+    for (const PixelInformation& known : features.information)
+      if (!known.empty()) claimed_px.push_back(1 / std::sqrt(known.xx_per_px2));
+  }
+  EXPECT_GT(claimed_px.size(), 1U * kSide * kSide / 3);  // 73
+  EXPECT_LT(test::median(claimed_px), 1.1);              // 0.92; views chained without an end: 4.6
 }
 
 }  // namespace
