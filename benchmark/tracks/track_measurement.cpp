@@ -109,9 +109,9 @@ void addDistances(const std::vector<TrackPair>& pairs, const RelativePose& pose,
     if (!pair.first->variance_px2 || !pair.second->variance_px2) continue;
     distances.aligned_px.push_back(distance.sampson_px);
     // Only where it begins is a track where it is by definition.
-    if (kImagesApart[which_apart] != 1 || pair.first->age_frames != 0) continue;
+    if (pair.first->age_frames != 0) continue;
     const double claimed_px2 = distance.normal.dot(*pair.second->variance_px2 * distance.normal);
-    measurement.claims.push_back({std::sqrt(claimed_px2), distance.second_px});
+    distances.claims.push_back({std::sqrt(claimed_px2), distance.second_px});
   }
 }
 

@@ -13,22 +13,22 @@ namespace ardrone_vslam::bench {
 constexpr std::array<std::size_t, 3> kImagesApart = {1, 3, 10};
 constexpr int kFeatures = 600;
 
-/// Sampson distances of tracks, with their sign [px].
-struct Distances {
-  std::vector<double> all_px;
-  std::vector<double> aligned_px;  ///< of those aligned in both images
-};
-
 /// What a position is said to deviate across its epipolar line, and how far it lies from it.
 struct Claim {
   double claimed_px = 0;
   double measured_px = 0;
 };
 
+/// Sampson distances of tracks, with their sign [px].
+struct Distances {
+  std::vector<double> all_px;
+  std::vector<double> aligned_px;  ///< of those aligned in both images
+  std::vector<Claim> claims;       ///< of those that began in the first of them
+};
+
 /// By one way to know the true relative poses.
 struct TruthMeasurement {
   std::array<Distances, kImagesApart.size()> apart;
-  std::vector<Claim> claims;  ///< of aligned tracks that are one image old
 };
 
 /// Of one run of the tracker.

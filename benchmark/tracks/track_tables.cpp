@@ -96,12 +96,12 @@ std::vector<Claim> thirdsOf(std::vector<Claim> claims) {
   return thirds;
 }
 
-void printClaims(const MeasuredSequence& sequence) {
-  std::printf("| %s | %zu | %.3f ", sequence.name.c_str(), sequence.images,
-              sequence.aligned.alignedShare());
-  for (const Claim& third : thirdsOf(sequence.aligned.own.claims))
+void printClaims(const MeasuredSequence& sequence, std::size_t k) {
+  std::printf("| %s | %zu | %.3f | %zu ", sequence.name.c_str(), sequence.images,
+              sequence.aligned.alignedShare(), kImagesApart[k]);
+  for (const Claim& third : thirdsOf(sequence.aligned.own.apart[k].claims))
     std::printf("| %.2f ", third.measured_px / third.claimed_px);
-  for (const Claim& third : thirdsOf(sequence.aligned.refined.claims))
+  for (const Claim& third : thirdsOf(sequence.aligned.refined.apart[k].claims))
     std::printf("| %.3f, %.3f, **%.2f** ", third.claimed_px, third.measured_px,
                 third.measured_px / third.claimed_px);
   std::printf("|\n");
@@ -110,12 +110,15 @@ void printClaims(const MeasuredSequence& sequence) {
 void printClaimTable(const std::vector<MeasuredSequence>& sequences) {
   std::printf(
       "\nWhat the tracker claims of a position (its information) beside what is measured: tracks "
-      "one image old, across their epipolar lines in the new image, by thirds of the claimed "
+      "so many images old, across their epipolar lines in the new image, by thirds of the claimed "
       "deviation. A ratio above 1: the tracker claims too much.\n\n"
-      "| sequence | images | share aligned | truth: measured / claimed, lowest third | middle | "
+      "| sequence | images | share aligned | images old | truth: measured / claimed, lowest third "
+      "| middle | "
       "highest | refined: claimed, measured [px], ratio, lowest third | middle | highest |\n"
-      "|---|---|---|---|---|---|---|---|---|\n");
-  for (const MeasuredSequence& sequence : sequences) printClaims(sequence);
+      "|---|---|---|---|---|---|---|---|---|---|\n");
+  constexpr std::size_t kAges = 2;  // of kImagesApart: older ones are few
+  for (const MeasuredSequence& sequence : sequences)
+    for (std::size_t k = 0; k < kAges; ++k) printClaims(sequence, k);
 }
 
 }  // namespace
