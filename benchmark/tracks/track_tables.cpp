@@ -23,9 +23,9 @@ void printHead() {
       "distance between two images [px], the bias its median with the sign. \"Truth\" takes the "
       "sequence's own poses. Recorded ones err by tenths of a pixel themselves, and rendered ones "
       "are of the middle row where the shutter rolls. \"Refined\" therefore fits the relative pose "
-      "to the same tracks: rotation, direction of travel and a turn that grows with the row, as a "
-      "shutter that rolls makes it, robustly, from the truth on, where two images have 60 tracks "
-      "or more.\n\n",
+      "to the same tracks, robustly, from the truth on: rotation, direction of travel and a turn "
+      "that grows with the row, as a shutter that rolls makes it. It does so where two images "
+      "have 60 tracks or more.\n\n",
       kFeatures);
 }
 

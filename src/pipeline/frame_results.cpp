@@ -30,6 +30,12 @@ FrameResult resultOf(const Estimate& estimate, const Correction& correction,
   return result;
 }
 
+void noteFeatures(const ImageFeatures& features, FrameResult& result) {
+  result.features = static_cast<int>(features.size());
+  result.tracks = static_cast<int>(features.tracked());
+  result.tracks_aligned = static_cast<int>(features.aligned());
+}
+
 void noteMatches(const AssociationResult& matches, FrameResult& result) {
   result.match_method = matches.method;
   result.landmarks_in_view = matches.in_view;

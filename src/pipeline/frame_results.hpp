@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/frame_result.hpp"
 #include "estimator/estimator.hpp"
 #include "map/association.hpp"
@@ -8,9 +9,11 @@
 /// What Slam answers, put together of what its parts say.
 namespace ardrone_vslam {
 
-/// All but stamp, odometry and the counts of noteMatches().
+/// All but stamp, odometry and the counts of noteFeatures() and noteMatches().
 FrameResult resultOf(const Estimate& estimate, const Correction& correction,
                      const MapChanges& changes);
+/// How many features there are, and how many of them go on between pixels.
+void noteFeatures(const ImageFeatures& features, FrameResult& result);
 /// How landmarks were looked for, and how many were found.
 void noteMatches(const AssociationResult& matches, FrameResult& result);
 /// The flight has not been found in its map: the covariance says so to who asks for it alone.

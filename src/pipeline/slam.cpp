@@ -170,9 +170,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   s.result.stamp_ns = odometry.stamp_ns;
   s.result.T_odom_base = odometry.T_odom_base;
   if (step) s.result.odometry_step_m = step->jump_odom_m.norm();
-  s.result.features = static_cast<int>(features.size());
-  s.result.tracks = static_cast<int>(features.tracked());
-  s.result.tracks_aligned = static_cast<int>(features.aligned());
+  noteFeatures(features, s.result);
   s.result.landmarks = static_cast<int>(s.map.size());
   noteMatches(s.matches, s.result);
   if (s.search) {

@@ -10,6 +10,7 @@
 
 #include "ardrone_vslam/instruction_set.hpp"
 #include "report/map_summary.hpp"
+#include "report/track_summary.hpp"
 #include "trajectory/metrics.hpp"
 
 namespace ardrone_vslam {
@@ -102,22 +103,7 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   summary["frames_error_not_finite"] = e.frames_error_not_finite;
 }
 
-void addAligned(const RunResult& run, Json& summary) {
-  double tracks = 0;
-  double aligned = 0;
-  for (const RunFrame& frame : run.frames) {
-    tracks += frame.result.tracks;
-    aligned += frame.result.tracks_aligned;
-  }
-  summary["tracks_aligned_share"] = tracks > 0 ? Json(aligned / tracks) : Json(nullptr);
-}
-
-void addConsistency(const RunResult& run, Json& summary) {
-  std::vector<double> of_tracks =
-      collect(run, [](const RunFrame& f) { return f.result.track_nis; });
-  of_tracks.erase(std::remove(of_tracks.begin(), of_tracks.end(), 0.0), of_tracks.end());
-  summary["track_nis_mean"] =
-      of_tracks.empty() ? Json(nullptr) : orNull(summarise(of_tracks).mean_m);
+void addLearnedBias(const RunResult& run, Json& summary) {
   const double bias_m_s = run.frames.empty() ? 0 : run.frames.back().result.velocity_bias_sigma_m_s;
   summary["velocity_bias_learned_m_s"] = bias_m_s > 0 ? orNull(bias_m_s) : Json(nullptr);
 }
@@ -248,8 +234,8 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["landmarks"] = run.landmarks.size();
   summary["landmarks_not_finite"] =
       std::count_if(run.landmarks.begin(), run.landmarks.end(), isNotFinite);
-  addAligned(run, summary);
-  addConsistency(run, summary);
+  addTracks(run, summary);
+  addLearnedBias(run, summary);
   addScale(run, summary);
   addCost(run, summary);
   return summary;
