@@ -59,12 +59,14 @@ def check_track_deviation(program, folder):
     assert "# Tracks against truth\n" in page, page
     rows = re.findall(r"^\| rendered: (.*) \|$", page, re.M)
     deviations = [[float(cell) for cell in row.split(" | ")[3:9]] for row in rows[:3]]
-    assert len(rows) == 4, page
+    assert len(rows) == 5, page
     for row in deviations:
         for whole_px, aligned_px, _ in (row[:3], row[3:]):
             assert 0 < aligned_px < whole_px / 2, page
-    share = float(rows[3].split(" | ")[2])
-    assert 0.8 < share < 1, page
+    for claims in rows[3:]:
+        assert 0.8 < float(claims.split(" | ")[2]) < 1, page
+        for ratio in re.findall(r"\*\*(.*?)\*\*", claims):
+            assert 0.5 < float(ratio) < 1.4, page
 
 
 def main():

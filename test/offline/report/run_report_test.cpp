@@ -188,9 +188,8 @@ TEST(RunReport, WorstOfSeedsIsTheLargestWhereLargerIsWorse) {
   EXPECT_EQ(all["worst"]["ratio"], 0.9);
   EXPECT_EQ(all["seeds"], (Json{1, 2, 3}));
   EXPECT_EQ(all["runs"].size(), 3U);
-  for (const char* better :
-       {"frames_per_second", "landmark_matches_median", "landmarks", "heights_used",
-        "tracks_aligned_share"})
+  for (const char* better : {"frames_per_second", "landmark_matches_median", "landmarks",
+                             "heights_used", "tracks_aligned_share"})
     EXPECT_FALSE(all["worst"].contains(better)) << better;
   EXPECT_FALSE(all["median"].contains("t_rel_percent")) << "null in some";
 }
