@@ -13,9 +13,9 @@
 #include "program/progress_line.hpp"
 #include "program/tool_main.hpp"
 #include "report/run_files.hpp"
-#include "report/seeds_summary.hpp"
 #include "run/run_all.hpp"
 #include "sequences/sequence.hpp"
+#include "summary/seeds_summary.hpp"
 #include "trajectory/metrics.hpp"
 #include "trajectory/text_file.hpp"
 

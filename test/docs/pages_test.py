@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The pages that a newcomer reads first are short, and every link of every page leads somewhere."""
 
+import collections
 import re
 import unittest
 
@@ -116,6 +117,12 @@ class RoomsTest(unittest.TestCase):
     def test_every_room_of_the_core_is_named_and_none_that_is_not_there(self):
         named = set(re.findall(r"`src/(\w+)`", (ROOT / "docs/rooms.md").read_text(encoding="utf-8")))
         self.assertEqual(named, {path.name for path in (ROOT / "src").iterdir() if path.is_dir()})
+
+    def test_no_room_has_too_many_files(self):
+        for top in ("src", "tools", "nodes", "onboard", "common"):
+            files = collections.Counter(path.parent for path in (ROOT / top).rglob("*.?pp"))
+            self.assertGreater(len(files), 1, top)
+            self.assertEqual({str(room): count for room, count in files.items() if count > 20}, {})
 
     def test_rooms_of_the_core_do_not_include_each_other_in_a_circle(self):
         used = rooms_used_by_rooms()

@@ -7,7 +7,7 @@
 #include "report/run_files.hpp"
 #include "report/run_print.hpp"
 #include "report/run_verdict.hpp"
-#include "report/seeds_summary.hpp"
+#include "summary/seeds_summary.hpp"
 #include "trajectory/text_file.hpp"
 
 namespace ardrone_vslam {

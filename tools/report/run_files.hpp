@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "report/run_report.hpp"
+#include "summary/run_report.hpp"
 
 namespace ardrone_vslam {
 

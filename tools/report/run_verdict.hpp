@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report/run_report.hpp"
+#include "summary/run_report.hpp"
 
 namespace ardrone_vslam {
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "config_files/config_path.hpp"
-#include "report/run_report.hpp"
 #include "run/run_all.hpp"
+#include "summary/run_report.hpp"
 #include "support/real_data.hpp"
 #include "support/sequence_folders.hpp"
 #include "support/shipped_profiles.hpp"

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "report/run_files.hpp"
-#include "report/run_report.hpp"
-#include "report/seeds_summary.hpp"
+#include "summary/run_report.hpp"
+#include "summary/seeds_summary.hpp"
 #include "support/sequence_folders.hpp"
 #include "trajectory/text_file.hpp"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "report/seeds_summary.hpp"
+#include "summary/seeds_summary.hpp"
 
 namespace ardrone_vslam {
 namespace {

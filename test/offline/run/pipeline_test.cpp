@@ -9,11 +9,11 @@
 
 #include "config_files/config_file.hpp"
 #include "pave/pave_sequence.hpp"
-#include "report/run_report.hpp"
 #include "run/offline_run.hpp"
 #include "run/run_all.hpp"
 #include "sequences/sequence.hpp"
 #include "simulation/odometry_model.hpp"
+#include "summary/run_report.hpp"
 #include "support/real_data.hpp"
 #include "support/shipped_profiles.hpp"
 #include "test_paths.hpp"

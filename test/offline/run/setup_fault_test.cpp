@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/run_report.hpp"
 #include "run/run_all.hpp"
 #include "run/run_odometry.hpp"
 #include "sequences/drone_cameras.hpp"
 #include "sequences/faulty_sequence.hpp"
 #include "simulation/odometry_model.hpp"
+#include "summary/run_report.hpp"
 #include "support/shipped_profiles.hpp"
 #include "world/world_sequence.hpp"
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "report/run_report.hpp"
 #include "run/run_all.hpp"
+#include "summary/run_report.hpp"
 #include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {

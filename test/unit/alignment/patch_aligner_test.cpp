@@ -193,6 +193,10 @@ TEST_F(PatchAlignerTest, AnEdgeTellsNothingAlongItself) {
   }
 }
 
+TEST(PatchReference, TakesAsMuchMemoryAsThePageSays) {
+  EXPECT_LE(sizeof(PatchReference), 688U);  // docs/front_end.md
+}
+
 TEST_F(PatchAlignerTest, TheFirstCornerIsWhereItIsByDefinition) {
   const ImageFeatures features = begin(shifted({0, 0}));
   EXPECT_EQ(features.pixel_px, corners({0, 0}).pixel_px);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/seeds_summary.hpp"
+#include "summary/seeds_summary.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>

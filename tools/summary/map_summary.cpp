@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/map_summary.hpp"
+#include "summary/map_summary.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/run_report.hpp"
+#include "summary/run_report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "report/run_files.hpp"
 #include "report/run_verdict.hpp"
-#include "report/seeds_summary.hpp"
+#include "summary/seeds_summary.hpp"
 #include "support/sequence_folders.hpp"
 #include "test_paths.hpp"
 

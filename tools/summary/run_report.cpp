@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/run_report.hpp"
+#include "summary/run_report.hpp"
 
 #include <sys/resource.h>
 
@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "ardrone_vslam/instruction_set.hpp"
-#include "report/map_summary.hpp"
-#include "report/track_summary.hpp"
+#include "summary/map_summary.hpp"
+#include "summary/track_summary.hpp"
 #include "trajectory/metrics.hpp"
 
 namespace ardrone_vslam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/track_summary.hpp"
+#include "summary/track_summary.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
