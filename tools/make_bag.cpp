@@ -61,7 +61,7 @@ void addCommon(CLI::App& command, Options& o) {
   command.add_option("--out", o.out, "the bag to write, FILE.bag")->required();
   command.add_flag("--force", o.force, "overwrite the bag if it is there");
   command.add_option("--odometry-profile", o.odometry_profile,
-                     "how the simulated odometry drifts: truth, wheel, drone, hover, harsh "
+                     "how the simulated odometry drifts: truth, wheel, wheels, drone, hover, harsh "
                      "(config/odometry_profiles.yaml); default: the recorded odometry if there is "
                      "one, else wheel for kitti, drone for the others");
   addSeed(command, "--seed", o.write.seed, "of the odometry's noise");

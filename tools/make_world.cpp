@@ -58,7 +58,7 @@ void addOptions(CLI::App& app, Options& o) {
   o.rate = app.add_option("--rate", o.world.rate_hz, "images a second; default: 30, driver's 20")
                ->check(numberWithin(0.001, 1e3));
   app.add_option("--odometry-profile", o.odometry_profile,
-                 "how the simulated odometry drifts: truth, wheel, drone, hover, harsh "
+                 "how the simulated odometry drifts: truth, wheel, wheels, drone, hover, harsh "
                  "(config/odometry_profiles.yaml); default: drone in a bag, no odometry in a "
                  "folder. A,B@S: A, from second S on B; laps_then_hover hovers with `hover` unless "
                  "this says otherwise");

@@ -98,10 +98,11 @@ void addOptions(CLI::App& app, Options& o) {
       ->take_all();
   app.add_option("--estimator", o.estimator, "over the configuration")
       ->check(CLI::IsMember({"thesis", "msckf", "odometry"}));
-  app.add_option("--odometry-profile", o.odometry_profile,
-                 "corrupt the truth like this (truth, wheel, drone, hover, harsh; A,B@S: A, from "
-                 "second S on B); default: the input's own odometry, else wheel for a KITTI "
-                 "folder, drone for the others");
+  app.add_option(
+      "--odometry-profile", o.odometry_profile,
+      "corrupt the truth like this (truth, wheel, wheels, drone, hover, harsh; A,B@S: A, from "
+      "second S on B); default: the input's own odometry, else wheel for a KITTI "
+      "folder, drone for the others");
   o.seed_option = addSeed(app, "--seed", o.seed, "of the odometry's noise");
   app.add_option("--seeds", o.seeds, "A:B, runs the seeds A to B and prints median and worst")
       ->excludes(o.seed_option);
