@@ -175,7 +175,8 @@ TEST_F(MakeWorld, ExitCodesTellUsageFromFaults) {
   EXPECT_EQ(run("laps"), 2);
   EXPECT_EQ(run("loops --out " + path("x")), 2);
   EXPECT_EQ(run(brief + path("x") + " --odometry-profile mars"), 2);
-  EXPECT_NE(text("output").find("known are truth, wheel, wheels, drone, hover, harsh"), std::string::npos);
+  EXPECT_NE(text("output").find("known are truth, wheel, wheels, drone, hover, harsh"),
+            std::string::npos);
   EXPECT_EQ(run(brief + path("x") + " --start 9,0,0"), 2);
   EXPECT_NE(text("output").find("0.5 m from the walls"), std::string::npos);
   for (const char* option : {"--seed", "--world-seed"}) {
