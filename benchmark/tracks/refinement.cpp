@@ -35,7 +35,7 @@ double scaleOf_px(const RelativePose& pose, const std::vector<PointPair>& pairs)
   distances_px.reserve(pairs.size());
   for (const PointPair& pair : pairs)
     distances_px.push_back(epipolarDistance(pose, pair).sampson_px);
-  return 2 * (deviationOf(std::move(distances_px)) + kLeast_px);
+  return 2 * (sigmaOf(std::move(distances_px)) + kLeast_px);
 }
 
 /// Geman and McClure's.

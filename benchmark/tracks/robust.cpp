@@ -14,10 +14,10 @@ double medianOf(std::vector<double> values) {
   return *middle;
 }
 
-double deviationOf(std::vector<double> values) {
-  constexpr double kDeviationPerMedian = 1.4826;  // of a normal distribution
+double sigmaOf(std::vector<double> values) {
+  constexpr double kSigmaPerMedian = 1.4826;  // of a normal distribution
   for (double& value : values) value = std::abs(value);
-  return kDeviationPerMedian * medianOf(std::move(values));
+  return kSigmaPerMedian * medianOf(std::move(values));
 }
 
 }  // namespace ardrone_vslam::bench

@@ -10,6 +10,6 @@ double medianOf(std::vector<double> values);
 
 /// Standard deviation about 0 of what is normally distributed, by the median of the magnitudes: a
 /// few wrong values do not count. NaN of none.
-double deviationOf(std::vector<double> values);
+double sigmaOf(std::vector<double> values);
 
 }  // namespace ardrone_vslam::bench

@@ -39,9 +39,9 @@ std::string numberText(double value, const char* format) {
 
 void printDistances(const Distances& whole, const Distances& aligned) {
   constexpr const char* kFormat = "%.3f";
-  std::printf("| %s | %s | %s ", numberText(deviationOf(whole.all_px), kFormat).c_str(),
-              numberText(deviationOf(aligned.all_px), kFormat).c_str(),
-              numberText(deviationOf(aligned.aligned_px), kFormat).c_str());
+  std::printf("| %s | %s | %s ", numberText(sigmaOf(whole.all_px), kFormat).c_str(),
+              numberText(sigmaOf(aligned.all_px), kFormat).c_str(),
+              numberText(sigmaOf(aligned.aligned_px), kFormat).c_str());
 }
 
 void printBias(const Distances& whole, const Distances& aligned) {
@@ -50,7 +50,7 @@ void printBias(const Distances& whole, const Distances& aligned) {
               numberText(medianOf(aligned.all_px), kFormat).c_str());
 }
 
-void printDeviations(const MeasuredSequence& sequence, std::size_t k) {
+void printSigmas(const MeasuredSequence& sequence, std::size_t k) {
   const Distances& whole = sequence.whole_pixels.own.apart[k];
   const Distances& aligned = sequence.aligned.own.apart[k];
   const Distances& whole_refined = sequence.whole_pixels.refined.apart[k];
@@ -64,7 +64,7 @@ void printDeviations(const MeasuredSequence& sequence, std::size_t k) {
   std::printf("|\n");
 }
 
-void printDeviationTable(const std::vector<MeasuredSequence>& sequences) {
+void printSigmaTable(const std::vector<MeasuredSequence>& sequences) {
   std::printf(
       "| sequence | images apart | tracks: truth, refined | truth: whole pixels | aligned | of "
       "those aligned in "
@@ -72,7 +72,7 @@ void printDeviationTable(const std::vector<MeasuredSequence>& sequences) {
       "images | refined: whole pixels | aligned | of those aligned in both images | bias by "
       "truth: whole pixels, aligned | refined |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const MeasuredSequence& sequence : sequences)
-    for (std::size_t k = 0; k < kImagesApart.size(); ++k) printDeviations(sequence, k);
+    for (std::size_t k = 0; k < kImagesApart.size(); ++k) printSigmas(sequence, k);
 }
 
 /// What was claimed and what was measured, of one third.
@@ -83,7 +83,7 @@ Claim summaryOf(const std::vector<Claim>& claims, std::size_t begin, std::size_t
     claimed_px.push_back(claims[i].claimed_px);
     measured_px.push_back(claims[i].measured_px);
   }
-  return {medianOf(std::move(claimed_px)), deviationOf(std::move(measured_px))};
+  return {medianOf(std::move(claimed_px)), sigmaOf(std::move(measured_px))};
 }
 
 std::vector<Claim> thirdsOf(std::vector<Claim> claims) {
@@ -125,7 +125,7 @@ void printClaimTable(const std::vector<MeasuredSequence>& sequences) {
 
 void printTracks(const std::vector<MeasuredSequence>& sequences) {
   printHead();
-  printDeviationTable(sequences);
+  printSigmaTable(sequences);
   printClaimTable(sequences);
 }
 

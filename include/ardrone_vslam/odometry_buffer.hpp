@@ -36,7 +36,7 @@ struct OdometryState {
 /// and the squares of such numbers overflow.
 constexpr double kFarthestOdometry_m = 1e7;  ///< of base from the origin of odom
 constexpr double kFastestOdometry = 1e3;     ///< linear [m/s] and angular [rad/s]
-/// A position variance above this (a deviation of 100 m) marks an unknown one: drivers write 1e5,
+/// A position variance above this (a sigma of 100 m) marks an unknown one: drivers write 1e5,
 /// 1e6, 1e9 or the largest double.
 constexpr double kLargestVariance_m2 = 1e4;
 /// Twist covariances are only passed on; larger entries are cut to this.

@@ -27,7 +27,7 @@ struct AssociationConfig {
   double threshold_sigmas = 3.0;
   double epipolar_threshold_px = 2.0;
 
-  // No parameters, but varied by tests. The pose's own deviation widens what follows.
+  // No parameters, but varied by tests. The pose's own sigma widens what follows.
   double search_radius_px = 30.0;  ///< window around the predicted pixel
   /// Landmarks last seen from a direction further off look different, so they are not searched.
   double max_view_angle_deg = 60.0;
@@ -77,7 +77,7 @@ struct ThesisFilterConfig {
   // No parameters, but varied by tests and by the reproduction of the thesis.
   /// kExact is undamped along the rays: for odometry without drift of scale.
   MeanKind mean = MeanKind::kPrinted;
-  /// With kExact: a landmark that lies so many robust deviations off its ray weighs a quarter,
+  /// With kExact: a landmark that lies so many robust sigmas off its ray weighs a quarter,
   /// further ones hardly anything; 0: all weigh fully.
   double outlier_sigmas = 3.0;
   /// Landmarks share the drift of the time they were made, so fresh ones correct little; false:

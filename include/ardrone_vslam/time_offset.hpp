@@ -27,12 +27,12 @@ struct TimeOffset {
   /// An image is exposed at its stamp plus this, on the odometry's clock; negative where images are
   /// stamped late. 0 unless known.
   double offset_s = 0;
-  double deviation_s = 0;  ///< 0 unless known
+  double sigma_s = 0;  ///< 0 unless known
 };
 
 /// Finds the images' time offset: that at which the attitude turns as the tracks do. Images about
 /// kStep_s apart are compared with those kSpan_s before (fitTurn, so depths do not matter);
-/// for each offset of a grid the squares of the differences between the two turns, in deviations,
+/// for each offset of a grid the squares of the differences between the two turns, in sigmas,
 /// are summed up and forgotten with kMemory_s. Constant differences between them are fitted away:
 /// of the rates (drift of the attitude) and, by the turn about each axis, of scale (calibration,
 /// and the camera's way about base while it turns). The sums' minimum is the offset. Bounded
@@ -47,7 +47,7 @@ class TimeOffsetEstimator {
   static constexpr std::int64_t kSpan_ns =
       270'000'000;                          ///< an image is compared with one so much older
   static constexpr double kMemory_s = 30;   ///< time constant of forgetting
-  static constexpr double kSure_s = 0.005;  ///< a deviation above this is not told
+  static constexpr double kSure_s = 0.005;  ///< a sigma above this is not told
 
   /// @param T_base_cam  extrinsics: optical frame to base
   /// @param centre_s  the offset that is used so far: the grid lies about it
@@ -75,7 +75,7 @@ class TimeOffsetEstimator {
 const char* explain(TimeOffsetState state);
 
 /// A sentence for users when another image_time_offset_s would be clearly better than the one in
-/// use: by more than three deviations and 15 ms; else empty.
+/// use: by more than three sigmas and 15 ms; else empty.
 std::string adviceOn(const TimeOffset& found, double used_s);
 
 }  // namespace ardrone_vslam

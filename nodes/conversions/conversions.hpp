@@ -98,7 +98,7 @@ bool isWell(std::uint8_t state);
 /// Landmarks as a cloud: x y z [m], deviation [m], times_seen, id.
 sensor_msgs::PointCloud2 toCloud(const std::vector<Landmark>& landmarks,
                                  const std::string& map_frame, std::int64_t stamp_ns);
-/// Landmarks as one marker of points, from green (deviation at most 1 cm) to red (at least 1 m).
+/// Landmarks as one marker of points, from green (sigma at most 1 cm) to red (at least 1 m).
 visualization_msgs::Marker toMarker(const std::vector<Landmark>& landmarks,
                                     const std::string& map_frame, std::int64_t stamp_ns);
 

@@ -86,7 +86,7 @@ void toStatus(const OdometryFaultCounts& faults, Status& status) {
 void toStatus(const TimeOffset& estimate, double used_s, Status& status) {
   status.image_time_offset = used_s;
   status.image_time_offset_estimate = estimate.offset_s;
-  status.image_time_offset_deviation = estimate.deviation_s;
+  status.image_time_offset_deviation = estimate.sigma_s;
 }
 
 bool isWell(std::uint8_t state) {

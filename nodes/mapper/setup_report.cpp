@@ -47,7 +47,7 @@ void SetupReport::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper)
   const TimeOffset& offset = time_offset_->estimate();
   if (offset.state == TimeOffsetState::kKnown) {
     wrapper.add("image time offset [s], estimated", offset.offset_s);
-    wrapper.add("its deviation [s]", offset.deviation_s);
+    wrapper.add("its deviation [s]", offset.sigma_s);
   } else {
     wrapper.add("image time offset [s], estimated", explain(offset.state));
   }

@@ -26,7 +26,7 @@ OnboardLoop::OnboardLoop(const Settings& settings, int stop_fd)
     : settings_(settings),
       stop_fd_(stop_fd),
       pipeline_(settings.tracker, settings.mapper, readCalibration(settings.onboard.camera),
-                mountingOf(settings.onboard)),
+                extrinsicsOf(settings.onboard)),
       observer_source_(settings.onboard, stop_fd),
       output_(settings.onboard),
       frames_(settings.onboard,

@@ -136,7 +136,7 @@ Settings loadSettings(const std::string& path, const std::vector<std::string>& o
   return s;
 }
 
-Eigen::Isometry3d mountingOf(const OnboardConfig& config) {
+Eigen::Isometry3d extrinsicsOf(const OnboardConfig& config) {
   Eigen::Vector3d position_m;
   Eigen::Vector3d rotation_deg;
   std::vector<std::string> faults;

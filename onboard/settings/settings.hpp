@@ -26,7 +26,7 @@ struct Settings {
 Settings loadSettings(const std::string& path, const std::vector<std::string>& overrides);
 
 /// T_base_cam of camera_position_m and camera_rotation_deg. @throws ConfigError
-Eigen::Isometry3d mountingOf(const OnboardConfig& config);
+Eigen::Isometry3d extrinsicsOf(const OnboardConfig& config);
 
 /// What one landmark takes, indices and room to grow included: 800 to 1190 bytes were measured.
 constexpr int kBytesPerLandmark = 1250;

@@ -34,15 +34,15 @@ void DroneFilter::begin(const DroneMeasurement& measured) {
   x_.segment<3>(kVelocity) = measured.R_odom_base * Eigen::Vector3d(measured.flow_base_m_s.x(),
                                                                     measured.flow_base_m_s.y(), 0);
   x_[kDrag] = errors_.drag_per_s;
-  State deviation = State::Zero();
-  deviation[kPosition + 2] = errors_.height_noise_m;
-  deviation.segment<3>(kVelocity).setConstant(kStartVelocity_m_s);
-  deviation.segment<2>(kTilt).setConstant(errors_.tilt_sigma_deg * kRadPerDeg);
-  deviation.segment<2>(kFlowBias).setConstant(errors_.flow_bias_m_s);
-  deviation[kFlowScale] = errors_.flow_scale_sigma;
-  deviation.segment<3>(kForceBias).setConstant(errors_.force_bias_m_s2);
-  deviation[kDrag] = errors_.drag_sigma_per_s;
-  P_ = deviation.cwiseAbs2().cwiseMax(kLeastVariance).asDiagonal();
+  State sigma = State::Zero();
+  sigma[kPosition + 2] = errors_.height_noise_m;
+  sigma.segment<3>(kVelocity).setConstant(kStartVelocity_m_s);
+  sigma.segment<2>(kTilt).setConstant(errors_.tilt_sigma_deg * kRadPerDeg);
+  sigma.segment<2>(kFlowBias).setConstant(errors_.flow_bias_m_s);
+  sigma[kFlowScale] = errors_.flow_scale_sigma;
+  sigma.segment<3>(kForceBias).setConstant(errors_.force_bias_m_s2);
+  sigma[kDrag] = errors_.drag_sigma_per_s;
+  P_ = sigma.cwiseAbs2().cwiseMax(kLeastVariance).asDiagonal();
 }
 
 void DroneFilter::predict(const DroneMeasurement& measured, double dt_s, Known known) {
@@ -144,7 +144,7 @@ void DroneFilter::widen(double position_m, double velocity_m_s) {
 void DroneFilter::update(double innovation, const Row& H, double variance) {
   const State PHt = P_ * H.transpose();
   const double S = H * PHt + variance;
-  // What is above this many deviations says little of where the drone is.
+  // What is above this many sigmas says little of where the drone is.
   constexpr double kMost = 5;
   const double bounded = std::clamp(innovation, -kMost * std::sqrt(S), kMost * std::sqrt(S));
   x_ += PHt * (bounded / S);

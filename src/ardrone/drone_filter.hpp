@@ -56,7 +56,7 @@ class DroneFilter {
   /// @param dt_s  since the height before: neighbours err alike
   void updateHeight(double height_m, double dt_s);
 
-  /// Height measured less height foreseen, and the deviation of that.
+  /// Height measured less height foreseen, and the sigma of that.
   double heightInnovation_m(double height_m) const;
   /// Standard deviation of heightInnovation_m().
   double heightSigma_m() const;

@@ -25,7 +25,7 @@ class Associator {
   /// Landmarks seen by the frame. Each landmark and each feature at most once.
   /// - The prior is narrow: those that the predicted pose puts into the image and that were last
   ///   seen from a like direction and distance, by track or by the best descriptor within a window
-  ///   that grows with the prior's deviation.
+  ///   that grows with the prior's sigma.
   /// - The windows would hold most of the image (max_window_share): by track, or by the best
   ///   descriptor among all landmarks, found exactly or by the map's index.
   /// A match whose ray is off the prediction by more than the threshold is a mismatch (5.36).

@@ -71,7 +71,7 @@ bool MapFeatureAssociator::isEpipolarMismatch(const FrameView& view, const MapFe
   // An uncertain baseline turns the epipolar plane about the first ray, and the parallax with it.
   const double baseline_m = (present.origin_map - first.ray.origin_map).norm();
   const double rotation_rad =
-      config_.threshold_sigmas * view.deviationSince_m(first.position_variance_m2) / baseline_m;
+      config_.threshold_sigmas * view.sigmaSince_m(first.position_variance_m2) / baseline_m;
   const double pixels_rad = config_.epipolar_threshold_px / view.focalLength_px();
   const double threshold = pixels_rad + rotation_rad * std::hypot(offset->along, offset->across);
   return offset->across > threshold || offset->along < -threshold ||

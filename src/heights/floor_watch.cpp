@@ -7,7 +7,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kDeviations = 5;
+constexpr double kSigmas = 5;
 constexpr double kSteady_s = 0.3;  // the drone smooths its heights over 0.1 s
 constexpr double kSteady_m = 0.05;
 constexpr double kLongest_s = 2;  // then accelerometer and velocity foresee no better
@@ -16,7 +16,7 @@ constexpr double kLongest_s = 2;  // then accelerometer and velocity foresee no 
 
 FloorWatch::Answer FloorWatch::see(double time_s, double innovation_m, double sigma_m,
                                    double floor_m) {
-  if (std::abs(innovation_m) <= std::max(least_step_m_, kDeviations * sigma_m)) {
+  if (std::abs(innovation_m) <= std::max(least_step_m_, kSigmas * sigma_m)) {
     floors_.clear();
     return Answer::kSame;
   }

@@ -19,7 +19,7 @@ class FloorWatch {
   /// @param least_step_m  heights that differ by less are of the same floor
   explicit FloorWatch(double least_step_m) : least_step_m_(least_step_m) {}
 
-  /// One height, in order. @param innovation_m  measured less foreseen, of this deviation
+  /// One height, in order. @param innovation_m  measured less foreseen, of this sigma
   /// @param floor_m  what is below, by the position and this height
   Answer see(double time_s, double innovation_m, double sigma_m, double floor_m);
   /// Height of the floor that the last kOther told of, in the odometry's frame [m].

@@ -11,7 +11,7 @@
 namespace ardrone_vslam {
 namespace {
 
-/// How far a landmark lies off its measured ray from a camera position, in its own deviations.
+/// How far a landmark lies off its measured ray from a camera position, in its own sigmas.
 double residual(const Observation& s, const Eigen::Vector3d& camera_map, double sigma_a) {
   const Eigen::Vector3d to_landmark = s.landmark_map - camera_map;
   const double d = to_landmark.dot(s.direction_map);
@@ -69,11 +69,11 @@ PositionFix LandmarkLocator::printedMean(const std::vector<Observation>& observa
     fix.distance_m += weight * std::abs(d);
     weight_sum += weight;
   }
-  // The deviation of this mean for independent inputs; (6.5) as printed does not shrink with their
+  // The sigma of this mean for independent inputs; (6.5) as printed does not shrink with their
   // number.
-  const double deviation = std::sqrt(static_cast<double>(observations.size())) / weight_sum;
+  const double sigma = std::sqrt(static_cast<double>(observations.size())) / weight_sum;
   fix.position_map = weighted_sum / weight_sum;  // (6.4)
-  fix.covariance = deviation * deviation * Eigen::Matrix3d::Identity();
+  fix.covariance = sigma * sigma * Eigen::Matrix3d::Identity();
   fix.shared_variance_m2 /= weight_sum;
   fix.distance_m /= weight_sum;
   return fix;
@@ -102,7 +102,7 @@ std::vector<double> LandmarkLocator::trustIn(const std::vector<Observation>& obs
   std::vector<double> sorted = residuals;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  constexpr double kMedianOfLength = 1.177;  // of a 2-vector of unit deviation per axis
+  constexpr double kMedianOfLength = 1.177;  // of a 2-vector of unit sigma per axis
   constexpr double kPerfectFit = 1e-9;
   const double limit = config_.outlier_sigmas * std::max(*middle / kMedianOfLength, kPerfectFit);
   for (double& r : residuals) {

@@ -35,7 +35,7 @@ void Mapper::refine(const FrameView& view, const std::vector<Association>& match
     const double depth = (landmark.position_map - ray.origin_map).dot(ray.direction_map);  // (5.20)
     const Eigen::Vector3d measured = ray.origin_map + depth * ray.direction_map;           // (5.21)
     const double sigma_p =
-        std::hypot(config_.position_sigma_m, view.deviationSince_m(landmark.position_variance_m2));
+        std::hypot(config_.position_sigma_m, view.sigmaSince_m(landmark.position_variance_m2));
     const double sigma = measurementSigma_m(sigma_p, std::abs(depth), sigma_a);  // (5.22)
     const double variance = landmark.sigma_m * landmark.sigma_m;
     const double gain = variance / (variance + sigma * sigma);           // (5.30-5.32)
@@ -49,7 +49,7 @@ void Mapper::widenBaseline(const FrameView& view, std::size_t feature, Landmark&
   // A track that goes on is hardly ever a mismatch, a landmark found by its descriptor may be one.
   if (landmark.track_id != view.features().track_id[feature]) return;
   // A wrong feature may still lie within the landmark's threshold, and would count for good, as the
-  // parallax only grows. Of the first view's epipolar plane it seldom lies within three deviations.
+  // parallax only grows. Of the first view's epipolar plane it seldom lies within three sigmas.
   const auto offset = epipolarOffset(landmark.first_ray, view.ray(feature));
   if (!offset || offset->across > 3 * angleSigma_rad(view.focalLength_px())) return;
   const auto point = triangulate(landmark.first_ray, view.ray(feature));
@@ -57,14 +57,14 @@ void Mapper::widenBaseline(const FrameView& view, std::size_t feature, Landmark&
   // After a long way round the drift between the two views would turn the map: then the wider
   // baseline gives no better depth.
   const double sigma_p =
-      std::hypot(config_.position_sigma_m, view.deviationSince_m(landmark.position_variance_m2));
-  const double deviation =
+      std::hypot(config_.position_sigma_m, view.sigmaSince_m(landmark.position_variance_m2));
+  const double sigma =
       measurementSigma_m(sigma_p, point->depth_m, angleSigma_rad(view.focalLength_px()));
-  const double depth_deviation = depthSigma_m(deviation, point->parallax_rad);
-  if (depth_deviation > landmark.depth_sigma_m) return;
+  const double depth_sigma_m = depthSigma_m(sigma, point->parallax_rad);
+  if (depth_sigma_m > landmark.depth_sigma_m) return;
   landmark.position_map = point->position_map;
   landmark.parallax_rad = point->parallax_rad;
-  landmark.depth_sigma_m = depth_deviation;
+  landmark.depth_sigma_m = depth_sigma_m;
 }
 
 void Mapper::remember(const FrameView& view, const std::vector<Association>& matches,
@@ -121,7 +121,7 @@ int Mapper::triangulateMatches(const FrameView& view, const std::vector<Associat
     used[feature] = true;
     Landmark landmark;
     const double sigma_p =
-        std::hypot(config_.position_sigma_m, view.deviationSince_m(first.position_variance_m2));
+        std::hypot(config_.position_sigma_m, view.sigmaSince_m(first.position_variance_m2));
     landmark.position_map = point->position_map;
     landmark.position_variance_m2 = view.positionVariance_m2();
     landmark.sigma_m = measurementSigma_m(sigma_p, point->depth_m, sigma_a);  // (5.19)

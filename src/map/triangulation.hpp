@@ -36,12 +36,12 @@ struct EpipolarOffset {
 /// ray)
 std::optional<EpipolarOffset> epipolarOffset(const Ray& first, const Ray& present);
 
-/// Deviation of a landmark or of its measurement, across the ray (5.19, 5.22): sigma_p + d sigma_a.
+/// Sigma of a landmark or of its measurement, across the ray (5.19, 5.22): sigma_p + d sigma_a.
 inline double measurementSigma_m(double position_sigma_m, double depth_m, double angle_sigma_rad) {
   return position_sigma_m + depth_m * angle_sigma_rad;
 }
 
-/// Deviation along the ray, which (5.19) leaves out: the deviation across it over the sine of the
+/// Sigma along the ray, which (5.19) leaves out: the sigma across it over the sine of the
 /// parallax.
 double depthSigma_m(double sigma_m, double parallax_rad);
 

@@ -10,7 +10,7 @@ namespace ardrone_vslam {
 /// than it claims pulls them to and fro. Both are means over the last ten fixes or so.
 class InnovationConsistency {
  public:
-  /// @param whitened  the fix's offset in deviations (MapFix)
+  /// @param whitened  the fix's offset in sigmas (MapFix)
   void learn(const Vector6d& whitened);
 
   /// Normalised innovation squared over its coordinates: 1 is honest.

@@ -44,7 +44,7 @@ struct MapFix {
   Matrix6d covariance = Matrix6d::Zero();  ///< of the offset, by the landmarks' and rays' noise
   Matrix6d drift = Matrix6d::Zero();       ///< what the filter expects of the offset
 
-  /// The offset in deviations of what the filter expects of it.
+  /// The offset in sigmas of what the filter expects of it.
   Vector6d whitened() const;
   /// offset' (drift + covariance)^-1 offset, chi-square with six degrees of freedom.
   double distance() const;

@@ -12,7 +12,7 @@
 namespace ardrone_vslam {
 
 constexpr double kInlier = 6;  // squared deviations of a ray's two angles, 95 %
-/// Deviation of the predicted attitude, and of landmarks among each other, while agreement is
+/// Sigma of the predicted attitude, and of landmarks among each other, while agreement is
 /// looked for.
 constexpr double kSlack_rad = 0.005;
 

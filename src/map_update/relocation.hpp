@@ -12,7 +12,7 @@ namespace ardrone_vslam {
 
 /// Where the camera is by landmarks that were matched nearly anywhere in the image, most of them
 /// wrongly: random sample consensus over pairs, which give a position at the predicted attitude;
-/// what agrees with the best ones, within that attitude's deviation, refines position and attitude.
+/// what agrees with the best ones, within that attitude's sigma, refines position and attitude.
 /// The samples are the same in every run. O(observations).
 /// @param angle_sigma_rad     sigma_a of a ray
 /// @param attitude_sigma_rad  of the predicted attitude relative to the landmarks, per axis

@@ -40,7 +40,7 @@ class TimeSinceFix {
     }
   }
   /// Drifts take part from when they are first given.
-  /// @param widening_s  deviations are twice as large after so long, three times after twice as
+  /// @param widening_s  sigmas are twice as large after so long, three times after twice as
   /// long
   void widen(std::vector<AnchorDrift>& drifts, double widening_s) {
     std::unordered_map<std::uint32_t, double> still_there;

@@ -34,7 +34,7 @@ double FrameView::driftAngle_rad(std::uint32_t anchor_id, double variance_then_m
       std::lower_bound(drifts_.begin(), drifts_.end(), anchor_id,
                        [](const AnchorDrift& one, std::uint32_t id) { return one.anchor_id < id; });
   if (drift == drifts_.end() || drift->anchor_id != anchor_id)
-    return deviationSince_m(variance_then_m2) / distance_m;
+    return sigmaSince_m(variance_then_m2) / distance_m;
   return std::sqrt(drift->position_m2 / (distance_m * distance_m) + drift->attitude_rad2);
 }
 

@@ -47,18 +47,18 @@ class FrameView {
   }
   /// Of the predicted position, per axis; as set.
   double positionVariance_m2() const { return position_variance_m2_; }
-  /// Deviation of the position relative to what was stored when its variance was
+  /// Sigma of the position relative to what was stored when its variance was
   /// `variance_then_m2`: the drift since then. Without common drift all positions are taken as
-  /// independent and the whole deviation counts.
-  double deviationSince_m(double variance_then_m2) const {
+  /// independent and the whole sigma counts.
+  double sigmaSince_m(double variance_then_m2) const {
     const double shared_m2 = common_drift_ ? variance_then_m2 : 0.0;
     return std::sqrt(std::max(position_variance_m2_ - shared_m2, 0.0));
   }
 
   /// Where the filter knows what landmarks share with the present pose. Ascending in anchor_id.
   void setDrifts(std::vector<AnchorDrift> drifts) { drifts_ = std::move(drifts); }
-  /// By how much a landmark may be off its predicted direction because the pose is: one deviation.
-  /// @param variance_then_m2  what counts for landmarks without an anchor, see deviationSince_m
+  /// By how much a landmark may be off its predicted direction because the pose is: one sigma.
+  /// @param variance_then_m2  what counts for landmarks without an anchor, see sigmaSince_m
   double driftAngle_rad(std::uint32_t anchor_id, double variance_then_m2, double distance_m) const;
 
   /// What reset() was given.

@@ -9,7 +9,7 @@
 namespace ardrone_vslam {
 namespace {
 
-// Odometry drifts otherwise than it claims: after so long without a fix the pose's deviation counts
+// Odometry drifts otherwise than it claims: after so long without a fix the pose's sigma counts
 // twice in the search, after twice as long three times.
 constexpr double kWidening_s = 10;
 

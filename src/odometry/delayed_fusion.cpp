@@ -29,11 +29,11 @@ bool isPositiveSemiDefinite(const Matrix6d& covariance) {
     return false;
   }
   // Metres and radians differ by orders of magnitude: judged as correlations.
-  const Vector6d deviation = symmetric.diagonal().cwiseMax(0).cwiseSqrt();
+  const Vector6d sigma = symmetric.diagonal().cwiseMax(0).cwiseSqrt();
   Matrix6d correlation = Matrix6d::Identity();
   for (int row = 0; row < 6; ++row) {
     for (int column = 0; column < 6; ++column) {
-      const double scale = deviation[row] * deviation[column];
+      const double scale = sigma[row] * sigma[column];
       if (scale > 0) {
         correlation(row, column) = symmetric(row, column) / scale;
       } else if (symmetric(row, column) != 0) {

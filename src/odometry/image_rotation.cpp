@@ -21,9 +21,9 @@ constexpr double kInlierShare = 0.6;
 constexpr double kNearestToWay = 0.15;
 /// Jumps of neighbouring corners are alike: more tracks than this say no more.
 constexpr double kIndependentTracks = 40;
-constexpr double kMostSense = 5;  // deviations of one corner, of the way's sense
+constexpr double kMostSense = 5;  // sigmas of one corner, of the way's sense
 
-/// Weights are in squares of the corners' deviation.
+/// Weights are in squares of the corners' sigma.
 struct Prior {
   Eigen::Vector3d way_then = Eigen::Vector3d::UnitZ();
   double weight = 0;
@@ -35,7 +35,7 @@ Prior priorOf(const DisplacementGuess& guess, double corner_sigma_rad) {
   Prior prior;
   const double displacement_m = guess.displacement_m.norm();
   if (displacement_m > 0) prior.way_then = guess.displacement_m / displacement_m;
-  // Of the direction; a way much shorter than its deviation may point anywhere.
+  // Of the direction; a way much shorter than its sigma may point anywhere.
   const double sigma_rad =
       std::max(guess.sigma_m, 1e-3 * displacement_m) / std::max(displacement_m, 1e-9);
   prior.weight = std::pow(corner_sigma_rad / std::min(sigma_rad, 1.0), 2);

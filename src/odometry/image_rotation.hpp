@@ -71,7 +71,7 @@ double squaresAgainst(const KnownMotion& known, const ImageMotion& fitted,
 /// Fits turn and direction of the way to the epipolar planes (5.37) of the tracks, robustly: up to
 /// a third of them may be wrong. Neither depths nor the length of the way matter. O(pairs).
 /// @param corner_sigma_rad  of a corner between two images, per axis
-/// @param guess  how surely the direction is known follows from length and deviation
+/// @param guess  how surely the direction is known follows from length and sigma
 /// @return nothing for fewer than kFewestTurnTracks pairs, and when too few agree
 std::optional<ImageRotation> fitTurn(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
                                      const DisplacementGuess& guess);

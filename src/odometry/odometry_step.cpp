@@ -15,7 +15,7 @@ constexpr double kMemory_s = 0.1;          // the velocity's
 constexpr double kAcceleration_m_s2 = 10;  // more than a camera drone's
 constexpr double kSlack_m = 0.25;          // noise of positions
 constexpr double kStampSlack = 0.5;        // of the way: stamps jitter by a share of their interval
-constexpr double kDeviations = 5;          // by the odometry's own covariance
+constexpr double kSigmas = 5;              // by the odometry's own covariance
 constexpr double kFrozen_m = 1e-9;         // less than any odometry moves in flight
 constexpr double kFlying_m_s = 0.3;        // nothing stops at once
 constexpr double kShortestFreeze_s = 0.5;  // a message may come twice
@@ -48,7 +48,7 @@ std::optional<OdometryStep> OdometryStepWatch::see(const OdometryState& state) {
   const Eigen::Vector3d expected_m = velocity_odom_m_s_ * dt_s;
   const double most_m = kSlack_m + kStampSlack * expected_m.norm() +
                         kAcceleration_m_s2 * (kMemory_s + stepping_s_ + dt_s) * dt_s +
-                        kDeviations * std::sqrt(growth_m2(last, state));
+                        kSigmas * std::sqrt(growth_m2(last, state));
   const Eigen::Vector3d excess_m = displacement_m - expected_m;
   // A way no longer than the speed explains is none: a car may stop, or a recording turn round.
   const bool is_long = displacement_m.norm() > expected_m.norm() + most_m;

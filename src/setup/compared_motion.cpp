@@ -13,7 +13,7 @@ namespace {
 
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 
-constexpr double kAttitude_rad = 0.005;  // deviation of a turn by the odometry, per axis
+constexpr double kAttitude_rad = 0.005;  // sigma of a turn by the odometry, per axis
 constexpr double kOfTurn = 0.05;         // and as a share of it: calibration, clocks
 constexpr double kDirection_rad = 0.1;   // of a way: many tracks of a street err alike
 constexpr double kVelocity_m_s = 0.4;    // of the odometry: three times that of a bad one
@@ -24,7 +24,7 @@ constexpr double kAgrees = 12;         // squares above this are looked into
 constexpr double kMostOutliers = 0.4;  // share of the tracks, or the motion is not known
 constexpr double kFewOutliers = 0.25;  // share below which the first fit will do
 constexpr double kAsGood = 0.05;       // share of the tracks by which fits may differ
-constexpr double kAnywhere_m = 10;     // deviation of a way that is not known
+constexpr double kAnywhere_m = 10;     // sigma of a way that is not known
 
 double directionSigma_rad(const ToldMotion& told, double span_s) {
   const double way_m = told.way_then_m.norm();

@@ -19,7 +19,7 @@ constexpr std::size_t kImages = 16;                  // kept: those of kSpan_ns 
 constexpr std::size_t kMostPairs = 120;              // more tracks cost time and say little
 constexpr std::size_t kFewestPairs = 20;
 constexpr double kLeast_px = 3;     // the tracks' median way: less tells nothing
-constexpr double kCorner_px = 0.7;  // deviation between two images, per axis
+constexpr double kCorner_px = 0.7;  // sigma between two images, per axis
 constexpr double kStill = 1e-6;     // odometry that moves less, in m and rad, is frozen
 constexpr std::size_t kMiddle = kSetupOffsets / 2;
 

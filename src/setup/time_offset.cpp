@@ -9,8 +9,8 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kCorner_px = 0.7;       // deviation between two images, per axis
-constexpr double kVelocity_m_s = 0.05;   // deviation of the odometry's velocity, per axis
+constexpr double kCorner_px = 0.7;       // sigma between two images, per axis
+constexpr double kVelocity_m_s = 0.05;   // sigma of the odometry's velocity, per axis
 constexpr double kOdometryScale = 0.05;  // and of its scale
 constexpr std::size_t kMostPairs = 120;  // more tracks cost time and say little
 constexpr std::size_t kSmoothing = 2;    // grid points to each side

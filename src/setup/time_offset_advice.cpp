@@ -27,17 +27,17 @@ const char* explain(TimeOffsetState state) {
 }
 
 std::string adviceOn(const TimeOffset& found, double used_s) {
-  constexpr double kDeviations = 3;
+  constexpr double kSigmas = 3;
   constexpr double kSmallest_s = 0.015;
   const double off_s = std::abs(found.offset_s - used_s);
   if (found.state != TimeOffsetState::kKnown || off_s < kSmallest_s ||
-      off_s < kDeviations * found.deviation_s)
+      off_s < kSigmas * found.sigma_s)
     return {};
   std::ostringstream advice;
   advice << std::fixed << std::setprecision(3) << "camera and odometry turn alike when images are "
          << "taken as exposed at their stamps " << (found.offset_s < 0 ? "- " : "+ ")
-         << std::abs(found.offset_s) << " s (deviation " << found.deviation_s << " s), not "
-         << used_s << " s: set image_time_offset_s: " << found.offset_s;
+         << std::abs(found.offset_s) << " s (deviation " << found.sigma_s << " s), not " << used_s
+         << " s: set image_time_offset_s: " << found.offset_s;
   return advice.str();
 }
 

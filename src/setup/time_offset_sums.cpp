@@ -10,14 +10,14 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kAttitude_rad = 0.002;  // white deviation of a turn by the odometry, per axis
+constexpr double kAttitude_rad = 0.002;  // white noise of a turn by the odometry, per axis
 constexpr double kCalibration = 0.02;    // of a turn, by focal length and lens
-constexpr double kDrift_rad_s = 0.02;    // deviation of the rates' constant difference
+constexpr double kDrift_rad_s = 0.02;    // sigma of the rates' constant difference
 constexpr double kDepth_m = 3;           // of the scene, roughly
-constexpr double kScale = 0.1;           // deviation of the turns' constant relative difference
+constexpr double kScale = 0.1;           // sigma of the turns' constant relative difference
 constexpr double kOutlierSigmas = 5;     // of a turn
 constexpr double kFewestTurns = 30;      // in the sums
-constexpr double kClearTurn = 16;        // mean square of turns, in deviations: no noise
+constexpr double kClearTurn = 16;        // mean square of turns, in sigmas: no noise
 constexpr double kAlike = 4;             // mean square that may stay; usual is below 1
 constexpr double kSignificant = 5;       // times what noise makes of the squares
 constexpr std::size_t kParabola = 5;     // grid points to each side of the minimum
@@ -136,7 +136,7 @@ void TimeOffsetSums::findMinimum() {
   const double variance_s2 = by_turns_s2 + by_ripple_s * by_ripple_s + kFloor_s * kFloor_s;
   if (variance_s2 > TimeOffsetEstimator::kSure_s * TimeOffsetEstimator::kSure_s) return;
   estimate_.state = TimeOffsetState::kKnown;
-  estimate_.deviation_s = std::sqrt(variance_s2);
+  estimate_.sigma_s = std::sqrt(variance_s2);
   const double minimum = static_cast<double>(best_) - parabola.slope / parabola.curvature;
   estimate_.offset_s = seconds(centre_ns_ - TimeOffsetEstimator::kReach_ns) + minimum * grid_s;
 }

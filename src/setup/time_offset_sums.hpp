@@ -25,7 +25,7 @@ struct ComparedTurn {
   const AttitudesAtOffsets& then;
   const AttitudesAtOffsets& now;
   const ImageRotation& by_tracks;
-  double way_sigma_m;  ///< deviation of the camera's way between them
+  double way_sigma_m;  ///< sigma of the camera's way between them
 };
 
 /// The squares of the differences between the two turns, for each offset, and where they are

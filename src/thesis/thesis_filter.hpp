@@ -19,7 +19,7 @@ class ThesisFilter {
 
   /// Starts at a base position.
   void start(const Eigen::Vector3d& position_map, const OdometryState& odometry);
-  /// Moves on by the odometry's increment since the last call; the deviation grows by the increase
+  /// Moves on by the odometry's increment since the last call; the sigma grows by the increase
   /// of the odometry's covariance or, where it gives none (positionVariance_m2), by the configured
   /// noise.
   void predict(const OdometryState& odometry);

@@ -33,7 +33,7 @@ class Propagator {
                  WindowState& state);
   /// Begins anew beside the anchors, with one frame where the odometry and this transform put it:
   /// what was learned of the odometry's velocity and attitude is forgotten. What the frame moves by
-  /// counts as its deviation. There must be no other frame.
+  /// counts as its sigma. There must be no other frame.
   void returnTo(const Eigen::Isometry3d& T_map_odom, WindowState& state);
   /// Its states from now on will be in another frame: the last one goes along.
   void moveOdometry(const Eigen::Isometry3d& T_new_odom) {

@@ -40,7 +40,7 @@ std::optional<RayResidual> rayResidual(const Clone& pose, const Eigen::Vector3d&
 
 /// The root for a ray known alike all around, and for one whose information is given along the
 /// image's columns and rows.
-/// @param sigma_rad  deviation of the ray's angle
+/// @param sigma_rad  sigma of the ray's angle
 RayRoot rayRoot(const Eigen::Vector3d& bearing, double sigma_rad);
 RayRoot rayRoot(const Eigen::Vector3d& bearing_cam, const Eigen::Matrix2d& information_rad2);
 

@@ -27,7 +27,7 @@ struct FinishedTrack {
 class TrackWindow {
  public:
   /// @param R_rig_cam  of the extrinsics
-  /// @param corner_sigma_px  deviation of features that are not aligned
+  /// @param corner_sigma_px  sigma of features that are not aligned
   /// @param scene_sigma_px  of the others, beside what their information tells
   TrackWindow(const Eigen::Matrix3d& R_rig_cam, double corner_sigma_px, double scene_sigma_px)
       : R_rig_cam_(R_rig_cam), corner_sigma_px_(corner_sigma_px), scene_sigma_px_(scene_sigma_px) {}

@@ -19,7 +19,7 @@ double seconds(std::int64_t duration_ns) {
   return static_cast<double>(duration_ns) * 1e-9;
 }
 
-// Half of the tracks are further off than a turn that is the odometry's within its deviation, and a
+// Half of the tracks are further off than a turn that is the odometry's within its sigma, and a
 // corner's jump, could bring them: whatever turn they agree on, the camera moves.
 bool isBeyondAnyTurn(double left_rad, const OdometryTurn& odometry, double focal_length_px) {
   const double farthest_rad =

@@ -197,17 +197,17 @@ TEST(SettingsTest, ACalibrationThatIsNoneIsRefused) {
   std::remove(path.c_str());
 }
 
-TEST(SettingsTest, TheMountingsAreThoseOfTheDriversTf) {
+TEST(SettingsTest, TheExtrinsicsAreThoseOfTheDriversTf) {
   OnboardConfig front;
-  const Eigen::Isometry3d T = mountingOf(front);
+  const Eigen::Isometry3d T = extrinsicsOf(front);
   Eigen::Matrix3d forward;
   forward << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   EXPECT_TRUE(T.linear().isApprox(forward, 1e-12));
   OnboardConfig bottom;
   bottom.camera_position_m = "[0, -0.02, 0]";
   bottom.camera_rotation_deg = "[180, 0, 90]";
-  EXPECT_EQ(mountingOf(bottom).translation(), Eigen::Vector3d(0, -0.02, 0));
-  EXPECT_TRUE((mountingOf(bottom).linear() * Eigen::Vector3d::UnitZ())
+  EXPECT_EQ(extrinsicsOf(bottom).translation(), Eigen::Vector3d(0, -0.02, 0));
+  EXPECT_TRUE((extrinsicsOf(bottom).linear() * Eigen::Vector3d::UnitZ())
                   .isApprox(-Eigen::Vector3d::UnitZ(), 1e-12))
       << "it looks down";
 }

@@ -54,7 +54,7 @@ inline Flight straightFlight(int frames, double rate_hz, double speed_m_s) {
 /// Odometry with exact attitude whose position drifts.
 struct DriftConfig {
   double walk_m_per_sqrt_s = 0.03;
-  double bias_m_s = 0.01;  ///< deviation per axis of a constant velocity error
+  double bias_m_s = 0.01;  ///< sigma per axis of a constant velocity error
   double scale_error = 0;  ///< ways are reported (1 + scale_error) times as long
 };
 

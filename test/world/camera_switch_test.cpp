@@ -154,9 +154,9 @@ TEST(CameraSwitch, AnAbsurdMountingIsRefusedAndNothingChanges) {
   Slam slam(test::configForDrift(), frontExtrinsics());
   EXPECT_THROW(slam.changeCamera(Eigen::Translation3d(1000, 0, 0) * test::bottomExtrinsics()),
                std::invalid_argument);
-  SlamConfig with_mounting = test::configForDrift();
-  with_mounting.msckf.odometry.extrinsics_sigma_deg = 0.3;
-  EXPECT_FALSE(Slam(with_mounting, frontExtrinsics()).canChangeCamera());
+  SlamConfig with_extrinsics = test::configForDrift();
+  with_extrinsics.msckf.odometry.extrinsics_sigma_deg = 0.3;
+  EXPECT_FALSE(Slam(with_extrinsics, frontExtrinsics()).canChangeCamera());
   EXPECT_TRUE(slam.canChangeCamera());
 }
 

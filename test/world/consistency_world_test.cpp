@@ -41,9 +41,9 @@ std::vector<OdometryState> observeAs(const OdometryNoiseConfig& config, const Fl
                     config.walk_m_per_sqrt_s * config.walk_m_per_sqrt_s * dt_s);
       state.T_odom_base.translation() = states.back().T_odom_base.translation() +
                                         (1 + scale_error) * step_odom + walk_m * random.normal3();
-      const auto fade = [&](double time_s, double deviation, Eigen::Vector3d& error) {
+      const auto fade = [&](double time_s, double sigma, Eigen::Vector3d& error) {
         const double keep = std::exp(-dt_s / time_s);
-        error = keep * error + std::sqrt(1 - keep * keep) * deviation * random.normal3();
+        error = keep * error + std::sqrt(1 - keep * keep) * sigma * random.normal3();
       };
       fade(config.velocity_bias_time_s, config.velocity_bias_m_s, bias_m_s);
       const double yaw_variance =
@@ -62,10 +62,10 @@ std::vector<OdometryState> observeAs(const OdometryNoiseConfig& config, const Fl
   return states;
 }
 
-/// Errors of position in deviations, squared, over their three dimensions: 1 is honest.
+/// Errors of position in sigmas, squared, over their three dimensions: 1 is honest.
 struct Consistency {
   double nees = 0;
-  double inside = 0;  ///< share of the frames within three deviations (of a sphere: 99.73 %)
+  double inside = 0;  ///< share of the frames within three sigmas (of a sphere: 99.73 %)
 };
 
 Consistency overTwentySeeds(const SlamConfig& config) {

@@ -11,7 +11,7 @@
 namespace ardrone_vslam {
 namespace {
 
-/// After a minute of laps. @param bias_m_s  deviation of the constant bias that is drawn, per axis
+/// After a minute of laps. @param bias_m_s  sigma of the constant bias that is drawn, per axis
 double learnedOverDrawn(double bias_m_s, std::uint64_t seed) {
   const test::Flight flight = test::lapsFlight(200, 3, 10);
   test::DriftConfig drift;

@@ -23,7 +23,7 @@ class WidePrior : public ::testing::Test {
     calm_odometry_ = odometry_;
     for (std::size_t i = kJump; i < kFrames; ++i)
       odometry_[i].T_odom_base.translation() += Eigen::Vector3d(-1.8, 2.2, 0.4);
-    // 8 cm of way make a deviation of 0.2 m, a jump of 2.9 m one of 1.2 m.
+    // 8 cm of way make a sigma of 0.2 m, a jump of 2.9 m one of 1.2 m.
     config_.thesis_filter.odometry_noise_m_per_sqrt_m = 0.7;
     config_.thesis_filter.mean = MeanKind::kExact;
     // Tracks would find most landmarks as they do in every frame.

@@ -203,9 +203,9 @@ DoctorReport examine(const DoctorRecording& recording,
           ? observeNavdata(recording)
           : adapt(recording, is_mirrored ? OdometryMode::kTwist : OdometryMode::kPose, height);
   findings.push_back(checkMoves(recording, tracks, odometry.states));
-  const auto mountings = estimateMountings(recording, tracks, odometry.states);
-  append(findings, checkDirections(mountings, recording.base_frame, report.static_transform));
-  findings.push_back(checkTimeOffset(mountings, parameters));
+  const auto cameras = estimateAllExtrinsics(recording, tracks, odometry.states);
+  append(findings, checkDirections(cameras, recording.base_frame, report.static_transform));
+  findings.push_back(checkTimeOffset(cameras, parameters));
   if (!parameters.empty() && parameters.back().key == "image_time_offset_s") {
     SuggestedParameter of_tracker = parameters.back();  // for use_attitude
     of_tracker.section = "tracker";

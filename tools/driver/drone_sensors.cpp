@@ -15,10 +15,10 @@ constexpr double kBattery_s = 720;      // lasts for 12 minutes
 constexpr double kHoverSpeed_m_s = 0.1;
 constexpr double kAltitudeTime_s = 0.1;
 
-/// Of the integral of an Ornstein-Uhlenbeck process of this deviation.
-double integratedVariance(double deviation, double time_s, double t_s) {
+/// Of the integral of an Ornstein-Uhlenbeck process of this sigma.
+double integratedVariance(double sigma, double time_s, double t_s) {
   const double grown_s = t_s - time_s * -std::expm1(-t_s / time_s);
-  return 2 * deviation * deviation * time_s * grown_s;
+  return 2 * sigma * sigma * time_s * grown_s;
 }
 
 double square(double x) {

@@ -19,7 +19,7 @@ struct FakeDroneOptions {
   std::string autopilot;  ///< the flight that it flies by itself; empty: it obeys commands
   std::optional<FlightStart> start;  ///< nothing: where the flight, or the world's laps, begin
   OdometryProfile profile;           ///< how its measurements drift
-  double wind_m_s = 0.2;             ///< deviation of the air's speed along x and y
+  double wind_m_s = 0.2;             ///< sigma of the air's speed along x and y
   std::uint64_t seed = 0;
 };
 

@@ -21,7 +21,7 @@ struct WorldPoint {
 
 /// How features differ from what is really there.
 struct ViewFaults {
-  double pixel_noise_px = 0.5;  ///< deviation per axis
+  double pixel_noise_px = 0.5;  ///< sigma per axis
   int flipped_bits = 20;        ///< of each descriptor, drawn anew in every view
   /// Share of the features that are wrong: a third of them corners of nothing with a descriptor of
   /// their own, the rest points whose corner was found 5 to 40 px away.

@@ -16,10 +16,10 @@ enum Stream : std::uint64_t { kScale, kVelocity, kStep, kAttitude, kYaw, kYawSca
 /// Ornstein-Uhlenbeck process, discretised exactly and started in its stationary distribution.
 class DriftingBias {
  public:
-  DriftingBias(double deviation, double time_constant_s, double dt_s, const Eigen::Vector3d& draw)
-      : value_(deviation * draw),
+  DriftingBias(double sigma, double time_constant_s, double dt_s, const Eigen::Vector3d& draw)
+      : value_(sigma * draw),
         keep_(std::exp(-dt_s / time_constant_s)),
-        noise_(deviation * std::sqrt(1 - keep_ * keep_)) {}
+        noise_(sigma * std::sqrt(1 - keep_ * keep_)) {}
 
   void advance(const Eigen::Vector3d& draw) { value_ = keep_ * value_ + noise_ * draw; }
   const Eigen::Vector3d& value() const { return value_; }

@@ -11,19 +11,19 @@
 namespace ardrone_vslam {
 
 /// How odometry drifts (noise in the body frame). OU(s, T): Ornstein-Uhlenbeck process of
-/// deviation s, time constant T.
+/// sigma s, time constant T.
 struct OdometryProfile {
   std::string name;
   double rate_hz = 50;
   double scale_sigma = 0;            ///< of the scale error, drawn once per run
   double step_noise = 0;             ///< white, share of each step's length
-  double velocity_bias_m_s = 0;      ///< OU deviation per axis
+  double velocity_bias_m_s = 0;      ///< OU sigma per axis
   double velocity_bias_time_s = 20;  ///< OU time constant
   double velocity_noise_m_s = 0;     ///< white at 15 Hz, scaled by the root of the rate
   double yaw_scale_sigma = 0;  ///< of the error of turns, as a share of them, drawn once per run
   double yaw_walk_rad_per_sqrt_m = 0;
   double yaw_walk_rad_per_sqrt_s = 0;
-  double attitude_bias_rad = 0;  ///< OU deviation of roll and pitch
+  double attitude_bias_rad = 0;  ///< OU sigma of roll and pitch
   double attitude_bias_time_s = 30;
   double attitude_noise_rad = 0;  ///< white, roll, pitch, yaw
   double delay_s = 0;             ///< unknown to the user: stamps are late by this

@@ -33,7 +33,7 @@ class RandomSource {
   }
   bool chance(double probability) { return uniform() < probability; }
 
-  /// Mean 0, deviation 1 (Marsaglia's polar method).
+  /// Mean 0, sigma 1 (Marsaglia's polar method).
   double normal() {
     if (has_spare_) {
       has_spare_ = false;
@@ -50,7 +50,7 @@ class RandomSource {
     has_spare_ = true;
     return x * factor;
   }
-  /// Three independent numbers of deviation 1.
+  /// Three independent numbers of sigma 1.
   Eigen::Vector3d normal3() {
     const double x = normal();
     const double y = normal();

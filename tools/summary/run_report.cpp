@@ -207,7 +207,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["image_time_offset_estimate_s"] =
       is_offset_known ? Json(run.time_offset.offset_s) : Json(nullptr);
   summary["image_time_offset_deviation_s"] =
-      is_offset_known ? Json(run.time_offset.deviation_s) : Json(nullptr);
+      is_offset_known ? Json(run.time_offset.sigma_s) : Json(nullptr);
   summary["image_time_offset_unknown"] =
       is_offset_known ? Json(nullptr) : Json(explain(run.time_offset.state));
   summary["setup_fault"] = nameOf(run.setup.fault);

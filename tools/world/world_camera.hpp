@@ -22,7 +22,7 @@ struct CameraEffects {
   double shutter_s = 0;              ///< how long each row is exposed: motion blur
   double readout_s = 0;              ///< from the first row to the last one: rolling shutter
   std::optional<double> gain = 1.0;  ///< of light and noise alike; nothing: automatic
-  double noise_grey = 2;             ///< deviation of the white noise at gain 1
+  double noise_grey = 2;             ///< sigma of the white noise at gain 1
   int quantiser = 0;                 ///< of block artefacts, as H.264's QP, 1 .. 51; 0: none
 };
 

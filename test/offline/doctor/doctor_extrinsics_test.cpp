@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor/camera/doctor_mounting.hpp"
+#include "doctor/camera/doctor_extrinsics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,14 +22,14 @@ ExtrinsicsEstimate estimate(const std::vector<ImageFeatures>& images,
                             const std::vector<OdometryState>& states,
                             const Eigen::Matrix3d& R_told) {
   const std::vector<ImagePair> pairs = movingPairs(images);
-  return estimateMounting(pairs, {states, forwardCamera().translation()}, R_told);
+  return estimateExtrinsics(pairs, {states, forwardCamera().translation()}, R_told);
 }
 
 double angleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return Eigen::AngleAxisd(a.transpose() * b).angle();
 }
 
-TEST(DoctorMounting, AgreesWithARightTf) {
+TEST(DoctorExtrinsics, AgreesWithARightTf) {
   const Eigen::Matrix3d R = forwardCamera().linear();
   const ExtrinsicsEstimate found = estimate(test::doctorViews(forwardCamera()), odometry(), R);
   EXPECT_EQ(found.state, ExtrinsicsState::kFound);
@@ -37,7 +37,7 @@ TEST(DoctorMounting, AgreesWithARightTf) {
   EXPECT_LT(std::abs(found.offset_s), 0.005);
 }
 
-TEST(DoctorMounting, FindsACameraTurnedByQuartersAboutAnyAxis) {
+TEST(DoctorExtrinsics, FindsACameraTurnedByQuartersAboutAnyAxis) {
   const Eigen::Matrix3d R = forwardCamera().linear();
   const auto images = test::doctorViews(forwardCamera());
   const auto states = odometry();
@@ -52,14 +52,14 @@ TEST(DoctorMounting, FindsACameraTurnedByQuartersAboutAnyAxis) {
   }
 }
 
-TEST(DoctorMounting, FindsASmallTurn) {
+TEST(DoctorExtrinsics, FindsASmallTurn) {
   const Eigen::Matrix3d R = forwardCamera().linear();
   const Eigen::Matrix3d R_told = R * rotationOf({10 * kDeg, -5 * kDeg, 3 * kDeg});
   const ExtrinsicsEstimate found = estimate(test::doctorViews(forwardCamera()), odometry(), R_told);
   EXPECT_LT(angleBetween(found.R_base_cam, R), 1 * kDeg);
 }
 
-TEST(DoctorMounting, FindsLateImagesEvenOfATurnedCamera) {
+TEST(DoctorExtrinsics, FindsLateImagesEvenOfATurnedCamera) {
   const Eigen::Matrix3d R = forwardCamera().linear();
   const Eigen::Matrix3d R_told = R * rotationOf({0, 0, M_PI});
   for (const double late_s : {-0.06, 0.04, 0.15}) {
@@ -71,7 +71,7 @@ TEST(DoctorMounting, FindsLateImagesEvenOfATurnedCamera) {
   }
 }
 
-TEST(DoctorMounting, SaysWhatItCannotTell) {
+TEST(DoctorExtrinsics, SaysWhatItCannotTell) {
   const Eigen::Matrix3d R = forwardCamera().linear();
   // Two seconds are too few pairs of images.
   EXPECT_EQ(estimate(test::doctorViews(forwardCamera(), 0, 2), odometry(), R).state,
@@ -107,13 +107,13 @@ TEST(DoctorMounting, SaysWhatItCannotTell) {
   EXPECT_EQ(estimate(images, straight, R).state, ExtrinsicsState::kAmbiguous);
 }
 
-TEST(DoctorMounting, PrintsTheCorrectedTransform) {
+TEST(DoctorExtrinsics, PrintsTheCorrectedTransform) {
   const DoctorRecording good = test::goodRecording();
   Tracks tracks;
   tracks.cameras.push_back({"cam", test::doctorCamera(), test::doctorViews(forwardCamera())});
   std::string line;
-  auto mountings = estimateMountings(good, tracks, odometry());
-  EXPECT_EQ(test::verdictOf(checkDirections(mountings, "base", line), "camera_direction"),
+  auto cameras = estimateAllExtrinsics(good, tracks, odometry());
+  EXPECT_EQ(test::verdictOf(checkDirections(cameras, "base", line), "camera_direction"),
             Verdict::kOk);
   EXPECT_TRUE(line.empty());
 
@@ -121,18 +121,18 @@ TEST(DoctorMounting, PrintsTheCorrectedTransform) {
   turned.transforms["cam"].T_parent_child = Eigen::Translation3d(0.1, 0.2, 0) * forwardCamera() *
                                             Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ());
   tracks.cameras[0].images = test::doctorViews(Eigen::Translation3d(0.1, 0.2, 0) * forwardCamera());
-  mountings = estimateMountings(turned, tracks, odometry());
-  EXPECT_EQ(test::verdictOf(checkDirections(mountings, "base", line), "camera_direction"),
+  cameras = estimateAllExtrinsics(turned, tracks, odometry());
+  EXPECT_EQ(test::verdictOf(checkDirections(cameras, "base", line), "camera_direction"),
             Verdict::kFault);
   EXPECT_EQ(line, "rosrun tf2_ros static_transform_publisher 0.1 0.2 0 -1.5708 0 -1.5708 base cam");
 }
 
-TEST(DoctorMounting, SuggestsTheTimeOffset) {
+TEST(DoctorExtrinsics, SuggestsTheTimeOffset) {
   Tracks tracks;
   tracks.cameras.push_back({"cam", test::doctorCamera(), test::doctorViews(forwardCamera(), 0.09)});
   std::vector<SuggestedParameter> parameters;
-  const auto mountings = estimateMountings(test::goodRecording(), tracks, odometry());
-  EXPECT_EQ(checkTimeOffset(mountings, parameters).verdict, Verdict::kWarning);
+  const auto cameras = estimateAllExtrinsics(test::goodRecording(), tracks, odometry());
+  EXPECT_EQ(checkTimeOffset(cameras, parameters).verdict, Verdict::kWarning);
   ASSERT_EQ(parameters.size(), 1U);
   EXPECT_NEAR(std::stod(parameters[0].value), -0.09, 0.01);
   EXPECT_EQ(checkTimeOffset({}, parameters).verdict, Verdict::kNotChecked);

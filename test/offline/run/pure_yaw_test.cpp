@@ -22,7 +22,7 @@ constexpr double kRate_hz = 15;
 
 struct Judged {
   int landmarks = 0;
-  int at_wrong_depth = 0;       ///< by more than three of its deviations
+  int at_wrong_depth = 0;       ///< by more than three of its sigmas
   std::vector<double> jumps_m;  ///< of the position's error from image to image
 };
 
@@ -72,7 +72,7 @@ class TurningDrone {
     return options;
   }
 
-  /// Of a new landmark, in its deviations: distance from where the camera is thought to be, beside
+  /// Of a new landmark, in its sigmas: distance from where the camera is thought to be, beside
   /// that of what is there truly.
   double depthError(const Landmark& landmark, const Eigen::Isometry3d& T_map_base,
                     const Eigen::Isometry3d& truth, std::size_t frame) const {
@@ -94,7 +94,7 @@ class TurningDrone {
 };
 
 // The odometry's velocity error may be more than the nose's speed of 0.07 m/s, and then all depths
-// err by one factor: 0.5 to 2.1 with these seeds, where a deviation of 0.2 was claimed.
+// err by one factor: 0.5 to 2.1 with these seeds, where a sigma of 0.2 was claimed.
 TEST(PureYaw, NoLandmarkClaimsAWrongDepthAndNothingJumps) {
   const TurningDrone drone;
   int landmarks = 0;

@@ -34,7 +34,7 @@ TimeOffset find(const WorldSequence& sequence, std::vector<ImageFeatures> images
     estimator.see(image, odometry);
     const TimeOffset& found = estimator.estimate();
     if (found.state == TimeOffsetState::kKnown) {
-      EXPECT_LT(std::abs(found.offset_s - offset_s), 5 * found.deviation_s);
+      EXPECT_LT(std::abs(found.offset_s - offset_s), 5 * found.sigma_s);
     }
   }
   return estimator.estimate();

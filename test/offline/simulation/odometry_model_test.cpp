@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The drift of each profile against what its numbers say analytically, over many seeds. A sample
-// deviation of n draws scatters by 1 / sqrt(2 n), which is 3.5 % here; the bounds are four of that
+// sigma of n draws scatters by 1 / sqrt(2 n), which is 3.5 % here; the bounds are four of that
 // and more where the draws are not normal.
 #include "simulation/odometry_model.hpp"
 
@@ -44,14 +44,14 @@ std::function<Eigen::Vector3d(const OdometryRun&)> driftFrom(const Trajectory& t
   };
 }
 
-double variance(double deviation) {
-  return deviation * deviation;
+double variance(double sigma) {
+  return sigma * sigma;
 }
 
-/// Of the integral of OU(deviation, time constant), started stationary.
-double integratedOuVariance(double deviation, double time_constant_s, double seconds) {
+/// Of the integral of OU(sigma, time constant), started stationary.
+double integratedOuVariance(double sigma, double time_constant_s, double seconds) {
   const double x = seconds / time_constant_s;
-  return 2 * variance(deviation * time_constant_s) * (x - 1 + std::exp(-x));
+  return 2 * variance(sigma * time_constant_s) * (x - 1 + std::exp(-x));
 }
 
 double pitchOf(const OdometryState& state) {

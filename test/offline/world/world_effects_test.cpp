@@ -101,7 +101,7 @@ TEST(World, AFloorSeenFromAHandsBreadthHasDetail) {
         Eigen::Translation3d(-2.6, 0.3, height_m) * bottom.T_body_cam;
     const cv::Mat image = camera.shoot(
         world.at(0), [&](double) { return T_world_cam; }, 0);
-    cv::Scalar mean, deviation;
+    cv::Scalar mean, sigma;
     cv::Mat slope;
     cv::absdiff(image(cv::Rect(0, 0, 312, 240)), image(cv::Rect(8, 0, 312, 240)), slope);
     EXPECT_GT(meanOf(slope), 5) << height_m;  // 8 pixels are 8 mm and more
@@ -159,9 +159,9 @@ TEST(WorldCamera, GainBrightensAndAmplifiesNoise) {
     cv::Mat difference;
     cv::subtract(shoot(world.at(40), noisy), shoot(world.at(40), clean), difference, cv::noArray(),
                  CV_32F);
-    cv::Scalar mean, deviation;
-    cv::meanStdDev(difference, mean, deviation);
-    return deviation[0];
+    cv::Scalar mean, sigma;
+    cv::meanStdDev(difference, mean, sigma);
+    return sigma[0];
   };
   EXPECT_NEAR(noiseOf(2), 4, 0.3);
   EXPECT_NEAR(noiseOf(1), 2, 0.2);

@@ -103,22 +103,22 @@ TEST(WorldRenderer, NearerSurfacesHideFartherOnes) {
   }
 }
 
-TEST(WorldRenderer, NoiseHasItsDeviationAndFollowsItsSeed) {
+TEST(WorldRenderer, NoiseHasItsSigmaAndFollowsItsSeed) {
   Surface grey = markedWall();
   grey.texture = std::make_shared<MipTexture>(cv::Mat(100, 100, CV_8UC1, cv::Scalar(100)));
   const Scene scene{{grey}};
   const Eigen::Isometry3d T_world_cam = cameraAt(1.5, 0, 1.2, 0, 0, 0);
   const WorldRenderer renderer(arDroneFrontCamera(), 2);
   const cv::Mat image = renderer.render(scene, T_world_cam, 5);
-  cv::Scalar mean, deviation;
-  cv::meanStdDev(image, mean, deviation);
+  cv::Scalar mean, sigma;
+  cv::meanStdDev(image, mean, sigma);
   EXPECT_NEAR(mean[0], 100, 0.1);
-  EXPECT_NEAR(deviation[0], std::sqrt(4 + 1 / 12.0), 0.05);  // with the rounding's
+  EXPECT_NEAR(sigma[0], std::sqrt(4 + 1 / 12.0), 0.05);  // with the rounding's
   EXPECT_EQ(cv::norm(image, renderer.render(scene, T_world_cam, 5), cv::NORM_INF), 0);
   cv::Mat difference;
   cv::subtract(image, renderer.render(scene, T_world_cam, 6), difference, cv::noArray(), CV_32F);
-  cv::meanStdDev(difference, mean, deviation);
-  EXPECT_NEAR(deviation[0], std::sqrt(2 * (4 + 1 / 12.0)), 0.1);
+  cv::meanStdDev(difference, mean, sigma);
+  EXPECT_NEAR(sigma[0], std::sqrt(2 * (4 + 1 / 12.0)), 0.1);
 }
 
 }  // namespace

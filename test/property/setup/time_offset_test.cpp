@@ -40,13 +40,13 @@ TEST(TimeOffset, IsFoundWithinTwentySecondsWhateverItIs) {
       const TimeOffset& found = estimator.estimate();
       if (found.state != TimeOffsetState::kKnown) return;
       // Once it is told it must hold.
-      ASSERT_LT(std::abs(found.offset_s - offset_s), 5 * found.deviation_s)
+      ASSERT_LT(std::abs(found.offset_s - offset_s), 5 * found.sigma_s)
           << "seed " << seed << " at " << t_s << " s";
     });
     const TimeOffset& found = estimator.estimate();
     ASSERT_EQ(found.state, TimeOffsetState::kKnown) << "seed " << seed;
     EXPECT_NEAR(found.offset_s, offset_s, 0.006) << "seed " << seed;
-    EXPECT_LE(found.deviation_s, TimeOffsetEstimator::kSure_s);
+    EXPECT_LE(found.sigma_s, TimeOffsetEstimator::kSure_s);
   }
 }
 

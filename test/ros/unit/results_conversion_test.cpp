@@ -205,7 +205,7 @@ TEST(MapConversion, EmptyMap) {
   EXPECT_EQ(toMarker({}, "map", 9).action, visualization_msgs::Marker::DELETE);
 }
 
-TEST(MapConversion, MarkerColoursByDeviation) {
+TEST(MapConversion, MarkerColoursBySigma) {
   const auto marker = toMarker(someMap(), "map", 9);
   ASSERT_EQ(marker.points.size(), 5U);
   ASSERT_EQ(marker.colors.size(), 5U);

@@ -216,7 +216,7 @@ TEST_F(PatchAlignerTest, ClaimsTheNoiseThatItHas) {
                       2.0 * known.xy_per_px2 * error.x() * error.y() +
                       known.yy_per_px2 * error.y() * error.y());
   }
-  // 1.39 is the median of two squared deviations; 0.60 is measured: a deviation of two thirds.
+  // 1.39 is the median of two squared deviations; 0.60 is measured: a sigma of two thirds.
   EXPECT_GT(test::median(squared), 0.4);
   EXPECT_LT(test::median(squared), 1.4);
 }

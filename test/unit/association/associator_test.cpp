@@ -96,7 +96,7 @@ TEST_F(AssociatorTest, RemovesLandmarkMatchesOffThePrediction) {
   }
 }
 
-TEST_F(AssociatorTest, ThresholdAndWindowGrowWithTheDeviationOfThePose) {
+TEST_F(AssociatorTest, ThresholdAndWindowGrowWithTheSigmaOfThePose) {
   config_.landmark_threshold_px = 8;
   config_.search_radius_px = 10;
   config_.threshold_sigmas = 3;

@@ -53,7 +53,7 @@ class WidePriorTest : public ::testing::Test {
 };
 
 TEST_F(WidePriorTest, TheMethodFollowsTheWindows) {
-  // 3 deviations at 5 m: 342 px a metre. Half the image is 320 px.
+  // 3 sigmas at 5 m: 342 px a metre. Half the image is 320 px.
   EXPECT_EQ(look(0.8).method, MatchMethod::kGuided);
   const auto exact = look(0.9);
   EXPECT_EQ(exact.method, MatchMethod::kExact);

@@ -50,8 +50,8 @@ TEST(LandmarkLocator, WorkedExampleOfThePrintedMean) {
   EXPECT_NEAR(fix->position_map.x(), (w0 * 0.1 + w1 * 0.4) / (w0 + w1), 1e-12);
   EXPECT_NEAR(fix->position_map.y(), (w0 * 0.2 + w1 * 0.1) / (w0 + w1), 1e-12);
   EXPECT_NEAR(fix->distance_m, (w0 * 4.9 + w1 * 2.9) / (w0 + w1), 1e-12);
-  const double deviation = std::sqrt(2.0) / (w0 + w1);
-  EXPECT_TRUE(fix->covariance.isApprox(deviation * deviation * Eigen::Matrix3d::Identity(), 1e-12));
+  const double sigma = std::sqrt(2.0) / (w0 + w1);
+  EXPECT_TRUE(fix->covariance.isApprox(sigma * sigma * Eigen::Matrix3d::Identity(), 1e-12));
 }
 
 // The odometry is 0.5 m off along the optical axis, 50 landmarks, 80 x 52 degrees.
@@ -108,7 +108,7 @@ TEST(LandmarkLocator, CovarianceOfTheExactMeanIsItsScatter) {
   EXPECT_LT((whitened - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.1) << whitened;
 }
 
-TEST(LandmarkLocator, DeviationOfThePrintedMeanShrinksWithTheRootOfTheNumber) {
+TEST(LandmarkLocator, SigmaOfThePrintedMeanShrinksWithTheRootOfTheNumber) {
   const LandmarkLocator locator(printedOnly());
   const Observation s{{5, 0, 0}, {1, 0, 0}, 0.1, 0};
   const auto one = locator.locate({s}, Eigen::Vector3d::Zero(), 0);

@@ -98,7 +98,7 @@ TEST_F(MapperTest, WaitingForParallaxOnlyKeepsFeaturesOfTheSameTrack) {
   EXPECT_FALSE(used[0]) << "it must be stored, or its track could never be followed";
 }
 
-TEST_F(MapperTest, StoresTheRestWithPoseAndDeviation) {
+TEST_F(MapperTest, StoresTheRestWithPoseAndSigma) {
   builder_.lookFrom({1, 2, 3});
   builder_.addPoint({5, 2, 3}, 4);
   builder_.addPoint({5, 3, 3}, 6);

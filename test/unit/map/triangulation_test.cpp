@@ -109,7 +109,7 @@ TEST(EpipolarOffset, NoPlaneWithoutBaseline) {
 }
 
 // At 2 degrees of parallax (5.19) says 0.024 m, which says nothing of the depth.
-TEST(Deviation, OfTheDepthIsTheScatterOfNoisyRays) {
+TEST(Sigma, OfTheDepthIsTheScatterOfNoisyRays) {
   const double parallax_rad = 2 * M_PI / 180;
   const double sigma_p_m = 0.01;
   const double sigma_a_rad = 0.001;

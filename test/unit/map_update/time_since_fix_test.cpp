@@ -15,7 +15,7 @@ std::vector<AnchorDrift> widened(TimeSinceFix& clock, const std::vector<std::uin
   return drifts;
 }
 
-TEST(TimeSinceFix, DeviationsGrowWithBlindTimeSinceTheAnchor) {
+TEST(TimeSinceFix, SigmasGrowWithBlindTimeSinceTheAnchor) {
   TimeSinceFix clock;
   EXPECT_EQ(widened(clock, {1})[0].position_m2, 1);
   clock.pass(20);

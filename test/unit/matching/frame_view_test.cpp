@@ -87,13 +87,13 @@ TEST(FrameView, PlanarRaysAreHorizontalUnitVectors) {
   EXPECT_EQ(featuresAt(builder.view(), pixel, 0.01F), std::vector<int>{0});
 }
 
-TEST(FrameView, DeviationSinceIsTheDriftAlone) {
+TEST(FrameView, SigmaSinceIsTheDriftAlone) {
   FrameView view;
   view.setPositionVariance(0.25, true);
-  EXPECT_NEAR(view.deviationSince_m(0.09), 0.4, 1e-12);
-  EXPECT_EQ(view.deviationSince_m(0.3), 0) << "never the root of something negative";
+  EXPECT_NEAR(view.sigmaSince_m(0.09), 0.4, 1e-12);
+  EXPECT_EQ(view.sigmaSince_m(0.3), 0) << "never the root of something negative";
   view.setPositionVariance(0.25, false);
-  EXPECT_NEAR(view.deviationSince_m(0.09), 0.5, 1e-12);
+  EXPECT_NEAR(view.sigmaSince_m(0.09), 0.5, 1e-12);
 }
 
 TEST(FrameView, NewOriginMovesTheRays) {

@@ -106,7 +106,7 @@ TEST(ThesisFilter, GateRejectsAndLeavesThePrediction) {
   config.gate_sigmas = 3;
   ThesisFilter filter(config);
   filter.start(Eigen::Vector3d::Zero(), odometryAt(0, {0, 0, 0}));
-  // Deviation of the innovation: hypot(0.03, 0.04) = 0.05.
+  // Sigma of the innovation: hypot(0.03, 0.04) = 0.05.
   EXPECT_FALSE(filter.fuse(fixAt({0.151, 0, 0}, 0.04)));
   EXPECT_EQ(filter.position_map(), Eigen::Vector3d(Eigen::Vector3d::Zero()));
   EXPECT_NEAR(filter.sigma_m(), 0.03, 1e-15);

@@ -52,7 +52,7 @@ TEST(RayResidual, RefusesAPointBehindOrAtTheCamera) {
   EXPECT_FALSE(rayResidual(pose, kCamera_rig, {1, 0, 0}, kCamera_rig));
 }
 
-TEST(TriangulateTrack, FindsThePointAndItsDeviation) {
+TEST(TriangulateTrack, FindsThePointAndItsSigma) {
   const WindowState state = sidewaysWindow(8);
   const Eigen::Vector3d point(4, 0.5, 0.3);
   constexpr double kNoise_rad = 0.001;

@@ -163,7 +163,7 @@ TEST(TrackWindow, KeepsEveryViewOfRandomTracks) {
   }
 }
 
-/// Deviation of the only view's ray along the image's columns and rows [px].
+/// Sigma of the only view's ray along the image's columns and rows [px].
 Eigen::Vector2d sigmas_px(Images& images) {
   const auto& finished = images.window.takeFinished(images.frames, true);
   const RayRoot& root = finished.at(0).views.front().root_rig;

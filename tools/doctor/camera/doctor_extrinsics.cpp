@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor/camera/doctor_mounting.hpp"
+#include "doctor/camera/doctor_extrinsics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -150,9 +150,9 @@ std::vector<Candidate> refinedCandidates(const std::vector<ImagePair>& pairs,
 
 }  // namespace
 
-ExtrinsicsEstimate estimateMounting(const std::vector<ImagePair>& pairs,
-                                    const OdometryWitness& odometry,
-                                    const Eigen::Matrix3d& R_base_cam_told) {
+ExtrinsicsEstimate estimateExtrinsics(const std::vector<ImagePair>& pairs,
+                                      const OdometryWitness& odometry,
+                                      const Eigen::Matrix3d& R_base_cam_told) {
   ExtrinsicsEstimate estimate;
   estimate.R_base_cam = R_base_cam_told;
   estimate.motions = odometry.motions(pairs, 0).size();

@@ -34,8 +34,8 @@ struct ExtrinsicsEstimate {
 
 /// Looks among the 24 turns of what tf says by quarter turns and offsets of up to 0.3 s, and finer
 /// about the best of them.
-ExtrinsicsEstimate estimateMounting(const std::vector<ImagePair>& pairs,
-                                    const OdometryWitness& odometry,
-                                    const Eigen::Matrix3d& R_base_cam_told);
+ExtrinsicsEstimate estimateExtrinsics(const std::vector<ImagePair>& pairs,
+                                      const OdometryWitness& odometry,
+                                      const Eigen::Matrix3d& R_base_cam_told);
 
 }  // namespace ardrone_vslam

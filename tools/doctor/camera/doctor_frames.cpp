@@ -39,7 +39,7 @@ bool endsWith(const std::string& name, const std::string& end) {
 }
 
 /// Where such a camera most likely sits.
-Eigen::Isometry3d usualMounting(const std::string& camera_frame) {
+Eigen::Isometry3d usualExtrinsics(const std::string& camera_frame) {
   if (endsWith(camera_frame, "ardrone_base_frontcam")) return cameraNamed("front").T_body_cam;
   if (endsWith(camera_frame, "ardrone_base_bottomcam")) return cameraNamed("bottom").T_body_cam;
   return forwardCamera();
@@ -128,7 +128,7 @@ Findings checkCameraTf(const DoctorRecording& recording, std::string& static_tra
     Finding finding{"camera_tf", Verdict::kOk, {}, {}};
     const auto T_base_cam = lookUp(recording, base, camera);
     if (camera.empty() || !T_base_cam) {
-      static_transform = staticTransformLine(usualMounting(camera), base, camera);
+      static_transform = staticTransformLine(usualExtrinsics(camera), base, camera);
       finding.verdict = Verdict::kFault;
       finding.text = camera.empty() ? "the images have no frame_id"
                                     : text("tf has no way from '", base, "' to '", camera, "'");

@@ -108,14 +108,14 @@ Eigen::Matrix3d tidied(const ExtrinsicsEstimate& estimate, const Eigen::Matrix3d
 
 TimeOffset estimateOffset(const std::vector<ImageFeatures>& images,
                           const std::vector<OdometryState>& odometry,
-                          const CameraExtrinsics& mounting) {
+                          const CameraExtrinsics& extrinsics) {
   OdometryBufferConfig all;
   all.buffer_s = kLongest_s;
   OdometryBuffer buffer(all);
   for (const OdometryState& state : odometry) buffer.push(state);
-  Eigen::Isometry3d T_base_cam = mounting.T_base_cam;
-  T_base_cam.linear() = mounting.estimate.R_base_cam;
-  TimeOffsetEstimator estimator(T_base_cam, mounting.estimate.offset_s);
+  Eigen::Isometry3d T_base_cam = extrinsics.T_base_cam;
+  T_base_cam.linear() = extrinsics.estimate.R_base_cam;
+  TimeOffsetEstimator estimator(T_base_cam, extrinsics.estimate.offset_s);
   for (const ImageFeatures& features : images) estimator.see(features, buffer);
   return estimator.estimate();
 }
@@ -161,34 +161,34 @@ Finding checkMoves(const DoctorRecording& recording, const Tracks& tracks,
   return finding;
 }
 
-std::vector<CameraExtrinsics> estimateMountings(const DoctorRecording& recording,
-                                                const Tracks& tracks,
-                                                const std::vector<OdometryState>& odometry) {
-  std::vector<CameraExtrinsics> mountings;
+std::vector<CameraExtrinsics> estimateAllExtrinsics(const DoctorRecording& recording,
+                                                    const Tracks& tracks,
+                                                    const std::vector<OdometryState>& odometry) {
+  std::vector<CameraExtrinsics> cameras;
   for (const CameraTracks& camera : tracks.cameras) {
     const auto T_base_cam = lookUp(recording, recording.base_frame, camera.frame);
     if (!T_base_cam) continue;
     const std::vector<ImagePair> pairs = movingPairs(camera.images);
     const OdometryWitness witness{odometry, T_base_cam->translation()};
-    CameraExtrinsics mounting{
-        camera.frame, *T_base_cam, estimateMounting(pairs, witness, T_base_cam->linear()), {}};
-    if (mounting.estimate.state == ExtrinsicsState::kFound) {
-      mounting.offset = estimateOffset(camera.images, odometry, mounting);
+    CameraExtrinsics extrinsics{
+        camera.frame, *T_base_cam, estimateExtrinsics(pairs, witness, T_base_cam->linear()), {}};
+    if (extrinsics.estimate.state == ExtrinsicsState::kFound) {
+      extrinsics.offset = estimateOffset(camera.images, odometry, extrinsics);
     }
-    mountings.push_back(mounting);
+    cameras.push_back(extrinsics);
   }
-  return mountings;
+  return cameras;
 }
 
-Findings checkDirections(const std::vector<CameraExtrinsics>& mountings,
+Findings checkDirections(const std::vector<CameraExtrinsics>& cameras,
                          const std::string& base_frame, std::string& static_transform) {
   Findings findings;
-  for (const CameraExtrinsics& mounting : mountings) {
-    Finding finding = judge(mounting.frame, mounting.estimate);
-    if (mounting.estimate.state == ExtrinsicsState::kFound && finding.verdict != Verdict::kOk) {
-      Eigen::Isometry3d T_corrected = mounting.T_base_cam;
-      T_corrected.linear() = tidied(mounting.estimate, mounting.T_base_cam.linear());
-      const std::string line = staticTransformLine(T_corrected, base_frame, mounting.frame);
+  for (const CameraExtrinsics& extrinsics : cameras) {
+    Finding finding = judge(extrinsics.frame, extrinsics.estimate);
+    if (extrinsics.estimate.state == ExtrinsicsState::kFound && finding.verdict != Verdict::kOk) {
+      Eigen::Isometry3d T_corrected = extrinsics.T_base_cam;
+      T_corrected.linear() = tidied(extrinsics.estimate, extrinsics.T_base_cam.linear());
+      const std::string line = staticTransformLine(T_corrected, base_frame, extrinsics.frame);
       static_transform += (static_transform.empty() ? "" : "\n") + line;
       finding.remedy = "correct the mounting: " + line;
     }
@@ -203,19 +203,19 @@ Findings checkDirections(const std::vector<CameraExtrinsics>& mountings,
   return findings;
 }
 
-Finding checkTimeOffset(const std::vector<CameraExtrinsics>& mountings,
+Finding checkTimeOffset(const std::vector<CameraExtrinsics>& cameras,
                         std::vector<SuggestedParameter>& parameters) {
   Finding finding{"image_time_offset", Verdict::kNotChecked, "needs camera_direction", {}};
   const CameraExtrinsics* best = nullptr;
   const auto isKnown = [](const CameraExtrinsics& m) {
     return m.offset.state == TimeOffsetState::kKnown;
   };
-  for (const CameraExtrinsics& mounting : mountings) {
-    if (mounting.estimate.state != ExtrinsicsState::kFound) continue;
+  for (const CameraExtrinsics& extrinsics : cameras) {
+    if (extrinsics.estimate.state != ExtrinsicsState::kFound) continue;
     const bool is_better =
-        best == nullptr || (isKnown(mounting) && (!isKnown(*best) || mounting.offset.deviation_s <
-                                                                         best->offset.deviation_s));
-    if (is_better) best = &mounting;
+        best == nullptr || (isKnown(extrinsics) &&
+                            (!isKnown(*best) || extrinsics.offset.sigma_s < best->offset.sigma_s));
+    if (is_better) best = &extrinsics;
   }
   if (best == nullptr) return finding;
   if (!isKnown(*best)) {
@@ -225,7 +225,7 @@ Finding checkTimeOffset(const std::vector<CameraExtrinsics>& mountings,
   finding.verdict = Verdict::kOk;
   const double offset_s = best->offset.offset_s;
   const std::string offset_ms = text(rounded(std::abs(offset_s) * 1000, 0), " ms (deviation ",
-                                     rounded(best->offset.deviation_s * 1000, 1), ")");
+                                     rounded(best->offset.sigma_s * 1000, 1), ")");
   finding.text = text("images ", offset_s < 0 ? "late" : "early", " by ", offset_ms);
   if (std::abs(offset_s) < kSameTime_s) {
     parameters.push_back({"mapper", "image_time_offset_s", "0",

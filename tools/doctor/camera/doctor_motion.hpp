@@ -5,7 +5,7 @@
 #include <string>
 
 #include "ardrone_vslam/time_offset.hpp"
-#include "doctor/camera/doctor_mounting.hpp"
+#include "doctor/camera/doctor_extrinsics.hpp"
 #include "doctor/camera/doctor_tracks.hpp"
 #include "doctor/recording/doctor_recording.hpp"
 #include "doctor/recording/doctor_report.hpp"
@@ -23,17 +23,17 @@ struct CameraExtrinsics {
   ExtrinsicsEstimate estimate;
   TimeOffset offset;  ///< unless the mounting is found: not known
 };
-std::vector<CameraExtrinsics> estimateMountings(const DoctorRecording& recording,
-                                                const Tracks& tracks,
-                                                const std::vector<OdometryState>& odometry);
+std::vector<CameraExtrinsics> estimateAllExtrinsics(const DoctorRecording& recording,
+                                                    const Tracks& tracks,
+                                                    const std::vector<OdometryState>& odometry);
 
 /// Whether each camera looks where tf says (`camera_direction`).
 /// @param static_transform  gets the command line that corrects it
-Findings checkDirections(const std::vector<CameraExtrinsics>& mountings,
+Findings checkDirections(const std::vector<CameraExtrinsics>& cameras,
                          const std::string& base_frame, std::string& static_transform);
 
 /// Whether images and odometry move at the same time (`image_time_offset`).
-Finding checkTimeOffset(const std::vector<CameraExtrinsics>& mountings,
+Finding checkTimeOffset(const std::vector<CameraExtrinsics>& cameras,
                         std::vector<SuggestedParameter>& parameters);
 
 }  // namespace ardrone_vslam

@@ -35,7 +35,7 @@ struct Exposure {
 /// rows are shared out among OpenCV's threads, whose number does not change the result.
 class WorldRenderer {
  public:
-  /// @param noise_grey  deviation of the sensor's white noise
+  /// @param noise_grey  sigma of the sensor's white noise
   /// @throws std::invalid_argument when the lens model folds back inside the image
   explicit WorldRenderer(const CameraIntrinsics& camera, double noise_grey = 2);
 

@@ -32,7 +32,7 @@ class Painter {
   /// A line of random capitals and figures of this height, cut off at the area's right border.
   void lettering(const cv::Rect2d& area, double grey);
   /// Adds noise of several octaves: patches of `largest_m` and of each half of that down to one
-  /// texel, each octave weaker by `persistence`. `amplitude` is the deviation of the first octave
+  /// texel, each octave weaker by `persistence`. `amplitude` is the sigma of the first octave
   /// in grey; `stretch` lengthens the patches along x.
   void noise(const cv::Rect2d& area, double largest_m, double amplitude, double persistence,
              double stretch = 1);
