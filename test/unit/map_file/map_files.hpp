@@ -133,7 +133,7 @@ inline std::vector<RawSection> sectionsOf(const std::string& file) {
   std::vector<RawSection> sections;
   std::size_t at = kMapHeaderSize;
   while (at < file.size()) {
-    const std::size_t size = numberAt(file, at + 4, 8);
+    const auto size = static_cast<std::size_t>(numberAt(file, at + 4, 8));
     sections.push_back({file.substr(at, 4), file.substr(at + 12, size)});
     at += kSectionFrame + size;
   }
