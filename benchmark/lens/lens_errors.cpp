@@ -67,6 +67,7 @@ std::vector<double> times_ns(const CameraIntrinsics& c, const std::vector<LensMe
     }
   }
   std::vector<double> medians;
+  medians.reserve(times.size());
   for (std::vector<double>& all : times) medians.push_back(quantile(std::move(all), 0.5));
   return medians;
 }

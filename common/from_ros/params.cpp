@@ -69,7 +69,7 @@ void ParamReader::finish() const {
 }
 
 std::string ParamReader::remedyOf(const std::string& name) const {
-  const std::string became = whatBecameOf(OldName::Kind::kParameter, name);
+  std::string became = whatBecameOf(OldName::Kind::kParameter, name);
   if (!became.empty()) return became;
   const std::string nearest = nearestName(name, known_);
   return nearest.empty() ? "" : "; did you mean " + nearest + "?";

@@ -124,7 +124,7 @@ Checked<OdometryState> toUnboundedState(const nav_msgs::Odometry& odometry) {
 }
 
 Checked<OdometryState> toOdometryState(const nav_msgs::Odometry& odometry) {
-  const auto checked = toUnboundedState(odometry);
+  auto checked = toUnboundedState(odometry);
   const std::string range_fault = checked.value ? rangeFault(*checked.value) : "";
   if (!range_fault.empty()) return {std::nullopt, range_fault};
   return checked;

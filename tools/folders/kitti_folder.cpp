@@ -58,11 +58,10 @@ CameraIntrinsics readCalibration(const std::string& path, const std::string& fir
 Eigen::Isometry3d poseFromRow(const std::vector<long double>& row, const std::string& place) {
   Eigen::Matrix3d rotation;
   Eigen::Vector3d translation;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      rotation(r, c) = static_cast<double>(row[static_cast<std::size_t>(4 * r + c)]);
-    }
-    translation(r) = static_cast<double>(row[static_cast<std::size_t>(4 * r + 3)]);
+  for (std::size_t i = 0; i < 12; ++i) {
+    const auto r = static_cast<Eigen::Index>(i / 4);
+    const auto c = static_cast<Eigen::Index>(i % 4);
+    (c < 3 ? rotation(r, c) : translation(r)) = static_cast<double>(row[i]);
   }
   if (!rotation.allFinite() || !translation.allFinite()) {
     throw std::runtime_error(place + "the pose is not finite; correct it");

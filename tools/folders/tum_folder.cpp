@@ -18,7 +18,7 @@ namespace {
 std::vector<StampedPose> readOptional(const std::string& path, bool is_ascending,
                                       const std::vector<std::int64_t>& stamps_ns) {
   if (!std::filesystem::exists(path)) return {};
-  const auto poses = is_ascending ? readTum(path).poses() : readTumPoses(path);
+  auto poses = is_ascending ? readTum(path).poses() : readTumPoses(path);
   if (poses.empty()) {
     throw std::runtime_error(path + ": holds no pose; fill it or remove it");
   }

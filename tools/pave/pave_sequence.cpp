@@ -135,7 +135,7 @@ class PaveFile : public PaveSequence {
   std::size_t size() const override { return stamps_.stamps_ns.size(); }
   std::int64_t stamp_ns(std::size_t index) const override { return stamps_.stamps_ns.at(index); }
   cv::Mat image(std::size_t index) override {
-    const cv::Mat image = decoder_.image(stamps_.frames.at(index));
+    cv::Mat image = decoder_.image(stamps_.frames.at(index));
     checkImageSize(image, name_ + ", frame " + std::to_string(index),
                    cameraAt(cameraOf(index)).intrinsics, "its header");
     return image;

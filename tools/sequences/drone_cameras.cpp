@@ -13,8 +13,8 @@ CameraIntrinsics centredCamera(int width_px, int height_px, double focal_px, dou
   camera.width_px = width_px;
   camera.height_px = height_px;
   camera.fx_px = camera.fy_px = focal_px;
-  camera.cx_px = width_px / 2;
-  camera.cy_px = height_px / 2;
+  camera.cx_px = width_px / 2.0;
+  camera.cy_px = height_px / 2.0;
   camera.k1 = k1;
   camera.k2 = k2;
   return camera;

@@ -120,7 +120,7 @@ std::vector<StampedPose> readLines(const std::string& path, Check&& check) {
 
 }  // namespace
 
-Trajectory::Trajectory(std::vector<StampedPose> poses) {
+Trajectory::Trajectory(const std::vector<StampedPose>& poses) {
   poses_.reserve(poses.size());
   for (const auto& pose : poses) append(pose);
 }

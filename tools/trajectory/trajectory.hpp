@@ -28,7 +28,7 @@ class Trajectory {
  public:
   Trajectory() = default;
   /// @throws std::invalid_argument when the stamps do not ascend strictly or a pose is not finite
-  explicit Trajectory(std::vector<StampedPose> poses);
+  explicit Trajectory(const std::vector<StampedPose>& poses);
 
   const std::vector<StampedPose>& poses() const { return poses_; }
   bool empty() const { return poses_.empty(); }

@@ -112,9 +112,9 @@ std::vector<Candidate> coarseCandidates(const std::vector<ImagePair>& pairs,
                                         const Eigen::Matrix3d& R_base_cam_told) {
   const std::vector<Eigen::Matrix3d> turns = quarterTurns();
   std::vector<Candidate> candidates;
-  for (const Eigen::Matrix3d& turn : turns) {
+  candidates.reserve(turns.size());
+  for (const Eigen::Matrix3d& turn : turns)
     candidates.push_back({2 * kCoarse_px, R_base_cam_told * turn, 0});
-  }
   const auto steps = static_cast<int>(std::lround(kLargestOffset_s / kOffsetStep_s));
   for (int i = -steps; i <= steps; ++i) {
     const double offset_s = i * kOffsetStep_s;

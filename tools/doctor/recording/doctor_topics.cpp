@@ -89,12 +89,12 @@ std::string best(DoctorRecording& recording, const Role& role, const std::string
                  const std::function<bool(const std::string&)>& is_candidate,
                  const std::string& usual = {}) {
   if (!name.empty()) {
-    const std::string chosen = named(recording, name, role.types);
+    std::string chosen = named(recording, name, role.types);
     if (!role.option.empty()) recording.replay_options.push_back(role.option + " " + chosen);
     return chosen;
   }
   const std::vector<std::string> candidates = candidatesOf(recording, role, is_candidate);
-  const std::string chosen = bestOf(recording, candidates, usual);
+  std::string chosen = bestOf(recording, candidates, usual);
   if (candidates.size() < 2) return chosen;
   if (chosen != usual) {
     recording.choices.push_back(chosen + " is one of " + std::to_string(candidates.size()) +

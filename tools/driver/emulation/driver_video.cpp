@@ -42,7 +42,7 @@ cv::Mat streamImage(const cv::Mat& grey) {
 CameraIntrinsics streamCalibration(const CameraIntrinsics& camera) {
   if (isStream(camera)) return camera;
   CameraIntrinsics stream = enlarged(camera, 2);
-  stream.cy_px -= (stream.height_px - kStreamHeight_px) / 2;
+  stream.cy_px -= (stream.height_px - kStreamHeight_px) / 2.0;
   stream.height_px = kStreamHeight_px;
   return stream;
 }

@@ -31,9 +31,9 @@ TilePyramids::TilePyramids(const std::vector<Eigen::Vector2f>& rays, int width_p
     for (int tile = 0; tile < tiles_in_band_; ++tile) {
       Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
       for (int row = band * kTile_px; row < std::min(height_px, (band + 1) * kTile_px); ++row) {
+        const Eigen::Vector2f* of_row = rays.data() + static_cast<std::ptrdiff_t>(row) * stride;
         for (int x = tile * kTile_px; x < std::min(width_px, (tile + 1) * kTile_px); ++x) {
-          const Eigen::Vector2d ray =
-              rays[static_cast<std::size_t>(row * stride + x)].cast<double>();
+          const Eigen::Vector2d ray = of_row[x].cast<double>();
           low = low.cwiseMin(ray);
           high = high.cwiseMax(ray);
         }
@@ -73,8 +73,9 @@ BandSurfaces TilePyramids::seenIn(int band, const Scene& scene,
     };
     if (isOutside(whole_bands_[static_cast<std::size_t>(band)])) continue;
     bool is_seen = false;
+    const auto* tiles = tiles_.data() + static_cast<std::ptrdiff_t>(band) * tiles_in_band_;
     for (int tile = 0; tile < tiles_in_band_; ++tile) {
-      if (isOutside(tiles_[static_cast<std::size_t>(band * tiles_in_band_ + tile)])) continue;
+      if (isOutside(tiles[tile])) continue;
       seen.of_tile[static_cast<std::size_t>(tile)].push_back(
           static_cast<std::uint16_t>(seen.surfaces.size()));
       is_seen = true;
