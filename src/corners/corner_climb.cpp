@@ -88,8 +88,8 @@ CornerClimb::Place CornerClimb::placeOf(const Corner& corner) {
 }
 
 CornerClimb::Place CornerClimb::neighbour(const Place& place, int n) const {
-  const int dx = kNeighbour[n].x_px;
-  const int dy = kNeighbour[n].y_px;
+  // NOLINTNEXTLINE(bugprone-signed-char-misuse): offsets of -1, 0 and 1
+  const int dx = kNeighbour[n].x_px, dy = kNeighbour[n].y_px;
   return {place.pixel + dy * image_.stride_bytes + dx, place.entry + dy * image_.width_px + dx,
           place.x_px + dx, place.y_px + dy};
 }

@@ -115,8 +115,8 @@ void CornerDetector::State::reset(const ImageView& image) {
   cells.reset(image.width_px, image.height_px, config.cell_size_px);
   thresholds.reset(config, cells.count());
   row_groups.resize(static_cast<std::size_t>(image.width_px));
-  row_columns.resize(static_cast<std::size_t>(image.width_px + kernels::kMaximaPadding));
-  row_scores.assign(static_cast<std::size_t>(image.width_px + kernels::kScorePadding), 0);
+  row_columns.resize(row_groups.size() + kernels::kMaximaPadding);
+  row_scores.assign(row_groups.size() + kernels::kScorePadding, 0);
   reserve(image);
   width_px = image.width_px;
   height_px = image.height_px;

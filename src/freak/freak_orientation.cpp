@@ -46,8 +46,8 @@ int freakOrientation(std::int32_t sum_x, std::int32_t sum_y) {
   constexpr std::array<float, 8> kStart{0.F, 64.F, 128.F, 64.F, 256.F, 192.F, 128.F, 192.F};
   constexpr std::array<float, 8> kSense{1.F, -1.F, -1.F, 1.F, -1.F, 1.F, 1.F, -1.F};
   const float index = kStart[eighth] + kSense[eighth] * roughArcTangent(std::min(x, y) / largest);
-  const int nearest = static_cast<int>(index + 0.5F);
   // Close to the middle between two orientations only the exact angle tells them apart.
+  const int nearest = static_cast<int>(index + 0.5F);  // NOLINT(bugprone-incorrect-roundings)
   constexpr float kDoubtful = 0.002F;
   if (std::abs(index - static_cast<float>(nearest)) > 0.5F - kDoubtful)
     return freakOrientation(freakAngle_deg(sum_x, sum_y));
