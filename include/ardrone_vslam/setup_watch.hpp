@@ -31,6 +31,16 @@ struct EnumNames<SetupFault> {
       "focal_length", "odometry_position", "odometry_yaw", "unknown"};
 };
 
+/// By how much the camera turned otherwise than the odometry says, about base's z, between two
+/// images.
+struct SeenYaw {
+  std::int64_t stamp_ns = 0;  ///< of the later image; 0: none has been seen
+  double span_s = 0;          ///< between the two
+  double way_m = 0;           ///< likewise, by the odometry
+  double off_rad = 0;
+  double variance_rad2 = 0;  ///< of this, by images and calibration; the odometry's is not in it
+};
+
 /// What the motion so far says of the set-up.
 struct SetupFinding {
   SetupFault fault = SetupFault::kNone;  ///< while it is not kNone the camera is not to be used
@@ -41,6 +51,7 @@ struct SetupFinding {
   Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();  ///< kMounting: that which fits
   double offset_s = 0;      ///< kTimeOffset: an image is exposed at its stamp plus this, roughly
   double focal_factor = 1;  ///< kFocalLength: the calibration's over the true one, roughly
+  SeenYaw yaw;              ///< of the newest pair of images that tell one
 };
 
 /// What is wrong and what helps, for users; empty without a fault.

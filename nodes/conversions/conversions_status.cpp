@@ -71,6 +71,7 @@ void toStatus(const FrameResult& result, const std::string& map_frame, Status& s
   status.fix_nis = finite(result.fix_nis);
   status.track_nis = finite(result.track_nis);
   status.velocity_bias_deviation = finite(result.velocity_bias_sigma_m_s);
+  status.yaw_walk_factor = finite(result.yaw_walk_factor);
   const bool has_scale = std::isfinite(result.scale_error + result.scale_sigma);
   status.scale_error = has_scale ? result.scale_error : 0;
   status.scale_deviation = has_scale ? result.scale_sigma : 0;

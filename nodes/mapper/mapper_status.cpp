@@ -133,6 +133,8 @@ void MapperStatus::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper
     wrapper.add("squared deviations of tracks over expected", latest_.track_nis);
   if (latest_.velocity_bias_deviation > 0)
     wrapper.add("velocity bias of the odometry, learned [m/s]", latest_.velocity_bias_deviation);
+  if (latest_.yaw_walk_factor > 0)
+    wrapper.add("drift of the odometry's yaw, learned, over configured", latest_.yaw_walk_factor);
 }
 
 void MapperStatus::diagnoseHeights(diagnostic_updater::DiagnosticStatusWrapper& wrapper) const {

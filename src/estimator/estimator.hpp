@@ -34,6 +34,7 @@ struct Estimate {
   double fix_nis = 0;                           ///< see FrameResult::fix_nis
   double track_nis = 0;                         ///< see FrameResult::track_nis
   double velocity_bias_sigma_m_s = 0;           ///< see FrameResult::velocity_bias_sigma_m_s
+  double yaw_walk_factor = 0;                   ///< see FrameResult::yaw_walk_factor
   double scale_error = 0;                       ///< see FrameResult::scale_error
   double scale_sigma = 0;                       ///< its standard deviation
   HeightOutcome height = HeightOutcome::kNone;  ///< what became of the frame's height

@@ -38,7 +38,10 @@ class Msckf {
   /// The next frame is another camera's, on the same base: tracks end, all else goes on.
   void changeCamera(const Eigen::Isometry3d& T_base_cam);
   /// What is known of the set-up at the next frame.
-  void heed(const SetupFinding& finding) { watchdog_.heed(finding); }
+  void heed(const SetupFinding& finding) {
+    watchdog_.heed(finding);
+    propagator_.learnYaw(finding);
+  }
   /// The next frame, by the odometry's increment. @param step  a jump in it, which is no motion
   void predict(const OdometryState& odometry,
                const std::optional<OdometryStep>& step = std::nullopt);
@@ -86,8 +89,8 @@ class Msckf {
   double fixNis() const { return map_update_.nis(); }
   /// TrackUpdate::nis(), of the last frame.
   double trackNis() const { return track_update_.nis(); }
-  /// Propagator::velocityBiasSigma_m_s().
-  double velocityBiasSigma_m_s() const { return propagator_.velocityBiasSigma_m_s(); }
+  /// The odometry's noise that is in force.
+  const LearnedNoise& learned() const { return propagator_.learned(); }
   /// The camera contradicts the odometry: for now the pose is the odometry's.
   bool isDistrustful() const { return watchdog_.isDistrustful(newest().stamp_ns); }
   /// Of the last frame, by its image; moving where the odometry contradicts it.

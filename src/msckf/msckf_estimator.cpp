@@ -193,7 +193,8 @@ Estimate MsckfEstimator::estimate() const {
   estimate.covariance = filter_.covariance();
   estimate.fix_nis = filter_.fixNis();
   estimate.track_nis = filter_.trackNis();
-  estimate.velocity_bias_sigma_m_s = filter_.velocityBiasSigma_m_s();
+  estimate.velocity_bias_sigma_m_s = filter_.learned().bias.sigma_m_s();
+  estimate.yaw_walk_factor = filter_.learned().yaw.factor();
   estimate.scale_error = filter_.state().scaleError();
   estimate.scale_sigma = filter_.scaleSigma();
   estimate.height = filter_.heightOutcome();

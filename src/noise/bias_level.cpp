@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "window/bias_level.hpp"
+#include "noise/bias_level.hpp"
 
 #include <algorithm>
 

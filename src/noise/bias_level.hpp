@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace ardrone_vslam {
 
@@ -27,6 +28,8 @@ class BiasLevel {
 
   /// Per axis [m^2/s^2].
   double variance() const { return variance_; }
+  /// Its root.
+  double sigma_m_s() const { return std::sqrt(variance_); }
 
  private:
   double configured_variance_;

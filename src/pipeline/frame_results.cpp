@@ -15,6 +15,7 @@ FrameResult resultOf(const Estimate& estimate, const Correction& correction,
   result.fix_nis = estimate.fix_nis;
   result.track_nis = estimate.track_nis;
   result.velocity_bias_sigma_m_s = estimate.velocity_bias_sigma_m_s;
+  result.yaw_walk_factor = estimate.yaw_walk_factor;
   result.scale_error = estimate.scale_error;
   result.scale_sigma = estimate.scale_sigma;
   result.height = estimate.height;

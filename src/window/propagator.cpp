@@ -23,8 +23,7 @@ constexpr double kSlowSpeed_m_s = 0.1;
 
 }  // namespace
 
-Propagator::Propagator(const OdometryNoiseConfig& config)
-    : config_(config), bias_level_(config.velocity_bias_m_s) {
+Propagator::Propagator(const OdometryNoiseConfig& config) : config_(config), learned_(config) {
   validate(config);
 }
 
@@ -33,7 +32,7 @@ void Propagator::start(const OdometryState& odometry, WindowState& state) {
   state.R_map_odom_.setIdentity();
   state.R_base_rig_.setIdentity();
   inflation_ = inflation_of_state_ = 1;
-  bias_level_.reset();
+  learned_.reset();
   state.velocity_bias_m_s_.setZero();
   odometry_way_m_ = odometry.T_odom_base.translation().norm();  // at least
   state.scale_error_ = 0;
@@ -58,12 +57,12 @@ void Propagator::returnTo(const Eigen::Isometry3d& T_map_odom, WindowState& stat
   state.R_map_odom_ = T_map_odom.linear();
   state.velocity_bias_m_s_.setZero();
   inflation_ = inflation_of_state_ = 1;
-  bias_level_.reset();
+  learned_.reset();
 
   auto P = state.covariance_.all();
   P.middleRows<3>(kBias).setZero();
   P.middleCols<3>(kBias).setZero();
-  P.diagonal().segment<3>(kBias).setConstant(bias_level_.variance());
+  P.diagonal().segment<3>(kBias).setConstant(learned_.bias.variance());
   P.block<3, 3>(to, to) += jump_m * jump_m.transpose();
   const Eigen::Matrix3d turn_variance = rotation_rad * rotation_rad.transpose();
   for (const int a : {kAttitude, to + 3})
@@ -93,8 +92,8 @@ void Propagator::learnVelocityBias(const OdometryState& odometry, const WindowSt
   constexpr double kLongest_s = 1;  // what was known before a hole does not stand for all of it
   const double duration_s = std::clamp(
       static_cast<double>(odometry.stamp_ns - odometry_.stamp_ns) * 1e-9, 0.0, kLongest_s);
-  bias_level_.learn(state.velocityBias_m_s(), state.covariance().block<3, 3>(kBias, kBias),
-                    inflation_of_state_, duration_s);
+  learned_.bias.learn(state.velocityBias_m_s(), state.covariance().block<3, 3>(kBias, kBias),
+                      inflation_of_state_, duration_s);
 }
 
 void Propagator::propagate(const OdometryState& odometry, const std::optional<OdometryStep>& step,
@@ -178,7 +177,7 @@ void Propagator::inflate(double factor, WindowState& state) {
   inflation_ = factor;
   if (factor <= inflation_of_state_) return;
   state.covariance_.all().diagonal().segment<3>(kBias).array() +=
-      (factor - inflation_of_state_) * bias_level_.variance();
+      (factor - inflation_of_state_) * learned_.bias.variance();
   inflation_of_state_ = factor;
 }
 
@@ -205,10 +204,8 @@ void Propagator::propagateGlobals(const OdometryState& odometry, const Increment
   corner.middleRows<3>(kBias) *= keep_bias;
   const double tilt_variance =
       squared(radians(config_.tilt_sigma_deg)) * (1 - keep_tilt * keep_tilt);
-  const double yaw_variance =
-      squared(radians(config_.yaw_walk_deg_per_sqrt_s)) * dt_s +
-      squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * increment.displacement_m;
-  const double bias_variance = inflation_ * bias_level_.variance() * (1 - keep_bias * keep_bias);
+  const double yaw_variance = learned_.yaw.walk_rad2(dt_s, increment.displacement_m);
+  const double bias_variance = inflation_ * learned_.bias.variance() * (1 - keep_bias * keep_bias);
   P.block<3, 3>(kAttitude, kAttitude) +=
       tilt_variance * acrossOf(up) + yaw_variance * up * up.transpose();
   P.diagonal().segment<3>(kBias).array() += bias_variance;

@@ -3,14 +3,13 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 
 #include "ardrone_vslam/msckf_config.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
+#include "noise/learned_noise.hpp"
 #include "odometry/odometry_step.hpp"
-#include "window/bias_level.hpp"
 #include "window/window_state.hpp"
 
 namespace ardrone_vslam {
@@ -27,6 +26,8 @@ class Propagator {
   /// Learns how large the bias of the odometry's velocity is, before the frame of this odometry is
   /// added. Not for a drone at rest: what odometry does there it need not do in flight.
   void learnVelocityBias(const OdometryState& odometry, const WindowState& state);
+  /// Learns how fast the odometry's yaw drifts.
+  void learnYaw(const SetupFinding& finding) { learned_.yaw.learn(finding); }
   /// Adds a frame by the odometry's increment since the newest one. O(coordinates).
   /// @param step  of that increment: counts as the newest position's uncertainty, not as a way
   void propagate(const OdometryState& odometry, const std::optional<OdometryStep>& step,
@@ -49,8 +50,8 @@ class Propagator {
   Eigen::Isometry3d T_odom_base() const;
   /// The odometry's velocity bias over what is configured.
   double biasSigmas(const WindowState& state) const;
-  /// Of the odometry's velocity, per axis: as configured, and learned since.
-  double velocityBiasSigma_m_s() const { return std::sqrt(bias_level_.variance()); }
+  /// The odometry's noise that is in force.
+  const LearnedNoise& learned() const { return learned_; }
 
  private:
   /// What the odometry reports between two frames.
@@ -71,7 +72,7 @@ class Propagator {
   std::uint32_t next_id_ = 1;
   double inflation_ = 1;
   double inflation_of_state_ = 1;  // follows it: at once when it rises, as the bias fades when not
-  BiasLevel bias_level_;
+  LearnedNoise learned_;
   double odometry_way_m_ = 0;                                  // since it began
   Eigen::Vector3d position_odom_m_ = Eigen::Vector3d::Zero();  // jumps left out
 };

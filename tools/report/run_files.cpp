@@ -28,7 +28,7 @@ double valueAt(const std::vector<double>& values, std::size_t i) {
 /// What the filter said, from sigma_m to camera_sigma_m.
 void writeEstimates(std::ostream& out, const FrameResult& r) {
   writeCell(out, r.sigma_m);
-  for (const double known : {r.fix_nis, r.track_nis, r.velocity_bias_sigma_m_s})
+  for (const double known : {r.fix_nis, r.track_nis, r.velocity_bias_sigma_m_s, r.yaw_walk_factor})
     writeCell(out, known > 0 ? known : kNotKnown);
   for (int axis = 0; axis < 3; ++axis)
     writeCell(out, r.landmark_position_map ? (*r.landmark_position_map)[axis] : kNotKnown);
@@ -42,7 +42,8 @@ void writeFrames(std::ostream& out, const RunResult& run, const RunEvaluation& e
          "landmark_mismatches,"
          "feature_candidates,feature_matches,feature_mismatches,new_landmarks,removed_landmarks,"
          "landmarks,map_features,"
-         "sigma_m,fix_nis,track_nis,velocity_bias_sigma_m_s,camera_x_m,camera_y_m,camera_z_m,"
+         "sigma_m,fix_nis,track_nis,velocity_bias_sigma_m_s,yaw_walk_factor,camera_x_m,camera_y_m,"
+         "camera_z_m,"
          "camera_sigma_m,fused_error_m,"
          "odometry_"
          "error_m,camera_error_m,nees";

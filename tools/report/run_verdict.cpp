@@ -130,24 +130,39 @@ double largestStep_m(const RunResult& run) {
   return largest_m;
 }
 
-/// When the odometry's velocity errs otherwise than configured, by more than a minute can be wrong.
-std::string tellVelocityBias(const RunResult& run) {
-  constexpr double kLearned_s = 60;
+/// By more than what is learned in a minute may be wrong.
+bool isOtherThanConfigured(double factor) {
   constexpr double kMostFactor = 1.5;
+  return factor > 0 && (factor > kMostFactor || 1 / factor > kMostFactor);
+}
+
+/// What was learned of the odometry's noise and is not as configured, a sentence each.
+std::vector<std::string> tellLearnedNoise(const RunResult& run) {
+  constexpr double kLearned_s = 60;
   if (run.frames.empty() || countDistrusted(run) > 0) return {};
   const FrameResult& first = run.frames.front().result;
   const FrameResult& last = run.frames.back().result;
+  if (static_cast<double>(last.stamp_ns - first.stamp_ns) * 1e-9 < kLearned_s) return {};
+  std::vector<std::string> sentences;
+  char text[240];
   const double configured_m_s = first.velocity_bias_sigma_m_s;
   const double learned_m_s = last.velocity_bias_sigma_m_s;
-  const double factor = learned_m_s / configured_m_s;
-  const bool is_long = static_cast<double>(last.stamp_ns - first.stamp_ns) * 1e-9 >= kLearned_s;
-  if (!is_long || !(factor > 0) || (factor < kMostFactor && 1 / factor < kMostFactor)) return {};
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "the odometry's velocity errs by %.2g m/s where %.2g was configured; with "
-                "velocity_bias_m_s: %.2g the covariance counts with it from the first image on",
-                learned_m_s, configured_m_s, learned_m_s);
-  return text;
+  if (isOtherThanConfigured(learned_m_s / configured_m_s)) {
+    std::snprintf(text, sizeof text,
+                  "the odometry's velocity errs by %.2g m/s where %.2g was configured; with "
+                  "velocity_bias_m_s: %.2g the covariance counts with it from the first image on",
+                  learned_m_s, configured_m_s, learned_m_s);
+    sentences.emplace_back(text);
+  }
+  if (isOtherThanConfigured(last.yaw_walk_factor)) {
+    std::snprintf(text, sizeof text,
+                  "the odometry's yaw drifts %.2g times as fast as configured; with "
+                  "yaw_walk_deg_per_sqrt_s and yaw_walk_deg_per_sqrt_m times %.2g the covariance "
+                  "counts with it from the first image on",
+                  last.yaw_walk_factor, last.yaw_walk_factor);
+    sentences.emplace_back(text);
+  }
+  return sentences;
 }
 
 void warnOfOdometry(const std::string& name, const RunResult& run, RunVerdict& verdict) {
@@ -160,8 +175,9 @@ void warnOfOdometry(const std::string& name, const RunResult& run, RunVerdict& v
     warnings.push_back(name + ": " + explainSpeed("the odometry", run.absurd_speed_m_s));
   const std::string offset_advice = adviceOn(run.time_offset, run.image_time_offset_s);
   if (!offset_advice.empty()) warnings.push_back(name + ": " + offset_advice);
-  const std::string bias = verdict.faults.empty() ? tellVelocityBias(run) : "";
-  if (!bias.empty()) warnings.push_back(name + ": " + bias);
+  if (verdict.faults.empty())
+    for (const std::string& sentence : tellLearnedNoise(run))
+      warnings.push_back(name + ": " + sentence);
   if (run.odometry_froze && verdict.faults.empty()) {
     warnings.push_back(name +
                        ": the odometry stood still for seconds while the images moved on; check "

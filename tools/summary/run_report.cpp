@@ -103,9 +103,13 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   summary["frames_error_not_finite"] = e.frames_error_not_finite;
 }
 
-void addLearnedBias(const RunResult& run, Json& summary) {
-  const double bias_m_s = run.frames.empty() ? 0 : run.frames.back().result.velocity_bias_sigma_m_s;
-  summary["velocity_bias_learned_m_s"] = bias_m_s > 0 ? orNull(bias_m_s) : Json(nullptr);
+void addLearnedNoise(const RunResult& run, Json& summary) {
+  const FrameResult last = run.frames.empty() ? FrameResult{} : run.frames.back().result;
+  const auto orUnknown = [](double learned) {
+    return learned > 0 ? orNull(learned) : Json(nullptr);
+  };
+  summary["velocity_bias_learned_m_s"] = orUnknown(last.velocity_bias_sigma_m_s);
+  summary["yaw_walk_learned_over_configured"] = orUnknown(last.yaw_walk_factor);
 }
 
 void addScale(const RunResult& run, Json& summary) {
@@ -235,7 +239,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["landmarks_not_finite"] =
       std::count_if(run.landmarks.begin(), run.landmarks.end(), isNotFinite);
   addTracks(run, summary);
-  addLearnedBias(run, summary);
+  addLearnedNoise(run, summary);
   addScale(run, summary);
   addCost(run, summary);
   return summary;

@@ -53,8 +53,9 @@ TEST(RunVerdict, TracksThatMoveOtherwiseSendToDoctor) {
 }
 
 TEST(RunVerdict, SaysWhatWasLearnedOfTheOdometryAfterAMinute) {
-  const auto warningsOf = [](double learned_m_s, double seconds) {
+  const auto warningsOf = [](double learned_m_s, double seconds, double yaw_factor = 1) {
     RunResult run = runWith(36);
+    run.frames.back().result.yaw_walk_factor = yaw_factor;
     run.frames.front().result.velocity_bias_sigma_m_s = 0.03;
     run.frames.back().result.velocity_bias_sigma_m_s = learned_m_s;
     run.frames.back().result.stamp_ns = static_cast<std::int64_t>(seconds * 1e9);
@@ -68,6 +69,13 @@ TEST(RunVerdict, SaysWhatWasLearnedOfTheOdometryAfterAMinute) {
   EXPECT_TRUE(warningsOf(0.04, 60).empty()) << "no more than chance";
   EXPECT_TRUE(warningsOf(0.13, 50).empty()) << "too short";
   EXPECT_TRUE(warningsOf(0, 60).empty()) << "not estimated at the end";
+  ASSERT_EQ(warningsOf(0.03, 60, 8).size(), 1U);
+  EXPECT_EQ(warningsOf(0.03, 60, 8).front(),
+            "/tmp/a.bag: the odometry's yaw drifts 8 times as fast as configured; with "
+            "yaw_walk_deg_per_sqrt_s and yaw_walk_deg_per_sqrt_m times 8 the covariance counts "
+            "with it from the first image on");
+  EXPECT_EQ(warningsOf(0.13, 60, 0.5).size(), 2U);
+  EXPECT_TRUE(warningsOf(0.03, 60, 1.4).empty()) << "no more than chance";
 }
 
 TEST(RunVerdict, DistrustAndFrozenOdometrySendToDoctor) {

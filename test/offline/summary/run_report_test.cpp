@@ -36,6 +36,7 @@ RunResult someRun() {
     if (i > 0) frame.result.fix_nis = 0.75 * i;
     if (i > 0) frame.result.track_nis = 0.5 * i;
     frame.result.velocity_bias_sigma_m_s = 0.01 * (1 + i);
+    frame.result.yaw_walk_factor = 2.0 * i;
     frame.result.features = 100;
     frame.result.tracks = 80;
     frame.result.tracks_aligned = 20 * i;
@@ -116,6 +117,7 @@ TEST(RunReport, SummaryHasAllThatIsAskedFor) {
   EXPECT_NEAR(summary["tracks_aligned_share"], 120.0 / 320, 1e-12);
   EXPECT_NEAR(summary["track_nis_mean"], 1, 1e-12) << "of the frames that have one";
   EXPECT_NEAR(summary["velocity_bias_learned_m_s"], 0.04, 1e-12) << "of the last frame";
+  EXPECT_EQ(summary["yaw_walk_learned_over_configured"], 6);
   EXPECT_NEAR(summary["nees_mean"], 100 * mean_square, 1e-9);
   EXPECT_EQ(summary["landmark_matches_median"], 15);
   EXPECT_EQ(summary["landmarks"], 2);

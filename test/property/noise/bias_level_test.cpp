@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What BiasLevel learns of a bias that a Kalman filter follows, against the bias that was drawn.
-#include "window/bias_level.hpp"
+#include "noise/bias_level.hpp"
 
 #include <gtest/gtest.h>
 

@@ -230,5 +230,59 @@ TEST(SetupFindingText, NamesTheFaultAndWhatHelps) {
   EXPECT_NE(explain(finding, "b", "c").find("odometry_mode to twist"), std::string::npos);
 }
 
+/// The flight's odometry, 100 a second, with a yaw that walks; the walk is appended to yaw_rad.
+OdometryBuffer withWalkingYaw(const Swaying& flight, double seconds, std::uint64_t seed,
+                              std::vector<double>& yaw_rad) {
+  OdometryBufferConfig all;
+  all.buffer_s = 2 * seconds;
+  OdometryBuffer buffer(all);
+  RandomSource random(seed, 9);
+  double off_rad = 0;
+  for (int i = 0; i <= 100 * seconds; ++i) {
+    OdometryState state;
+    state.stamp_ns = test::swayStamp_ns(0.01 * i);
+    state.T_odom_base = flight.T_map_base(0.01 * i);
+    state.T_odom_base.linear() = rotationOf({0, 0, off_rad}) * state.T_odom_base.linear();
+    buffer.push(state);
+    yaw_rad.push_back(off_rad);
+    off_rad += 0.001 * random.normal();
+  }
+  return buffer;
+}
+
+TEST(SetupWatch, TellsHowFarTheOdometrysYawIsOff) {
+  constexpr double kSeconds = 20;
+  double squares = 0;
+  double drawn = 0;
+  int pairs = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Swaying flight = flightOf(seed);
+    std::vector<double> yaw_rad;
+    const OdometryBuffer odometry = withWalkingYaw(flight, kSeconds, seed, yaw_rad);
+    const auto yawAt = [&](std::int64_t stamp_ns) {
+      const double place = static_cast<double>(stamp_ns - test::swayStamp_ns(0)) * 1e-7;
+      return yaw_rad.at(static_cast<std::size_t>(std::lround(place)));
+    };
+    SetupWatch watch(test::forwardExtrinsics());
+    PointCamera camera(seed);
+    std::int64_t last_ns = 0;
+    for (int i = 0; i < kRate_hz * (kSeconds - 1); ++i) {
+      watch.see(look(camera, flight, i / kRate_hz, {}), odometry);
+      const SeenYaw yaw = watch.finding().yaw;
+      if (yaw.stamp_ns == last_ns) continue;
+      last_ns = yaw.stamp_ns;
+      const double walked_rad =
+          yawAt(yaw.stamp_ns) - yawAt(yaw.stamp_ns - std::llround(yaw.span_s * 1e9));
+      // The images turned less than the odometry says by what its yaw walked.
+      squares += (yaw.off_rad + walked_rad) * (yaw.off_rad + walked_rad) / yaw.variance_rad2;
+      drawn += walked_rad * walked_rad / yaw.variance_rad2;
+      ++pairs;
+    }
+  }
+  ASSERT_GT(pairs, 200);
+  EXPECT_LT(squares / pairs, 1.5);
+  EXPECT_GT(drawn, 2 * squares) << "or the test would not tell";
+}
+
 }  // namespace
 }  // namespace ardrone_vslam

@@ -27,6 +27,7 @@ FrameResult someResult() {
   result.fix_nis = 1.5;
   result.track_nis = 1.25;
   result.velocity_bias_sigma_m_s = 0.04;
+  result.yaw_walk_factor = 2.5;
   result.scale_error = -0.02;
   result.scale_sigma = 0.01;
   result.features = 100;
@@ -107,6 +108,7 @@ TEST(ResultConversion, StatusCountsWhatWasRemoved) {
   EXPECT_EQ(status.fix_nis, 1.5);
   EXPECT_EQ(status.track_nis, 1.25);
   EXPECT_EQ(status.velocity_bias_deviation, 0.04);
+  EXPECT_EQ(status.yaw_walk_factor, 2.5);
   EXPECT_EQ(status.scale_error, -0.02);
   EXPECT_EQ(status.scale_deviation, 0.01);
 }

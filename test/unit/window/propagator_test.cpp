@@ -131,7 +131,7 @@ TEST(Propagator, AHoleCountsAsASecondOfWhatWasKnownBefore) {
     OdometryState next = climbingTurnAt(0);
     next.stamp_ns += static_cast<std::int64_t>(hole_s * 1e9);
     state.propagator.learnVelocityBias(next, state);
-    return state.propagator.velocityBiasSigma_m_s();
+    return state.propagator.learned().bias.sigma_m_s();
   };
   EXPECT_LT(levelAfter(1), levelAfter(0.5));
   EXPECT_EQ(levelAfter(30), levelAfter(1));
@@ -140,14 +140,14 @@ TEST(Propagator, AHoleCountsAsASecondOfWhatWasKnownBefore) {
 TEST(Propagator, AFactorThatComesAndGoesIsNotLearned) {
   OdometryWindow state;
   state.add(climbingTurnAt(0));
-  const double configured_m_s = state.propagator.velocityBiasSigma_m_s();
+  const double configured_m_s = state.propagator.learned().bias.sigma_m_s();
   for (int i = 1; i < 2000; ++i) {
     if (i % 50 == 0) state.propagator.inflate(i % 100 == 0 ? 1 : 4, state);
     state.propagator.learnVelocityBias(climbingTurnAt(i), state);
     state.add(climbingTurnAt(i));
     state.removeFrame(0);
   }
-  EXPECT_NEAR(state.propagator.velocityBiasSigma_m_s(), configured_m_s, 1e-9);
+  EXPECT_NEAR(state.propagator.learned().bias.sigma_m_s(), configured_m_s, 1e-9);
 }
 
 }  // namespace

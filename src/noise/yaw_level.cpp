@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "noise/yaw_level.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "linear/scalars.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr double kMemory_s = 60;  // as BiasLevel's
+// Factors on the variance are powers of two, half an exponent apart. Beforehand the exponent is
+// normal about 0: with more than this one odd second counts, with less a bad odometry is believed
+// for long.
+constexpr double kStep = 0.5;
+constexpr double kExponentSigma = 1.5;
+// Student's t: of some pairs the image's own error is far larger than it claims.
+constexpr double kDegreesOfFreedom = 5;
+
+}  // namespace
+
+double YawLevel::configuredWalk_rad2(double time_s, double way_m) const {
+  return squared(radians(config_.yaw_walk_deg_per_sqrt_s)) * time_s +
+         squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * way_m;
+}
+
+void YawLevel::learn(const SetupFinding& finding) {
+  const SeenYaw& yaw = finding.yaw;
+  if (yaw.stamp_ns == learned_ns_ || finding.fault != SetupFault::kNone) return;
+  // Pairs overlap: of each counts what lies behind the one before.
+  const double new_s =
+      std::clamp(static_cast<double>(yaw.stamp_ns - learned_ns_) * 1e-9, 0.0, yaw.span_s);
+  learned_ns_ = yaw.stamp_ns;
+  const double walk_rad2 = configuredWalk_rad2(yaw.span_s, yaw.way_m);
+  const double rest_rad2 = yaw.variance_rad2 + 2 * squared(radians(config_.attitude_noise_deg));
+  const double kept = std::exp(-new_s / kMemory_s);
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < kFactors; ++i) {
+    const double exponent = kStep * (static_cast<double>(i) - kFactors / 2);
+    const double variance_rad2 = std::exp2(exponent) * walk_rad2 + rest_rad2;
+    const double squares = squared(yaw.off_rad) / variance_rad2;
+    const double log_density =
+        -0.5 * (std::log(variance_rad2) +
+                (kDegreesOfFreedom + 1) * std::log1p(squares / kDegreesOfFreedom));
+    log_likelihood_[i] = kept * log_likelihood_[i] + new_s / yaw.span_s * log_density;
+    const double log_posterior = log_likelihood_[i] - 0.5 * squared(exponent / kExponentSigma);
+    if (log_posterior <= most) continue;
+    most = log_posterior;
+    variance_factor_ = std::exp2(exponent);
+  }
+}
+
+}  // namespace ardrone_vslam
