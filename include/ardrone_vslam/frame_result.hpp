@@ -73,8 +73,7 @@ struct FrameResult {
   /// MSCKF: the odometry's slow velocity error as it is counted with, per axis: `velocity_bias_m_s`
   /// and what was learned since; 0 with the others.
   double velocity_bias_sigma_m_s = 0;
-  /// MSCKF: how fast the odometry's yaw drifts as it is counted with, over
-  /// `yaw_walk_deg_per_sqrt_s` and `yaw_walk_deg_per_sqrt_m`; 0 with the others.
+  /// MSCKF: drift of its yaw as learned, over `yaw_walk_deg_per_sqrt_s` and `_m`; 0 likewise.
   double yaw_walk_factor = 0;
   /// MSCKF: of the odometry, which reports (1 + error) times the way; 0 with the
   /// others.

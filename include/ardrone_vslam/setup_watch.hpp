@@ -34,8 +34,8 @@ struct EnumNames<SetupFault> {
 /// By how much the camera turned otherwise than the odometry says, about base's z, between two
 /// images.
 struct SeenYaw {
-  std::int64_t stamp_ns = 0;  ///< of the later image; 0: none has been seen
-  double span_s = 0;          ///< between the two
+  std::int64_t stamp_ns = 0;  ///< of the later image
+  double span_s = 0;          ///< between the two; 0: none is known
   double way_m = 0;           ///< likewise, by the odometry
   double off_rad = 0;
   double variance_rad2 = 0;  ///< of this, by images and calibration; the odometry's is not in it
@@ -51,7 +51,7 @@ struct SetupFinding {
   Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();  ///< kMounting: that which fits
   double offset_s = 0;      ///< kTimeOffset: an image is exposed at its stamp plus this, roughly
   double focal_factor = 1;  ///< kFocalLength: the calibration's over the true one, roughly
-  SeenYaw yaw;              ///< of the newest pair of images that tell one
+  SeenYaw yaw;              ///< of the newest pair of images
 };
 
 /// What is wrong and what helps, for users; empty without a fault.

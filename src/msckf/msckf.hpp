@@ -22,12 +22,10 @@
 
 namespace ardrone_vslam {
 
-/// Fuses the odometry with the camera: every track constrains, once, the frames that saw it,
-/// without a landmark in the state; landmarks of earlier visits correct the drift since, and are
-/// themselves taken along with what is corrected; while the image is still and no such landmark is
-/// in view, the camera is held where it is; heights above the floor tell the scale. Between
-/// keyframes all but the tracks are applied. Each of these is a collaborator of its own; this class
-/// is their order.
+/// Fuses the odometry with the camera. Each track corrects, once, the frames that saw it, without a
+/// landmark in the state. Landmarks of earlier visits correct the drift since. While the image is
+/// still the camera is held where it is. Heights above the floor tell the scale. Between keyframes
+/// all but the tracks are applied. Each of these is a collaborator; this class is their order.
 class Msckf {
  public:
   /// @throws ConfigError listing every parameter out of its range
@@ -83,7 +81,6 @@ class Msckf {
   int candidates() const { return track_update_.candidates(); }
   /// Those of candidates() that agreed and were used.
   int used() const { return static_cast<int>(track_update_.used().size()); }
-  /// Whether the newest frame is a keyframe.
   bool isKeyframe() const { return newest().id == tracks_.keyframeId(); }
   /// MapUpdate::nis().
   double fixNis() const { return map_update_.nis(); }

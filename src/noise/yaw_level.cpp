@@ -10,9 +10,9 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr double kMemory_s = 60;  // as BiasLevel's
-// Factors on the variance are powers of two, half an exponent apart. Beforehand the exponent is
-// normal about 0: with more than this one odd second counts, with less a bad odometry is believed
-// for long.
+// Factors on the variance are powers of two, half an exponent apart. Beforehand 1 is the most
+// probable one, and the others as the exponent's upper half of a normal distribution: with a larger
+// sigma one odd second counts, with a smaller one a bad odometry is believed for long.
 constexpr double kStep = 0.5;
 constexpr double kExponentSigma = 1.5;
 // Student's t: of some pairs the image's own error is far larger than it claims.
@@ -27,7 +27,8 @@ double YawLevel::configuredWalk_rad2(double time_s, double way_m) const {
 
 void YawLevel::learn(const SetupFinding& finding) {
   const SeenYaw& yaw = finding.yaw;
-  if (yaw.stamp_ns == learned_ns_ || finding.fault != SetupFault::kNone) return;
+  if (!(yaw.span_s > 0) || yaw.stamp_ns == learned_ns_) return;
+  if (finding.fault != SetupFault::kNone) return;
   // Pairs overlap: of each counts what lies behind the one before.
   const double new_s =
       std::clamp(static_cast<double>(yaw.stamp_ns - learned_ns_) * 1e-9, 0.0, yaw.span_s);
@@ -37,7 +38,7 @@ void YawLevel::learn(const SetupFinding& finding) {
   const double kept = std::exp(-new_s / kMemory_s);
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < kFactors; ++i) {
-    const double exponent = kStep * (static_cast<double>(i) - kFactors / 2);
+    const double exponent = kStep * static_cast<double>(i);
     const double variance_rad2 = std::exp2(exponent) * walk_rad2 + rest_rad2;
     const double squares = squared(yaw.off_rad) / variance_rad2;
     const double log_density =

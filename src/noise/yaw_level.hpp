@@ -12,10 +12,11 @@
 namespace ardrone_vslam {
 
 /// How fast the odometry's yaw drifts: begins as configured and is learned from how much the camera
-/// turns otherwise between two images. For each of some factors on the configured walk the
-/// likelihood of what was seen over the last minute is kept. The most probable one is in force;
-/// before anything is seen it is 1. The filter's own corrections would not do: its gates leave out
-/// what contradicts a yaw that it is too sure of.
+/// turns otherwise between two images. For each of some factors on the configured walk, 1 and
+/// larger, the likelihood of what was seen over the last minute is kept. The most probable one is
+/// in force; before anything is seen it is 1. Yaw that is better than configured cannot be told:
+/// what images and odometry err by from one to the next is larger. The filter's own corrections
+/// would not do: its gates leave out what contradicts a yaw that it is too sure of.
 class YawLevel {
  public:
   /// A walk of zero stays zero.
@@ -34,7 +35,7 @@ class YawLevel {
   double factor() const { return std::sqrt(variance_factor_); }
 
  private:
-  static constexpr std::size_t kFactors = 41;
+  static constexpr std::size_t kFactors = 21;
 
   double configuredWalk_rad2(double time_s, double way_m) const;
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "ardrone_vslam/setup_watch.hpp"
 #include "odometry/image_rotation.hpp"
 
 namespace ardrone_vslam {
@@ -27,6 +28,7 @@ constexpr std::array<double, 8> kFocalFactors{0.5, 0.6, 0.7, 0.8, 1.25, 1.5, 1.7
 struct ComparedMotion {
   double span_s = 0;
   ImageMotion seen;
+  SeenYaw yaw;
   double squares_told = 0;  ///< squaresBetween() it and what is told, as far as the tracks bear out
   /// As seen if the focal length were wrong by each factor; empty: was not looked at.
   std::array<std::optional<ImageMotion>, kFocalFactors.size()> seen_at_factor;
@@ -34,6 +36,8 @@ struct ComparedMotion {
   std::array<ToldMotion, kSetupOffsets> told_at_offset;
   ToldMotion told_by_position;  ///< if the odometry integrates with a mirrored yaw
   ToldMotion told_by_yaw;       ///< if its yaw is mirrored
+
+  const ToldMotion& told() const { return told_at_offset[kSetupOffsets / 2]; }
 };
 
 /// Squared deviations between what is seen and what is told, of 5 that are independent; at most
@@ -54,6 +58,11 @@ std::optional<ImageMotion> motionSeen(const std::vector<BearingPair>& pairs,
 /// in the tracks, not only in what their fit claims.
 double squaresTold(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
                    const ImageMotion& seen, const ToldMotion& told, double span_s);
+
+/// By how much the odometry's yaw is off, of a motion that was seen and told.
+/// @return of no span where the images tell no turn about base's z
+SeenYaw seenYaw(const ComparedMotion& motion, const Eigen::Matrix3d& R_base_cam,
+                std::int64_t stamp_ns);
 
 /// As motionSeen(), if the focal length were wrong by a factor; only near what is told.
 /// @param pairs  changed

@@ -72,7 +72,7 @@ SetupHypotheses::SetupHypotheses(const Eigen::Isometry3d& T_base_cam, double ima
 }
 
 double SetupHypotheses::squaresOf(const Hypothesis& h, const ComparedMotion& motion) {
-  const ToldMotion& told = motion.told_at_offset[kMiddle];
+  const ToldMotion& told = motion.told();
   switch (h.fault) {
     case SetupFault::kMounting:
     case SetupFault::kMirrored:
@@ -107,6 +107,7 @@ void SetupHypotheses::add(const ComparedMotion& motion) {
     h.squares = kKept * h.squares + (is_unseen ? motion.squares_told : squaresOf(h, motion));
   }
   judge();
+  finding_.yaw = motion.yaw;
 }
 
 bool SetupHypotheses::wantsFactors() const {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ardrone_vslam/setup_watch.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +22,6 @@ constexpr double kLeast_px = 3;     // the tracks' median way: less tells nothin
 constexpr double kCorner_px = 0.7;  // sigma between two images, per axis
 constexpr double kStill = 1e-6;     // odometry that moves less, in m and rad, is frozen
 constexpr std::size_t kMiddle = kSetupOffsets / 2;
-constexpr double kOfTurn = 0.02;  // of what a turn seems to be: focal length, clocks
 
 std::int64_t offsetOf_ns(std::size_t offset) {
   return (static_cast<std::int64_t>(offset) - static_cast<std::int64_t>(kMiddle)) *
@@ -66,14 +64,13 @@ class SetupWatch::State {
   void useCamera(const Eigen::Isometry3d& T_base_cam) {
     *this = State(T_base_cam, image_time_offset_s_);
   }
-  const SetupFinding& finding() const { return finding_; }
+  const SetupFinding& finding() const { return hypotheses_.finding(); }
 
  private:
   ImageRays& image(std::size_t number) { return images_[number % kImages]; }
   void compare(const ImageRays& now, std::size_t number, const OdometryBuffer& odometry);
   void compare(const ImageRays& then, const ImageRays& now, const OdometryBuffer& odometry);
   double medianWay_px(double focal_length_px);
-  std::optional<SeenYaw> seenYaw(const ComparedMotion& motion, std::int64_t stamp_ns) const;
   bool find(const OdometryBuffer& odometry, const ImageRays& then, const ImageRays& now,
             ComparedMotion& motion) const;
   ToldMotion motionOf(const Eigen::Isometry3d& then, const Eigen::Isometry3d& now) const;
@@ -88,7 +85,6 @@ class SetupWatch::State {
   std::vector<BearingPair> pairs_;
   std::vector<double> ways_;
   SetupHypotheses hypotheses_;
-  SetupFinding finding_;
 };
 
 void SetupWatch::State::see(const ImageFeatures& features, const OdometryBuffer& odometry) {
@@ -130,11 +126,12 @@ void SetupWatch::State::compare(const ImageRays& then, const ImageRays& now,
   motion.span_s = static_cast<double>(now.stamp_ns - then.stamp_ns) * 1e-9;
   motion.pairs = static_cast<double>(pairs_.size());
   if (!find(odometry, then, now, motion)) return;
-  const ToldMotion& told = motion.told_at_offset[kMiddle];
+  const ToldMotion& told = motion.told();
   const double sigma_rad = kCorner_px / now.focal_length_px;
   const auto seen = motionSeen(pairs_, sigma_rad, told, motion.span_s);
   if (!seen) return;
   motion.seen = *seen;
+  motion.yaw = seenYaw(motion, T_base_cam_.linear(), now.stamp_ns);
   motion.squares_told = squaresTold(pairs_, sigma_rad, *seen, told, motion.span_s);
   if (hypotheses_.wantsFactors()) {
     double factor = 1;
@@ -146,27 +143,6 @@ void SetupWatch::State::compare(const ImageRays& then, const ImageRays& now,
     }
   }
   hypotheses_.add(motion);
-  const SeenYaw yaw = seenYaw(motion, now.stamp_ns).value_or(finding_.yaw);
-  finding_ = hypotheses_.finding();
-  finding_.yaw = yaw;
-}
-
-/// @return nothing where the images tell no turn about base's z
-std::optional<SeenYaw> SetupWatch::State::seenYaw(const ComparedMotion& motion,
-                                                  std::int64_t stamp_ns) const {
-  const ToldMotion& told = motion.told_at_offset[kMiddle];
-  const Eigen::Vector3d up_cam = T_base_cam_.linear().row(2).transpose();
-  const Eigen::Matrix3d R_off = motion.seen.R_then_now * told.R_then_now.transpose();
-  const Eigen::Matrix3d covariance = motion.seen.information.inverse().topLeftCorner<3, 3>();
-  const double of_turn_rad = kOfTurn * rotationVectorOf(told.R_then_now).norm();
-  SeenYaw yaw;
-  yaw.stamp_ns = stamp_ns;
-  yaw.span_s = motion.span_s;
-  yaw.way_m = told.way_then_m.norm();
-  yaw.off_rad = up_cam.dot(rotationVectorOf(R_off));
-  yaw.variance_rad2 = up_cam.dot(covariance * up_cam) + of_turn_rad * of_turn_rad;
-  if (!(yaw.variance_rad2 > 0) || !std::isfinite(yaw.variance_rad2)) return std::nullopt;
-  return yaw;
 }
 
 double SetupWatch::State::medianWay_px(double focal_length_px) {

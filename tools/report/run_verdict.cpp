@@ -130,7 +130,7 @@ double largestStep_m(const RunResult& run) {
   return largest_m;
 }
 
-/// By more than what is learned in a minute may be wrong.
+/// By more than may be wrong of what a minute teaches.
 bool isOtherThanConfigured(double factor) {
   constexpr double kMostFactor = 1.5;
   return factor > 0 && (factor > kMostFactor || 1 / factor > kMostFactor);

@@ -105,9 +105,7 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
 
 void addLearnedNoise(const RunResult& run, Json& summary) {
   const FrameResult last = run.frames.empty() ? FrameResult{} : run.frames.back().result;
-  const auto orUnknown = [](double learned) {
-    return learned > 0 ? orNull(learned) : Json(nullptr);
-  };
+  const auto orUnknown = [](double x) { return x > 0 ? orNull(x) : Json(nullptr); };
   summary["velocity_bias_learned_m_s"] = orUnknown(last.velocity_bias_sigma_m_s);
   summary["yaw_walk_learned_over_configured"] = orUnknown(last.yaw_walk_factor);
 }

@@ -74,7 +74,7 @@ TEST(RunVerdict, SaysWhatWasLearnedOfTheOdometryAfterAMinute) {
             "/tmp/a.bag: the odometry's yaw drifts 8 times as fast as configured; with "
             "yaw_walk_deg_per_sqrt_s and yaw_walk_deg_per_sqrt_m times 8 the covariance counts "
             "with it from the first image on");
-  EXPECT_EQ(warningsOf(0.13, 60, 0.5).size(), 2U);
+  EXPECT_EQ(warningsOf(0.13, 60, 8).size(), 2U);
   EXPECT_TRUE(warningsOf(0.03, 60, 1.4).empty()) << "no more than chance";
 }
 
