@@ -17,6 +17,8 @@ constexpr double kStep = 0.5;
 constexpr double kExponentSigma = 1.5;
 // Student's t: of some pairs the image's own error is far larger than it claims.
 constexpr double kDegreesOfFreedom = 5;
+// Lenses and clocks that are not quite as told look like yaw that is up to twice as bad.
+constexpr double kLeastFactor = 4;  // of the variance
 
 }  // namespace
 
@@ -37,6 +39,7 @@ void YawLevel::learn(const SetupFinding& finding) {
   const double rest_rad2 = yaw.variance_rad2 + 2 * squared(radians(config_.attitude_noise_deg));
   const double kept = std::exp(-new_s / kMemory_s);
   double most = -std::numeric_limits<double>::infinity();
+  double most_probable = 1;
   for (std::size_t i = 0; i < kFactors; ++i) {
     const double exponent = kStep * static_cast<double>(i);
     const double variance_rad2 = std::exp2(exponent) * walk_rad2 + rest_rad2;
@@ -48,8 +51,9 @@ void YawLevel::learn(const SetupFinding& finding) {
     const double log_posterior = log_likelihood_[i] - 0.5 * squared(exponent / kExponentSigma);
     if (log_posterior <= most) continue;
     most = log_posterior;
-    variance_factor_ = std::exp2(exponent);
+    most_probable = std::exp2(exponent);
   }
+  variance_factor_ = most_probable < kLeastFactor ? 1 : most_probable;
 }
 
 }  // namespace ardrone_vslam

@@ -14,9 +14,9 @@ namespace ardrone_vslam {
 /// How fast the odometry's yaw drifts: begins as configured and is learned from how much the camera
 /// turns otherwise between two images. For each of some factors on the configured walk, 1 and
 /// larger, the likelihood of what was seen over the last minute is kept. The most probable one is
-/// in force; before anything is seen it is 1. Yaw that is better than configured cannot be told:
-/// what images and odometry err by from one to the next is larger. The filter's own corrections
-/// would not do: its gates leave out what contradicts a yaw that it is too sure of.
+/// in force, but none below 2: images err by more from one to the next than a good yaw, and a lens
+/// or a clock that is not quite as told looks like a worse one. The filter's own corrections would
+/// not do: its gates leave out what contradicts a yaw that it is too sure of.
 class YawLevel {
  public:
   /// A walk of zero stays zero.

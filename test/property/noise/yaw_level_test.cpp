@@ -69,13 +69,10 @@ TEST(YawLevel, IsThatOfTheWalkWithinAMinute) {
   }
 }
 
-// A walk below the images' own noise cannot be told from none. Measured: 1 with 38 seeds
-// of 40, at most 1.41.
-TEST(YawLevel, DoesNotFallAndHardlyRisesWhenTheOdometryIsBetter) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const double found = 0.1 * learned(0.1, seed);
-    EXPECT_GE(found, 1);
-    EXPECT_LT(found, 1.5);
+TEST(YawLevel, StaysAsConfiguredWhereTheOdometryIsNoWorse) {
+  for (const double factor : {0.1, 1.0}) {
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed)
+      EXPECT_EQ(std::lround(100 * factor * learned(factor, seed)), 100) << factor << ' ' << seed;
   }
 }
 
