@@ -49,11 +49,11 @@ class SystemCalls(unittest.TestCase):
 
 
 class Poses(unittest.TestCase):
-    def compare(self, *lines, state="localised"):
+    def compare(self, *lines, state="localised", others=()):
         with tempfile.TemporaryDirectory() as folder:
             pose = "1000 1 2 3 0 0 0 1 " + state + " 10 20"
             for name, line in zip("ab", (pose, *lines)):
-                (Path(folder) / name).write_text(line + "\n")
+                (Path(folder) / name).write_text("\n".join([line, *others]) + "\n")
             command = [HERE / "compare_poses", f"{folder}/a", f"{folder}/b", "1e-6", "1e-5"]
             return subprocess.run(command, capture_output=True, check=False).returncode
 
@@ -66,6 +66,9 @@ class Poses(unittest.TestCase):
         self.assertEqual(self.compare("1000 1 2 3 0 0 0 1 tracking 10 20"), 1)  # another state, both corrected by the images
         self.assertEqual(self.compare("1000 1 2 3 0 0 0 1 localised 11 20"), 1)  # another count of features
         self.assertEqual(self.compare("1000 1 2 3 0 0 0 1 localised 10 21"), 1)  # of landmarks
+        others = 9 * ["2000 1 2 3 0 0 0 1 localised 10 20"]
+        self.assertEqual(self.compare("1000 1 2 3 0 0 0 1 localised 10 21", others=others), 0)  # of a tenth
+        self.assertEqual(self.compare("1000 1 2 3 0 0 0 1 tracking 10 20", others=others), 1)
         self.assertEqual(self.compare("1001 1 2 3 0 0 0 1 localised 10 20"), 1)
         self.assertEqual(self.compare("1000 1 2 3 0 0 0 1 building_map 10 20", state="building_map"), 1)  # the observer's
 
