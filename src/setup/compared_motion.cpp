@@ -123,12 +123,11 @@ double squaresTold(const std::vector<BearingPair>& pairs, double corner_sigma_ra
 
 SeenYaw seenYaw(const ComparedMotion& motion, const Eigen::Matrix3d& R_base_cam,
                 std::int64_t stamp_ns) {
-  constexpr double kTurnShare = 0.02;  // of a turn: focal length, clocks
   const ToldMotion& told = motion.told();
   const Eigen::Vector3d up_cam = R_base_cam.row(2).transpose();
   const Eigen::Matrix3d R_off = motion.seen.R_then_now * told.R_then_now.transpose();
   const Eigen::Matrix3d covariance = motion.seen.information.inverse().topLeftCorner<3, 3>();
-  const double of_turn_rad = kTurnShare * rotationVectorOf(told.R_then_now).norm();
+  const double of_turn_rad = kOfTurn * rotationVectorOf(told.R_then_now).norm();
   const double variance_rad2 = up_cam.dot(covariance * up_cam) + of_turn_rad * of_turn_rad;
   if (!(variance_rad2 > 0) || !std::isfinite(variance_rad2)) return {};
   return {stamp_ns, motion.span_s, told.way_then_m.norm(), up_cam.dot(rotationVectorOf(R_off)),

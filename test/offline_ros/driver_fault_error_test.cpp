@@ -138,13 +138,13 @@ double errorWith_m(const DriverFaults& faults) {
 
 TEST(DriverFaultError, IsThatOfTheCleanFlight) {
   const double clean_m = errorWith_m({});
-  EXPECT_LT(clean_m, 0.147);  // measured: 0.122, 0.04 to 0.16 in 20 seeds; the odometry's 0.5 to 2
+  EXPECT_LT(clean_m, 0.147);  // measured: 0.116, 0.04 to 0.16 in 20 seeds; the odometry's 0.5 to 2
   // unprefixed_frame changes no number.
   for (const char* name :
        {"mirrored_yaw", "epoch_dt", "zero_covariance", "fused_altitude", "whole_metres", "bursts",
         "unscaled_camera_info", "togglecam", "released", "all"}) {
-    // What the README says. Measured: 0.90 to 1.16, the last with "all".
-    EXPECT_LT(errorWith_m(driverFaultsNamed({name})), 1.25 * clean_m) << name;
+    // What the README says. Measured: 0.86 to 1.22, the last with "all".
+    EXPECT_LT(errorWith_m(driverFaultsNamed({name})), 1.35 * clean_m) << name;
   }
 }
 
