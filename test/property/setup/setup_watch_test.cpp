@@ -245,7 +245,7 @@ OdometryBuffer withWalkingYaw(const Swaying& flight, double seconds, std::uint64
     state.T_odom_base.linear() = rotationOf({0, 0, off_rad}) * state.T_odom_base.linear();
     buffer.push(state);
     yaw_rad.push_back(off_rad);
-    off_rad += 0.001 * random.normal();
+    off_rad += 0.003 * random.normal();
   }
   return buffer;
 }
