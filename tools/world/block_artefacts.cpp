@@ -56,7 +56,8 @@ void addBlockArtefacts(int quantiser, cv::Mat& image) {
       block = kCosines.transpose() * (levels * step) * kCosines;
       for (int i = 0; i < kBlock_px * kBlock_px; ++i) {
         const float grey = std::min(std::max(block(i / 4, i % 4) + predicted, 0.0F), 255.0F);
-        image.at<std::uint8_t>(top + i / 4, left + i % 4) = static_cast<std::uint8_t>(std::lround(grey));
+        image.at<std::uint8_t>(top + i / 4, left + i % 4) =
+            static_cast<std::uint8_t>(std::lround(grey));
       }
     }
   }
