@@ -31,14 +31,13 @@ struct EnumNames<SetupFault> {
       "focal_length", "odometry_position", "odometry_yaw", "unknown"};
 };
 
-/// By how much the camera turned otherwise than the odometry says, about base's z, between two
-/// images.
+/// How the camera turned otherwise than the odometry says, about base's z, between two images.
 struct SeenYaw {
   std::int64_t stamp_ns = 0;  ///< of the later image
   double span_s = 0;          ///< between the two; 0: none is known
   double way_m = 0;           ///< likewise, by the odometry
-  double off_rad = 0;
-  double variance_rad2 = 0;  ///< of this, by images and calibration; the odometry's is not in it
+  double off_rad = 0;         ///< camera less odometry
+  double variance_rad2 = 0;   ///< of this, by images and calibration; the odometry's is not in it
 };
 
 /// What the motion so far says of the set-up.
