@@ -26,7 +26,9 @@ nlohmann::json measureLens(bool quick) {
     if (!methods[i].key.empty())
       for (int y = 0; y < camera.height_px; y += kStep_px)
         for (int x = 0; x < camera.width_px; x += kStep_px)
-          map.push_back(errors[static_cast<std::size_t>(y * camera.width_px + x)]);
+          map.push_back(
+              errors[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
+                     static_cast<std::size_t>(x)]);
     json["methods"].push_back({{"name", methods[i].name},
                                {"key", methods[i].key},
                                {"mean_px", summary.mean_px},

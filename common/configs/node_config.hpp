@@ -20,7 +20,7 @@ struct TrackerNodeConfig {
   ImageTransport image_transport = ImageTransport::kRaw;
   bool rectified = false;
   bool rescale_calibration = false;
-  double image_time_offset_s = 0;
+  NumberOrAuto image_time_offset_s;
   int queue_size = 5;
 };
 

@@ -36,11 +36,12 @@ struct SectionValues {
       value = text;
       return;
     } else {
-      if (read_scalar(text, value)) return;
+      if (readNumber(text, value)) return;
       must_be = std::string("a ") +
-                (std::is_same_v<T, bool>  ? "switch (true or false)"
-                 : std::is_same_v<T, int> ? "whole number"
-                                          : "number") +
+                (std::is_same_v<T, bool>           ? "switch (true or false)"
+                 : std::is_same_v<T, int>          ? "whole number"
+                 : std::is_same_v<T, NumberOrAuto> ? "number or auto"
+                                                   : "number") +
                 " [" + info.unit + "]";
     }
     faults->push_back(section_name + "/" + info.name + " is '" + shortened(text) +
@@ -49,6 +50,18 @@ struct SectionValues {
   }
 
  private:
+  template <class T>
+  bool readNumber(const std::string& text, T& value) const {
+    return read_scalar(text, value);
+  }
+  bool readNumber(const std::string& text, NumberOrAuto& value) const {
+    double number = 0;
+    const bool is_auto = text == kAuto;
+    if (!is_auto && !read_scalar(text, number)) return false;
+    value = is_auto ? NumberOrAuto{} : number;
+    return true;
+  }
+
   template <class Enum>
   static bool readChoice(const std::string& text, Enum& value, std::string& must_be) {
     for (std::size_t i = 0; i < EnumNames<Enum>::kNames.size(); ++i) {

@@ -52,6 +52,15 @@ bool ParamReader::convert(XmlRpc::XmlRpcValue& given, double& value) {
   return true;
 }
 
+bool ParamReader::convert(XmlRpc::XmlRpcValue& given, NumberOrAuto& value) {
+  double number = 0;
+  std::string text;
+  const bool is_auto = convert(given, text) && text == kAuto;
+  if (!is_auto && !convert(given, number)) return false;
+  value = is_auto ? NumberOrAuto{} : number;
+  return true;
+}
+
 bool ParamReader::convert(XmlRpc::XmlRpcValue& given, std::string& value) {
   if (given.getType() != XmlRpc::XmlRpcValue::TypeString) return false;
   value = static_cast<std::string>(given);

@@ -54,13 +54,7 @@ class ParamReader {
         wrongType(info, given, typeName(value) + (is_text ? std::string(": ") + info.unit : ""));
       }
     }
-    std::ostringstream text;
-    if constexpr (std::is_enum_v<T>) {
-      text << nameOf(value);
-    } else {
-      text << std::boolalpha << value;
-    }
-    summary_ += std::string(summary_.empty() ? "" : " ") + info.name + "=" + text.str();
+    summary_ += std::string(summary_.empty() ? "" : " ") + info.name + "=" + textOf(value);
   }
 
   template <class Enum>
@@ -83,10 +77,12 @@ class ParamReader {
   static bool convert(XmlRpc::XmlRpcValue& given, bool& value);
   static bool convert(XmlRpc::XmlRpcValue& given, int& value);
   static bool convert(XmlRpc::XmlRpcValue& given, double& value);
+  static bool convert(XmlRpc::XmlRpcValue& given, NumberOrAuto& value);
   static bool convert(XmlRpc::XmlRpcValue& given, std::string& value);
   static const char* typeName(bool) { return "true or false"; }
   static const char* typeName(int) { return "a whole number"; }
   static const char* typeName(double) { return "a number"; }
+  static const char* typeName(const NumberOrAuto&) { return "a number or auto"; }
   static const char* typeName(const std::string&) { return "a text"; }
 
   std::string remedyOf(const std::string& name) const;

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -34,6 +36,10 @@ constexpr PagePlace ofPart(PagePart part) {
   return {part, 0};
 }
 
+/// A number, or nothing, which is `auto` in yaml files: the program finds it by itself.
+using NumberOrAuto = std::optional<double>;
+constexpr const char* kAuto = "auto";
+
 /// What a user needs to know of one parameter. Its default is the value in the freshly constructed
 /// struct, so that it is written only once.
 ///
@@ -42,9 +48,9 @@ constexpr PagePlace ofPart(PagePart part) {
 /// template <class Visitor> void visitParameters(S& config, Visitor&& visit);
 /// @endcode
 /// that calls visit(const ParameterInfo&, member) for each parameter, nested structs included: an
-/// int, double, bool, string or an enumeration with EnumNames. Reading, validation, listing and the
-/// documentation all use it. Members that it leaves out, and structs without it, are no parameters:
-/// only tests and benchmarks give them other values.
+/// int, double, NumberOrAuto, bool, string or an enumeration with EnumNames. Reading, validation,
+/// listing and the documentation all use it. Members that it leaves out, and structs without it,
+/// are no parameters: only tests and benchmarks give them other values.
 struct ParameterInfo {
   const char* name;  ///< as in yaml files and in messages
   const char* unit;  ///< "px", "m", "rad", "-" ...; "choice" for enumerations, "switch" for bool
@@ -63,6 +69,20 @@ struct EnumNames;
 template <class Enum>
 const char* nameOf(Enum value) {
   return EnumNames<Enum>::kNames[static_cast<std::size_t>(value)];
+}
+
+/// A parameter's value as yaml files have it.
+template <class T>
+std::string textOf(const T& value) {
+  std::ostringstream text;
+  if constexpr (std::is_enum_v<T>) {
+    text << nameOf(value);
+  } else if constexpr (std::is_same_v<T, NumberOrAuto>) {
+    value ? text << *value : text << kAuto;
+  } else {
+    text << std::boolalpha << value;
+  }
+  return text.str();
 }
 
 /// Thrown once at construction or loading; lists every fault of the configuration.
@@ -88,6 +108,8 @@ struct RangeCheck {
   void operator()(const ParameterInfo& info, T& value) const {
     if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
       check(info, static_cast<double>(value));
+    } else if constexpr (std::is_same_v<T, NumberOrAuto>) {
+      if (value) check(info, *value);
     }
   }
   /// Notes the fault of one number; NaN is outside.

@@ -42,11 +42,14 @@ struct SeenYaw {
 
 /// What the motion so far says of the set-up.
 struct SetupFinding {
-  SetupFault fault = SetupFault::kNone;  ///< while it is not kNone the camera is not to be used
+  SetupFault fault = SetupFault::kNone;
   /// Another fault, or kMounting another mounting, that explains the images nearly as well.
   SetupFault rival = SetupFault::kNone;
   /// Without a fault: the motion since the last fault has shown that there is none.
   bool is_confirmed = false;
+  /// The images so far were taken for other times than they were of: what they said is given up.
+  bool forgets_images = false;
+  bool isCameraUsed() const { return fault == SetupFault::kNone && !forgets_images; }
   Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();  ///< kMounting: that which fits
   double offset_s = 0;      ///< kTimeOffset: an image is exposed at its stamp plus this, roughly
   double focal_factor = 1;  ///< kFocalLength: the calibration's over the true one, roughly
@@ -74,7 +77,7 @@ std::string staticTransformLine(const Eigen::Isometry3d& T_base_cam, const std::
 class SetupWatch {
  public:
   /// @param T_base_cam  extrinsics, as told: optical frame to base
-  /// @param image_time_offset_s  the parameter
+  /// @param image_time_offset_s  that in use
   explicit SetupWatch(const Eigen::Isometry3d& T_base_cam, double image_time_offset_s = 0);
   ~SetupWatch();
   SetupWatch(SetupWatch&& other) noexcept;             ///< takes what the images said along
@@ -83,8 +86,6 @@ class SetupWatch {
   /// One image. Stamps that go back: the images before are forgotten.
   /// @param odometry  must keep at least a second, and reach to the image; more is waited for
   void see(const ImageFeatures& features, const OdometryBuffer& odometry);
-  /// The images that follow are another camera's: all begins anew.
-  void useCamera(const Eigen::Isometry3d& T_base_cam);
   /// After the images so far.
   const SetupFinding& finding() const;
 

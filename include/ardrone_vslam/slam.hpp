@@ -39,7 +39,7 @@ class Slam {
 
   /// What a SetupWatch says at the next frame. With a fault, poses are the odometry's, the state is
   /// kDistrusted, and with MSCKF the map keeps only what was made until the set-up was last
-  /// confirmed.
+  /// confirmed. With forgets_images it keeps nothing, and that one frame is kDistrusted.
   void heed(const SetupFinding& finding);
 
   /// The next frame is another camera's, on the same base (or the camera's calibration is another

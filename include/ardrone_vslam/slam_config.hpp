@@ -180,7 +180,7 @@ struct EnumNames<EstimatorKind> {
 struct SlamConfig {
   EstimatorKind estimator = EstimatorKind::kMsckf;
   bool planar = false;
-  double image_time_offset_s = 0;
+  NumberOrAuto image_time_offset_s;
   OdometryBufferConfig odometry;
   OdometryAdapterConfig odometry_adapter;
   HeightInputConfig height_input;
@@ -195,8 +195,10 @@ struct SlamConfig {
 /// Of `image_time_offset_s`, also the tracker's.
 constexpr const char* kImageTimeOffset =
     "an image is exposed at its stamp plus this on the odometry's clock: negative where the driver "
-    "stamps images late. `status` and `replay` tell what it seems to be. In the tracker for "
-    "`use_attitude`";
+    "stamps images late. auto: 0, until the mapper has found it by the turns of camera and "
+    "odometry; `status` and `replay` tell what it is. In the tracker for `use_attitude`, where "
+    "auto "
+    "is 0";
 
 template <class Visitor>
 void visitParameters(SlamConfig& c, Visitor&& visit) {

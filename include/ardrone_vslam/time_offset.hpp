@@ -8,6 +8,7 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/parameters.hpp"
 
 namespace ardrone_vslam {
 
@@ -74,8 +75,13 @@ class TimeOffsetEstimator {
 /// A sentence for users; empty for kKnown.
 const char* explain(TimeOffsetState state);
 
-/// A sentence for users when another image_time_offset_s would be clearly better than the one in
-/// use: by more than three sigmas and 15 ms; else empty.
-std::string adviceOn(const TimeOffset& found, double used_s);
+/// Whether what is found is another offset than that in use: by more than three sigmas and 15 ms.
+bool isOther(const TimeOffset& found, double used_s);
+
+/// A sentence for users on an offset that was found.
+/// @param told_s  the parameter image_time_offset_s. For one that is told: empty unless
+/// isOther(). For `auto`: empty unless another offset than 0 is used
+/// @param used_s  the offset in use
+std::string adviceOn(const TimeOffset& found, const NumberOrAuto& told_s, double used_s);
 
 }  // namespace ardrone_vslam

@@ -89,7 +89,7 @@ void toStatus(SlamState state, Status& status);
 /// Fills the state and the counts of one frame; leaves stage times and totals alone.
 void toStatus(const FrameResult& result, const std::string& map_frame, Status& status);
 void toStatus(const OdometryFaultCounts& faults, Status& status);
-/// @param used_s  the parameter image_time_offset_s
+/// @param used_s  the offset in use
 void toStatus(const TimeOffset& estimate, double used_s, Status& status);
 
 /// Whether a pose of this state (of Status) is one to go by.

@@ -14,9 +14,9 @@ constexpr std::uint32_t kAttitudeQueue = 200;
 
 }  // namespace
 
-AttitudeInput::AttitudeInput(ros::NodeHandle nh, double image_time_offset_s)
+AttitudeInput::AttitudeInput(ros::NodeHandle nh, const NumberOrAuto& image_time_offset_s)
     : extrinsics_(nh),
-      image_time_offset_ns_(std::llround(image_time_offset_s * 1e9)),
+      image_time_offset_ns_(std::llround(image_time_offset_s.value_or(0) * 1e9)),
       buffer_(OdometryBufferConfig{}),
       topic_(nh.resolveName("attitude")),
       subscriber_(nh.subscribe("attitude", kAttitudeQueue, &AttitudeInput::onAttitude, this)) {}

@@ -18,8 +18,8 @@ class AttitudeInput {
  public:
   static constexpr std::int64_t kOldest_ns = 100'000'000;
 
-  /// @param image_time_offset_s  an image is exposed at its stamp plus this
-  AttitudeInput(ros::NodeHandle nh, double image_time_offset_s);
+  /// @param image_time_offset_s  an image is exposed at its stamp plus this; `auto` is 0
+  AttitudeInput(ros::NodeHandle nh, const NumberOrAuto& image_time_offset_s);
 
   /// @return nothing when the latest attitude is more than kOldest_ns older than the exposure, the
   ///   camera's extrinsics are not known, or gravity does not say (imageRoll_rad)

@@ -2,17 +2,14 @@
 #include "inputs/frame_matcher.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "conversions/conversions.hpp"
 
 namespace ardrone_vslam {
 
 FrameMatcher::FrameMatcher(const OdometryBufferConfig& config, double wait_s,
-                           double image_time_offset_s)
-    : buffer_(config),
-      wait_s_(wait_s),
-      image_time_offset_ns_(std::llround(image_time_offset_s * 1e9)) {}
+                           const ImageClock& clock)
+    : buffer_(config), wait_s_(wait_s), clock_(clock) {}
 
 void FrameMatcher::addFeatures(const FeaturesConstPtr& features, double now_s) {
   waiting_.push_back({features, now_s});
@@ -24,8 +21,8 @@ std::optional<FrameMatcher::Frame> FrameMatcher::next(
   while (!waiting_.empty()) {
     const bool is_late = now_s - waiting_.front().since_s > wait_s_;
     Frame frame{waiting_.front().features, {}};
-    const Lookup answer = buffer_.at(
-        toNanoseconds(frame.features->header.stamp) + image_time_offset_ns_, frame.odometry);
+    const std::int64_t stamp_ns = toNanoseconds(frame.features->header.stamp);
+    const Lookup answer = buffer_.at(clock_.exposed_ns(stamp_ns), frame.odometry);
     if (answer == Lookup::kFound) {
       const bool is_usable = can_use(*frame.features);
       if (!is_usable && !is_late) return std::nullopt;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/setup_monitor.hpp"
 
 namespace ardrone_vslam {
 
@@ -21,8 +22,8 @@ class FrameMatcher {
     OdometryState odometry;  ///< interpolated at the exposure: the image's stamp plus its offset
   };
 
-  /// @throws ConfigError when the buffer's parameters are invalid
-  FrameMatcher(const OdometryBufferConfig& config, double wait_s, double image_time_offset_s = 0);
+  /// @param clock  must live as long. @throws ConfigError when the buffer's parameters are invalid
+  FrameMatcher(const OdometryBufferConfig& config, double wait_s, const ImageClock& clock);
 
   void addFeatures(const FeaturesConstPtr& features, double now_s);
   OdometryBuffer::Push addOdometry(const OdometryState& state) { return buffer_.push(state); }
@@ -51,7 +52,7 @@ class FrameMatcher {
 
   OdometryBuffer buffer_;
   double wait_s_;
-  std::int64_t image_time_offset_ns_;
+  const ImageClock& clock_;
   std::deque<Waiting> waiting_;
   std::uint64_t dropped_no_odometry_ = 0;
   std::uint64_t dropped_held_ = 0;

@@ -55,8 +55,7 @@ void LiveSlam::endMap() {
 const FrameResult& LiveSlam::process(const Features& message, OdometryState odometry,
                                      const OdometryBuffer& odometries) {
   toFeatures(message, features_);
-  setup_.see(features_, odometries);
-  slam_->heed(setup_.finding());
+  setup_.see(features_, odometries, *slam_);
   odometry.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
   const FrameResult& result = slam_->process(features_, odometry, stage_clock_.hook());
   has_answered_ = true;

@@ -22,7 +22,6 @@ void MapperNodelet::onInit() {
   readParameters();
   outputs_ = std::make_unique<MapperOutputs>(getNodeHandle(), settings_.node.outputs);
   extrinsics_ = std::make_unique<ExtrinsicsTf>(getNodeHandle());
-  slam_ = std::make_unique<LiveSlam>(settings_.slam, warnings_);
   makeMaps();
   makeInputs();
   status_ = std::make_unique<MapperStatus>(
@@ -41,9 +40,9 @@ void MapperNodelet::readParameters() {
     reader.finish();
     // Some faults lie between parameters: tell them now, not in mid-air.
     const Slam trial(settings_.slam, Eigen::Isometry3d::Identity());
-    matcher_ =
-        std::make_unique<FrameMatcher>(settings_.slam.odometry, settings_.node.odometry_wait_s,
-                                       settings_.slam.image_time_offset_s);
+    slam_ = std::make_unique<LiveSlam>(settings_.slam, warnings_);
+    matcher_ = std::make_unique<FrameMatcher>(
+        settings_.slam.odometry, settings_.node.odometry_wait_s, slam_->setup().clock());
   } catch (const ConfigError& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;

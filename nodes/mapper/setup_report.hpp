@@ -3,30 +3,28 @@
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
-#include <optional>
 #include <string>
 
-#include "ardrone_vslam/setup_watch.hpp"
-#include "ardrone_vslam/time_offset.hpp"
+#include "ardrone_vslam/setup_monitor.hpp"
 #include "conversions/conversions.hpp"
 #include "timing/warning_limiter.hpp"
 
 namespace ardrone_vslam {
 
-/// What the images and the odometry say of the set-up: its faults, and which image_time_offset_s
-/// would be better. Each is said once.
+/// What the images and the odometry say of the set-up: its faults, and the images' time offset.
+/// Each is said once.
 class SetupReport {
  public:
-  /// @param used_s  the parameter image_time_offset_s
-  SetupReport(double used_s, Warnings& warnings) : used_s_(used_s), warnings_(warnings) {}
+  /// @param offset_s  the parameter image_time_offset_s
+  SetupReport(const NumberOrAuto& offset_s, Warnings& warnings)
+      : monitor_(offset_s), warnings_(warnings) {}
 
   /// @param base, camera  names of the frames
   void useCamera(const Eigen::Isometry3d& T_base_cam, const std::string& base,
                  const std::string& camera);
-  /// One image. @pre useCamera() was called
-  void see(const ImageFeatures& features, const OdometryBuffer& odometries);
-  /// @pre useCamera() was called
-  const SetupFinding& finding() const { return setup_->finding(); }
+  /// As SetupMonitor::see(). @pre useCamera() was called
+  void see(const ImageFeatures& features, const OdometryBuffer& odometries, Slam& slam);
+  const ImageClock& clock() const { return monitor_.clock(); }
   /// The fault that is found, and what helps; empty without one.
   const std::string& fault() const { return fault_; }
 
@@ -35,11 +33,10 @@ class SetupReport {
 
  private:
   void sayFault();
+  std::string offsetAdvice() const;
 
-  double used_s_;
+  SetupMonitor monitor_;
   Warnings& warnings_;
-  std::optional<TimeOffsetEstimator> time_offset_;
-  std::optional<SetupWatch> setup_;
   std::string base_, camera_;
   std::string fault_;
   bool is_offset_told_ = false;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
@@ -22,6 +23,10 @@ void put(const Eigen::Isometry3d& T, double* position_m, double* quaternion) {
   const Eigen::Quaterniond q(T.linear());
   for (int axis = 0; axis < 3; ++axis) position_m[axis] = T.translation()[axis];
   for (int i = 0; i < 4; ++i) quaternion[i] = q.coeffs()[i];  // x, y, z, w
+}
+
+void say(const std::string& sentence) {
+  std::fprintf(stderr, "vslam_onboard: %s\n", sentence.c_str());
 }
 
 }  // namespace
@@ -74,12 +79,17 @@ void AnswerOutput::send(VslamPose& pose, const Counters& counters) {
   pose_file_ = FileDescriptor();
 }
 
-void AnswerOutput::saySetup(const SetupFinding& finding) {
+void AnswerOutput::saySetup(const SetupMonitor& setup) {
+  const ImageClock& clock = setup.clock();
+  if (!clock.told_s() && clock.used_s() != said_offset_s_) {
+    said_offset_s_ = clock.used_s();
+    say(adviceOn(clock.estimate(), clock.told_s(), clock.used_s()));
+  }
+  const SetupFinding finding = setup.finding();
   if (finding.fault == said_fault_) return;
   said_fault_ = finding.fault;
   const std::string fault = explain(finding, "BASE", "CAMERA");
-  std::fprintf(stderr, "vslam_onboard: %s\n",
-               fault.empty() ? "camera and odometry agree again" : fault.c_str());
+  say(fault.empty() ? "camera and odometry agree again" : fault);
 }
 
 void AnswerOutput::sendTelemetry(const ImageFeatures& features, const std::vector<Landmark>& map,

@@ -27,8 +27,9 @@ class AnswerOutput {
   void sendPose(const FrameResult& result, const Counters& counters);
   /// Without a pose. @param state  VSLAM_...
   void sendState(std::uint32_t state, std::int64_t stamp_ns, const Counters& counters);
-  /// On the terminal, when a fault of the set-up begins, changes or ends.
-  void saySetup(const SetupFinding& finding);
+  /// On the terminal, when a fault of the set-up begins, changes or ends, and when the images' time
+  /// offset was found.
+  void saySetup(const SetupMonitor& setup);
   /// At most telemetry_hz.
   void sendTelemetry(const ImageFeatures& features, const std::vector<Landmark>& map,
                      std::int64_t now_ns);
@@ -44,6 +45,7 @@ class AnswerOutput {
   Telemetry telemetry_;
   std::array<std::uint8_t, Telemetry::kBytes> datagram_{};
   std::uint32_t sequence_ = 0;
+  double said_offset_s_ = 0;
   SetupFault said_fault_ = SetupFault::kNone;
 };
 

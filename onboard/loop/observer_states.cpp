@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop/observer_states.hpp"
 
-#include <cmath>
-
 namespace ardrone_vslam {
 
 ObserverStates::ObserverStates(const SlamConfig& config)
-    : image_time_offset_ns_(std::llround(config.image_time_offset_s * 1e9)),
-      adapter_(config.odometry_adapter),
+    : adapter_(config.odometry_adapter),
       buffer_(config.odometry),
       heights_(config.height_input, config.odometry.buffer_s) {
   ready_.reserve(64);
@@ -45,8 +42,9 @@ void ObserverStates::end() {
   is_over_ = true;
 }
 
-OdometryBuffer::Lookup ObserverStates::at(std::int64_t image_ns, OdometryState& state) {
-  const OdometryBuffer::Lookup lookup = buffer_.at(image_ns + image_time_offset_ns_, state);
+OdometryBuffer::Lookup ObserverStates::at(std::int64_t exposed_ns, std::int64_t image_ns,
+                                          OdometryState& state) {
+  const OdometryBuffer::Lookup lookup = buffer_.at(exposed_ns, state);
   if (lookup != OdometryBuffer::Lookup::kFound) return lookup;
   state.height_m = heights_.at(state);
   state.stamp_ns = image_ns;  // the pose keeps the image's stamp

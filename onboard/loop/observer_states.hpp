@@ -27,14 +27,13 @@ class ObserverStates {
   bool isOver() const { return is_over_; }
   void clear();
 
-  /// @param state  at the exposure of an image with this stamp, which it has as well
-  OdometryBuffer::Lookup at(std::int64_t image_ns, OdometryState& state);
+  /// @param state  at an image's exposure, with the image's stamp
+  OdometryBuffer::Lookup at(std::int64_t exposed_ns, std::int64_t image_ns, OdometryState& state);
   const OdometryBuffer& buffer() const { return buffer_; }
 
  private:
   bool take(OdometryBuffer::Push answer);
 
-  std::int64_t image_time_offset_ns_;
   OdometryAdapter adapter_;
   OdometryBuffer buffer_;
   HeightInput heights_;

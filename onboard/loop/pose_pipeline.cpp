@@ -9,7 +9,8 @@ PosePipeline::PosePipeline(const TrackerConfig& tracker, const SlamConfig& slam,
       T_base_cam_(T_base_cam),
       tracker_(tracker, camera),
       observer_(slam),
-      setup_(T_base_cam, slam.image_time_offset_s) {
+      setup_(slam.image_time_offset_s) {
+  setup_.useCamera(T_base_cam);
   slam_.emplace(config_, T_base_cam_);
   slam_->reserveMap();
   features_.reserve(static_cast<std::size_t>(tracker.corners.features_per_frame));
@@ -45,13 +46,13 @@ bool PosePipeline::track(const Frame& frame) {
 PosePipeline::Answer PosePipeline::localise() {
   using Lookup = OdometryBuffer::Lookup;
   OdometryState state;
-  const Lookup lookup = observer_.at(features_.stamp_ns, state);
+  const Lookup lookup =
+      observer_.at(setup_.clock().exposed_ns(features_.stamp_ns), features_.stamp_ns, state);
   const bool may_come = lookup == Lookup::kNotYet || lookup == Lookup::kEmpty;
   if (may_come && !observer_.isOver()) return Answer::kNotYet;
   is_waiting_ = false;
   if (lookup != Lookup::kFound) return Answer::kNever;
-  setup_.see(features_, observer_.buffer());
-  slam_->heed(setup_.finding());
+  setup_.see(features_, observer_.buffer(), *slam_);
   result_ = &slam_->process(features_, state);
   return Answer::kPose;
 }

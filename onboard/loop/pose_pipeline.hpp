@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "ardrone_vslam/setup_watch.hpp"
+#include "ardrone_vslam/setup_monitor.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/tracker.hpp"
 #include "input/frame_source.hpp"
@@ -45,7 +45,7 @@ class PosePipeline {
   const CameraModel& cameraModel() const { return tracker_.camera(); }
   const FrameResult& result() const { return *result_; }
   const ImageFeatures& features() const { return features_; }
-  const SetupFinding& setup() const { return setup_.finding(); }
+  const SetupMonitor& setup() const { return setup_; }
   const std::vector<Landmark>& landmarks() const { return slam_->landmarks(); }
   int restarts() const { return restarts_; }
 
@@ -57,7 +57,7 @@ class PosePipeline {
   Tracker tracker_;
   std::optional<Slam> slam_;
   ObserverStates observer_;
-  SetupWatch setup_;
+  SetupMonitor setup_;
   ImageFeatures features_;
   const FrameResult* result_ = nullptr;
   std::int64_t newest_ns_ = 0;  // of the frames

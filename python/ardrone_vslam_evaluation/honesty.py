@@ -18,7 +18,9 @@ FAULTS = {"": "none", "yaw=180": "mounting", "yaw=90": "mounting", "yaw=-90": "m
 # A name -> replay's options.
 SIMILAR = {"as it is": (), "0.3 times as large": ("--world-scale", "0.3"), "3 times as large": ("--world-scale", "3"),
            "10 times as large": ("--world-scale", "10"), "30 times as large": ("--world-scale", "30"), "mirrored": ("--mirror-world",),
-           "every 2nd image": ("--frames", "::2"), "every 4th image": ("--frames", "::4"), "every 8th image": ("--frames", "::8")}
+           "every 2nd image": ("--frames", "::2"), "every 4th image": ("--frames", "::4"), "every 8th image": ("--frames", "::8"),
+           "images 0.1 s late": ("--setup-fault", "late=0.1"), "images 0.1 s early": ("--setup-fault", "late=-0.1"),
+           "images 0.2 s late": ("--setup-fault", "late=0.2")}
 PROFILES = ("drone", "hover", "harsh")
 FLIGHTS = (batch_jobs.rendered("laps", *PROFILES, seconds=30), batch_jobs.rendered("corridor", *PROFILES, seconds=20))
 HOVER = batch_jobs.rendered("hover", *PROFILES, seconds=15)
@@ -36,7 +38,7 @@ Written by `scripts/evaluate_all --honesty --update --seeds {seeds}`, not by han
 SIMILAR_NOTE = """
 ## Similar flights
 Each is as right as the flight it is made of. `--world-scale` makes scene and flight so many times as large at the same speed, and so lasts as many times as long;
-`--mirror-world` mirrors images, camera and truth.
+`--mirror-world` mirrors images, camera and truth. How late images are is found in flight ([how](odometry.md#when-an-image-was-exposed)); until then they are taken as they are stamped.
 
 """
 FAULT_COLUMNS = (Column("found after [s]", "after", 1), Column("latest [s]", "latest", 1), Column("fused / odometry", "ratio", 2),

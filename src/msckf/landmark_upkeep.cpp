@@ -134,12 +134,12 @@ std::vector<int> takeFailed(const AssociationResult& matches,
 
 int UnconfirmedLandmarks::judge(LandmarkMap& map) {
   if (setup_.is_confirmed) confirmed_id_ = newest_id_;
-  if (setup_.fault == SetupFault::kNone) return 0;
+  if (setup_.forgets_images) confirmed_id_ = 0;
+  if (setup_.isCameraUsed()) return 0;
   const std::size_t before = map.size();
-  for (std::size_t i = before; i-- > 0;) {
-    const std::uint32_t id = map.all()[i].id;
-    if (id > confirmed_id_ && !isLoaded(id)) map.remove(id);
-  }
+  for (std::size_t i = before; i-- > 0;)
+    if (const std::uint32_t id = map.all()[i].id; id > confirmed_id_ && !isLoaded(id))
+      map.remove(id);
   return static_cast<int>(before - map.size());
 }
 

@@ -50,7 +50,7 @@ class UnconfirmedLandmarks {
  public:
   /// What is known of the set-up at the next frame.
   void heed(const SetupFinding& finding) { setup_ = finding; }
-  /// While the set-up has a fault, drops those since it was last confirmed. @return how many went
+  /// While the camera is not used, drops those since it was last confirmed. @return how many went
   int judge(LandmarkMap& map);
   /// A new landmark.
   void add(std::uint32_t id) { newest_id_ = id; }

@@ -10,9 +10,8 @@
 namespace ardrone_vslam {
 namespace {
 
-// The image has to move on before tracks say anything new.
-constexpr double kKeyframe_px = 15;
-constexpr double kKeyframe_s = 2;  // a slow camera drifts meanwhile, so it gets one all the same
+constexpr double kKeyframe_px = 15;  // so far an image moves on before tracks say anything new
+constexpr double kKeyframe_s = 2;    // a slow camera drifts meanwhile, so it gets one all the same
 
 }  // namespace
 
@@ -66,12 +65,13 @@ void Msckf::watchForContradiction() {
   contradiction.is_camera_confirmed = map_update_.isLocated();
   if (watchdog_.see(newest().stamp_ns, contradiction)) {
     // Nothing that the camera said counts any more. Landmarks keep their anchors: they may be
-    // right, and show it later.
+    // right, and show it later. Ways of the pose make it uncertain, there and back as well.
     tracks_ = TrackWindow(T_rig_cam_.linear(), config_.track_sigma_px, config_.track_scene_px);
     track_update_.forgetEarlierCamera();
     map_update_.reset();
     zero_motion_.reset();
     while (state_.frames().size() > 1) dropOldest();
+    if (watchdog_.doubtsAll()) propagator_.returnTo(Eigen::Isometry3d::Identity(), state_);
     propagator_.returnTo(watchdog_.trustedT_map_odom(), state_);
   }
   watchdog_.keepWhileCalm(propagator_.T_map_odom(state_));

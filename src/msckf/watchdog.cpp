@@ -20,7 +20,7 @@ bool Watchdog::see(std::int64_t stamp_ns, const Contradiction& contradiction) {
   const double passed_s = last_ns_ ? static_cast<double>(stamp_ns - *last_ns_) * 1e-9 : 0;
   last_ns_ = stamp_ns;
 
-  const bool was_refused = std::exchange(is_refused_, setup_.fault != SetupFault::kNone);
+  const bool was_refused = std::exchange(is_refused_, !setup_.isCameraUsed());
   if (is_refused_) {
     bias_s_ = 0;
     fixes_s_ = 0;

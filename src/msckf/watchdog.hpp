@@ -53,8 +53,9 @@ class Watchdog {
   /// The last one remembered: to go back to when trust ends. With a fault of the set-up it is that
   /// of the last time at which the set-up was confirmed; before, map equals odom.
   const Eigen::Isometry3d& trustedT_map_odom() const {
-    return is_refused_ ? confirmed_T_map_odom_ : calm_T_map_odom_;
+    return setup_.fault == SetupFault::kNone ? calm_T_map_odom_ : confirmed_T_map_odom_;
   }
+  bool doubtsAll() const { return setup_.forgets_images; }  ///< even that one
 
  private:
   std::optional<std::int64_t> last_ns_;

@@ -61,9 +61,6 @@ class SetupWatch::State {
         hypotheses_(T_base_cam, image_time_offset_s) {}
 
   void see(const ImageFeatures& features, const OdometryBuffer& odometry);
-  void useCamera(const Eigen::Isometry3d& T_base_cam) {
-    *this = State(T_base_cam, image_time_offset_s_);
-  }
   const SetupFinding& finding() const { return hypotheses_.finding(); }
 
  private:
@@ -189,10 +186,6 @@ SetupWatch& SetupWatch::operator=(SetupWatch&& other) noexcept = default;
 
 void SetupWatch::see(const ImageFeatures& features, const OdometryBuffer& odometry) {
   state_->see(features, odometry);
-}
-
-void SetupWatch::useCamera(const Eigen::Isometry3d& T_base_cam) {
-  state_->useCamera(T_base_cam);
 }
 
 const SetupFinding& SetupWatch::finding() const {

@@ -26,18 +26,29 @@ const char* explain(TimeOffsetState state) {
   return "";
 }
 
-std::string adviceOn(const TimeOffset& found, double used_s) {
+bool isOther(const TimeOffset& found, double used_s) {
   constexpr double kSigmas = 3;
   constexpr double kSmallest_s = 0.015;
   const double off_s = std::abs(found.offset_s - used_s);
-  if (found.state != TimeOffsetState::kKnown || off_s < kSmallest_s ||
-      off_s < kSigmas * found.sigma_s)
-    return {};
+  return found.state == TimeOffsetState::kKnown && off_s > kSmallest_s &&
+         off_s > kSigmas * found.sigma_s;
+}
+
+std::string adviceOn(const TimeOffset& found, const NumberOrAuto& told_s, double used_s) {
+  const bool is_found = told_s ? isOther(found, used_s) : used_s != 0;
+  if (!is_found) return {};
+  const double offset_s = told_s ? found.offset_s : used_s;
   std::ostringstream advice;
   advice << std::fixed << std::setprecision(3) << "camera and odometry turn alike when images are "
-         << "taken as exposed at their stamps " << (found.offset_s < 0 ? "- " : "+ ")
-         << std::abs(found.offset_s) << " s (deviation " << found.sigma_s << " s), not " << used_s
-         << " s: set image_time_offset_s: " << found.offset_s;
+         << "taken as exposed at their stamps " << (offset_s < 0 ? "- " : "+ ")
+         << std::abs(offset_s) << " s";
+  if (found.state == TimeOffsetState::kKnown) advice << " (deviation " << found.sigma_s << " s)";
+  if (told_s) {
+    advice << ", not " << used_s << " s: set image_time_offset_s: " << offset_s;
+  } else {
+    advice << ": they are, since that was found; with image_time_offset_s: " << offset_s
+           << " they are from the first image on";
+  }
   return advice.str();
 }
 

@@ -17,7 +17,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "ardrone_vslam/setup_watch.hpp"
+#include "ardrone_vslam/setup_monitor.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/slam_config.hpp"
 #include "ardrone_vslam/tracker.hpp"
@@ -46,6 +46,8 @@ struct Setter {
       if (text != nameOf(value)) throw std::runtime_error(name + ": no such choice: " + text);
     } else if constexpr (std::is_same_v<T, bool>) {
       value = text == "true";
+    } else if constexpr (std::is_same_v<T, NumberOrAuto>) {
+      if (text != kAuto) value = std::strtod(text.c_str(), nullptr);
     } else {
       value = static_cast<T>(std::strtod(text.c_str(), nullptr));
     }
@@ -133,17 +135,19 @@ void run(int argc, char** argv) {
   Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();  // base looks along its x
   T_base_cam.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   Tracker tracker(tracker_config, flight.camera());
-  SetupWatch setup(T_base_cam, slam_config.image_time_offset_s);
+  SetupMonitor setup(slam_config.image_time_offset_s);
+  setup.useCamera(T_base_cam);
   Slam slam(slam_config, T_base_cam);
   ImageFeatures features;
   OdometryBuffer buffer(slam_config.odometry);
   OdometryState state;
   for (std::int64_t stamp_ns; (stamp_ns = flight.next(buffer)) >= 0;) {
-    if (buffer.at(stamp_ns, state) != OdometryBuffer::Lookup::kFound) continue;
+    if (buffer.at(setup.clock().exposed_ns(stamp_ns), state) != OdometryBuffer::Lookup::kFound)
+      continue;
+    state.stamp_ns = stamp_ns;
     tracker.process(flight.image(), stamp_ns, features, hook);
     if (hook) hook(kSetup);
-    setup.see(features, buffer);
-    slam.heed(setup.finding());
+    setup.see(features, buffer, slam);
     const FrameResult& result = slam.process(features, state, hook);
     const Eigen::Vector3d p = result.T_map_base.translation();
     const Eigen::Quaterniond q(result.T_map_base.linear());

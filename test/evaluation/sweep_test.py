@@ -162,7 +162,7 @@ class PlanTest(unittest.TestCase):
         self.assertEqual(set(named) - {parameter.name for parameter in parameters()}, set(), "docs/parameters.md has no such")
 
     def test_values_are_within_the_ranges(self):
-        ranges = dict(re.findall(r"\| `(\w+)` \| .*? \| .*? \| .*? \| (\S+ to \S+) \|", text_of("parameters.md")))
+        ranges = dict(re.findall(r"\| `(\w+)` \| .*? \| .*? \| .*? \| (?:auto, )?(\S+ to \S+) \|", text_of("parameters.md")))
         for group in self.raw["groups"]:
             for name, entry in group["parameters"].items():
                 if name in ranges:

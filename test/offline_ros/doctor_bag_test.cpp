@@ -108,7 +108,7 @@ TEST_F(DoctorBag, NamesTheReleasedDriversFaultsAndSuggestsTheirRemedies) {
   EXPECT_NEAR(std::stod(values["image_time_offset_s"]), -0.0875, 0.01);
   const PipelineConfig config = configOf(report);
   EXPECT_EQ(config.mapper.odometry_adapter.mode, OdometryMode::kTwist);
-  EXPECT_NEAR(config.mapper.image_time_offset_s, -0.0875, 0.01);
+  EXPECT_NEAR(config.mapper.image_time_offset_s.value(), -0.0875, 0.01);
 }
 
 TEST_F(DoctorBag, AFlightTooShortToTellTheDriversFaultsGetsItsConfigurationAllTheSame) {

@@ -78,12 +78,7 @@ struct Writer {
   std::ostringstream* out;
   template <class T>
   void operator()(const ParameterInfo& info, const T& value) const {
-    *out << info.name << '=' << std::setprecision(17);
-    if constexpr (std::is_enum_v<T>) {
-      *out << nameOf(value) << '\n';
-    } else {
-      *out << value << '\n';
-    }
+    *out << info.name << '=' << ardrone_vslam::textOf(value) << '\n';
   }
 };
 

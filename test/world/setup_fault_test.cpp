@@ -84,6 +84,26 @@ TEST_P(MsckfSetupFaultWorld, WhatWasNeverConfirmedIsTakenBack) {
   EXPECT_TRUE(slam_->landmarks().empty());
 }
 
+TEST_P(MsckfSetupFaultWorld, ForgottenImagesLeaveAnUncertainPoseAndNoLandmark) {
+  const FrameResult before = fly(0, 100, confirmed());
+  ASSERT_GT(before.landmarks, 0);
+  const Eigen::Vector3d corrected =
+      before.T_map_base.translation() - before.T_odom_base.translation();
+  ASSERT_GT(corrected.norm(), 0.01);
+  SetupFinding forgetful = confirmed();
+  forgetful.forgets_images = true;
+  const FrameResult after = fly(100, 101, forgetful);
+  EXPECT_EQ(after.state, SlamState::kDistrusted);
+  EXPECT_TRUE(slam_->landmarks().empty());
+  const Eigen::Vector3d way = after.T_map_base.translation() - before.T_map_base.translation();
+  const Eigen::Vector3d told = after.T_odom_base.translation() - before.T_odom_base.translation();
+  EXPECT_LT((way - told).norm(), 0.02) << "the pose goes on where it was";
+  const Eigen::Vector3d axis = corrected.normalized();
+  const double variance_m2 = axis.dot(after.covariance.topLeftCorner<3, 3>() * axis);
+  EXPECT_GT(variance_m2, corrected.squaredNorm());
+  EXPECT_GT(fly(101, 200, confirmed()).landmarks, 0) << "the camera is used again";
+}
+
 TEST_P(MsckfSetupFaultWorld, WhatWasConfirmedStays) {
   const FrameResult kept = fly(0, 300, confirmed());
   const Eigen::Isometry3d T_map_odom = slam_->T_map_odom();

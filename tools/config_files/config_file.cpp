@@ -118,12 +118,7 @@ struct ValueWriter {
 
   template <class T>
   void operator()(const ParameterInfo& info, const T& value) const {
-    if (key != info.name) return;
-    if constexpr (std::is_enum_v<T>) {
-      *out << nameOf(value);
-    } else {
-      *out << std::boolalpha << value;
-    }
+    if (key == info.name) *out << textOf(value);
   }
 };
 

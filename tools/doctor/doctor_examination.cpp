@@ -79,10 +79,15 @@ std::optional<double> numberIn(const std::string& text) {
   return text.empty() || *end != '\0' ? std::nullopt : std::optional<double>(number);
 }
 
+/// As a number; `auto` begins with 0.
+std::optional<double> configuredNumber(const std::string& value) {
+  return value == kAuto ? std::optional<double>(0) : numberIn(value);
+}
+
 /// @param path  of a configuration; empty: the defaults
 bool isConfigured(const std::string& path, const SuggestedParameter& parameter) {
   const std::string value = configuredValue(path, parameter.section, parameter.key);
-  const auto has = numberIn(value), wanted = numberIn(parameter.value);
+  const auto has = configuredNumber(value), wanted = numberIn(parameter.value);
   const bool is_near = has && wanted && std::abs(*has - *wanted) <= parameter.tolerance;
   return value == parameter.value || is_near;
 }

@@ -42,15 +42,8 @@ struct Row {
 
 template <class T>
 std::string shown(const T& value) {
-  std::ostringstream text;
-  if constexpr (std::is_enum_v<T>) {
-    text << nameOf(value);
-  } else if constexpr (std::is_same_v<T, std::string>) {
-    text << '"' << value << '"';
-  } else {
-    text << std::boolalpha << value;
-  }
-  return text.str();
+  if constexpr (std::is_same_v<T, std::string>) return '"' + value + '"';
+  return textOf(value);
 }
 
 template <class T>
@@ -60,7 +53,8 @@ std::string rangeOf(const ParameterInfo& info) {
     for (const char* name : EnumNames<T>::kNames) text << (text.tellp() > 0 ? ", " : "") << name;
   } else if constexpr (std::is_same_v<T, bool>) {
     text << "true, false";
-  } else if constexpr (std::is_arithmetic_v<T>) {
+  } else if constexpr (!std::is_same_v<T, std::string>) {
+    if constexpr (std::is_same_v<T, NumberOrAuto>) text << kAuto << ", ";
     text << std::setprecision(10) << info.min << " to " << info.max;
   }
   return text.str();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/map_options.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace ardrone_vslam {
 
 void MapOptions::addTo(CLI::App& app) {

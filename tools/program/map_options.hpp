@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+namespace CLI {  // NOLINT(readability-identifier-naming): the library is called so
+class App;
+}  // namespace CLI
 
 namespace ardrone_vslam {
 

@@ -173,7 +173,8 @@ void warnOfOdometry(const std::string& name, const RunResult& run, RunVerdict& v
   }
   if (run.absurd_speed_m_s > 0)
     warnings.push_back(name + ": " + explainSpeed("the odometry", run.absurd_speed_m_s));
-  const std::string offset_advice = adviceOn(run.time_offset, run.image_time_offset_s);
+  const std::string offset_advice =
+      adviceOn(run.time_offset, run.image_time_offset_told_s, run.image_time_offset_s);
   if (!offset_advice.empty()) warnings.push_back(name + ": " + offset_advice);
   if (verdict.faults.empty())
     for (const std::string& sentence : tellLearnedNoise(run))

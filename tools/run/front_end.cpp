@@ -21,7 +21,7 @@ class ImageRolls {
  public:
   explicit ImageRolls(const FrontEndAttitude& attitude)
       : attitude_(attitude.states != nullptr ? *attitude.states : kNone),
-        image_time_offset_ns_(std::llround(attitude.image_time_offset_s * 1e9)) {}
+        image_time_offset_ns_(std::llround(attitude.image_time_offset_s.value_or(0) * 1e9)) {}
 
   std::optional<float> at(std::int64_t stamp_ns, const Eigen::Matrix3d& R_base_cam) {
     const std::int64_t exposed_ns = stamp_ns + image_time_offset_ns_;

@@ -26,7 +26,7 @@ struct TrackedFrame {
 /// at their stamps plus the offset.
 struct FrontEndAttitude {
   const std::vector<OdometryState>* states = nullptr;
-  double image_time_offset_s = 0;
+  NumberOrAuto image_time_offset_s;
 };
 
 /// The image after one that is done; a sequence's size ends the run.

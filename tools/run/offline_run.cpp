@@ -2,7 +2,6 @@
 #include "run/offline_run.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -12,12 +11,11 @@ BackEnd::BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
                  const std::vector<OdometryState>& odometry, std::vector<RangeReading> ranges)
     : slam_(config, T_base_cam),
       T_base_cam_(T_base_cam),
-      image_time_offset_ns_(std::llround(config.image_time_offset_s * 1e9)),
-      time_offset_(T_base_cam, config.image_time_offset_s),
-      setup_(T_base_cam, config.image_time_offset_s),
+      setup_(config.image_time_offset_s),
       odometry_(config, odometry),
       heights_(config, std::move(ranges)) {
-  run_.image_time_offset_s = config.image_time_offset_s;
+  setup_.useCamera(T_base_cam);
+  run_.image_time_offset_told_s = config.image_time_offset_s;
 }
 
 void BackEnd::load(const SavedMap& map) {
@@ -31,7 +29,6 @@ void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
         "the images are of several cameras, and extrinsics_sigma_deg is of one: set it to 0");
   slam_.changeCamera(T_base_cam);
   T_base_cam_ = T_base_cam;
-  time_offset_.useCamera(T_base_cam);
   setup_.useCamera(T_base_cam);
   watch_.reset();
   standstill_.reset();
@@ -41,7 +38,8 @@ void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 double BackEnd::process(const TrackedFrame& frame) {
   if (frame.other_camera) changeCamera(*frame.other_camera);
   OdometryState state;
-  if (!odometry_.at(frame.features.stamp_ns + image_time_offset_ns_, state)) {
+  const std::int64_t exposed_ns = setup_.clock().exposed_ns(frame.features.stamp_ns);
+  if (!odometry_.at(exposed_ns, state)) {
     ++run_.frames_without_odometry;
     return total_ms(frame.times_ms);
   }
@@ -50,9 +48,9 @@ double BackEnd::process(const TrackedFrame& frame) {
   run_.odometry_froze = run_.odometry_froze || standstill_.isStuck();
   state.height_m = heights_.at(state);
   state.stamp_ns = frame.features.stamp_ns;  // the pose keeps the image's stamp
-  time_offset_.see(frame.features, odometry_.buffer());
   watchSetup(frame.features);
   RunFrame run_frame;
+  run_frame.image_time_offset_ns = exposed_ns - frame.features.stamp_ns;
   run_frame.times_ms = frame.times_ms;
   StageTimer timer(run_frame.times_ms);
   run_frame.result = slam_.process(frame.features, state, timer.hook());
@@ -61,9 +59,9 @@ double BackEnd::process(const TrackedFrame& frame) {
 }
 
 void BackEnd::watchSetup(const ImageFeatures& features) {
-  setup_.see(features, odometry_.buffer());
-  const SetupFinding& found = setup_.finding();
-  slam_.heed(found);
+  if (setup_.see(features, odometry_.buffer(), slam_))
+    run_.time_offset_found_ns = features.stamp_ns;
+  const SetupFinding found = setup_.finding();
   const bool is_fault = found.fault != SetupFault::kNone;
   if (is_fault || run_.setup.fault == SetupFault::kNone) run_.setup = found;
   if (is_fault && run_.setup_fault_ns == 0) run_.setup_fault_ns = features.stamp_ns;
@@ -72,7 +70,8 @@ void BackEnd::watchSetup(const ImageFeatures& features) {
 RunResult BackEnd::result(bool is_map_saved) const {
   RunResult run = run_;
   if (is_map_saved && !slam_.isSearching()) run.map = slam_.save();
-  run.time_offset = time_offset_.estimate();
+  run.time_offset = setup_.clock().estimate();
+  run.image_time_offset_s = setup_.clock().used_s();
   run.images_travel = watch_.isStuck();
   run.absurd_speed_m_s = odometry_.absurdSpeed_m_s();
   run.odometry_states_refused = odometry_.refused();

@@ -7,9 +7,8 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/saved_map.hpp"
-#include "ardrone_vslam/setup_watch.hpp"
+#include "ardrone_vslam/setup_monitor.hpp"
 #include "ardrone_vslam/slam.hpp"
-#include "ardrone_vslam/time_offset.hpp"
 #include "config_files/config_file.hpp"
 #include "input_checks/standstill_watch.hpp"
 #include "run/front_end.hpp"
@@ -24,6 +23,9 @@ namespace ardrone_vslam {
 struct RunFrame {
   FrameResult result;
   StageTimes_ms times_ms{};
+  std::int64_t image_time_offset_ns = 0;  ///< in use at this image
+
+  std::int64_t exposed_ns() const { return result.stamp_ns + image_time_offset_ns; }
 };
 
 /// One pass over a sequence with one odometry.
@@ -46,9 +48,11 @@ struct RunResult {
   bool odometry_froze = false;  ///< for a while, although the images travelled
   double absurd_speed_m_s = 0;  ///< of the odometry, when it is too fast to be in metres
   int camera_changes = 0;
-  double image_time_offset_s = 0;  ///< the parameter
-  TimeOffset time_offset;          ///< what it seems to be
-  SetupFinding setup;              ///< the last fault that was found, or else what is known at last
+  NumberOrAuto image_time_offset_told_s;  ///< the parameter
+  double image_time_offset_s = 0;         ///< in use at last
+  std::int64_t time_offset_found_ns = 0;  ///< stamp of the image since which; 0: as told
+  TimeOffset time_offset;                 ///< what it seems to be
+  SetupFinding setup;  ///< the last fault that was found, or else what is known at last
   std::int64_t setup_fault_ns =
       0;                   ///< stamp of the image at which a fault was first found; 0: none
   double scale_error = 0;  ///< the one drawn for the odometry
@@ -92,9 +96,7 @@ class BackEnd {
 
   Slam slam_;
   Eigen::Isometry3d T_base_cam_;
-  std::int64_t image_time_offset_ns_;
-  TimeOffsetEstimator time_offset_;
-  SetupWatch setup_;
+  SetupMonitor setup_;
   StandstillWatch watch_;       ///< sees odometry that only turns: what moves then is the images
   StandstillWatch standstill_;  ///< the same with its positions
   RecordedOdometry odometry_;

@@ -31,6 +31,7 @@ void BackEnds::add(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam
   if (maps.loaded) back_ends_.back()->load(*maps.loaded);
   are_maps_saved_ = maps.is_saved;
   scale_errors_.push_back(odometry.run.scale_error);
+  are_late_.push_back(odometry.run.is_late);
 }
 
 double BackEnds::process(const TrackedFrame& frame) {
@@ -46,6 +47,8 @@ std::vector<RunResult> BackEnds::results(bool is_finished) const {
     results.push_back(back_ends_[i]->result(are_maps_saved_ && is_finished));
     results.back().scale_error = scale_errors_[i];
     results.back().is_finished = is_finished;
+    if (are_late_[i])  // an image's stamp is the truth's time of it, whatever the offset in use
+      for (RunFrame& frame : results.back().frames) frame.image_time_offset_ns = 0;
   }
   return results;
 }

@@ -32,6 +32,7 @@ class BackEnds {
   bool are_maps_saved_ = false;
   std::vector<std::unique_ptr<BackEnd>> back_ends_;
   std::vector<double> scale_errors_;
+  std::vector<bool> are_late_;
 };
 
 /// The sequence with each of the odometries; the front end runs once for all.

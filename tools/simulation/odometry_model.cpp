@@ -64,7 +64,7 @@ OdometryRun simulateOdometry(const Trajectory& truth, const OdometryProfile& pro
     measured.push_back({time_ns, drift.report(truth.at(time_ns), since_first_s), Matrix6d::Zero()});
   }
   if (profile.isTruth()) return {measured, 0};
-  return {transport(measured, profile, delay_ns, seed), drift.scaleError()};
+  return {transport(measured, profile, delay_ns, seed), drift.scaleError(), delay_ns != 0};
 }
 
 }  // namespace ardrone_vslam

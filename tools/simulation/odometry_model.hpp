@@ -48,6 +48,7 @@ std::vector<std::string> odometryProfileNames(const std::string& profiles_yaml);
 struct OdometryRun {
   std::vector<OdometryState> states;
   double scale_error = 0;  ///< drawn; reported lengths are (1 + scale_error) times the true ones
+  bool is_late = false;    ///< the profile has a delay: images and truth have another clock
 };
 
 /// Corrupts the true increments as `profile` says (config/odometry_profiles.yaml) and integrates

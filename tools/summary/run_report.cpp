@@ -149,6 +149,12 @@ void addCost(const RunResult& run, Json& summary) {
   summary["instruction_set"] = nameOf(instructionSetInUse().set);
 }
 
+/// Null without a stamp (0).
+Json secondsAfterFirst(const RunResult& run, std::int64_t ns) {
+  return ns == 0 ? Json()
+                 : Json(1e-9 * static_cast<double>(ns - run.frames.front().result.stamp_ns));
+}
+
 }  // namespace
 
 bool isNotFinite(const Landmark& landmark) {
@@ -163,7 +169,7 @@ RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
   const Eigen::Isometry3d T_map_odom = odometryFrameWhenFound(run, e.found_frame);
   for (const RunFrame& frame : run.frames) {
     const FrameResult& r = frame.result;
-    const std::int64_t exposed_ns = r.stamp_ns + std::llround(run.image_time_offset_s * 1e9);
+    const std::int64_t exposed_ns = frame.exposed_ns();
     const StampedPose fused{exposed_ns, r.T_map_base};
     const StampedPose odometry{exposed_ns, T_map_odom * r.T_odom_base};
     e.fused.append(fused);
@@ -204,21 +210,16 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["camera_changes"] = run.camera_changes;
   summary["frames_without_odometry"] = run.frames_without_odometry;
   summary["odometry_states_refused"] = run.odometry_states_refused;
-  const bool is_offset_known = run.time_offset.state == TimeOffsetState::kKnown;
+  const TimeOffset& offset = run.time_offset;
+  const bool is_known = offset.state == TimeOffsetState::kKnown;
   summary["image_time_offset_s"] = run.image_time_offset_s;
-  summary["image_time_offset_estimate_s"] =
-      is_offset_known ? Json(run.time_offset.offset_s) : Json(nullptr);
-  summary["image_time_offset_deviation_s"] =
-      is_offset_known ? Json(run.time_offset.sigma_s) : Json(nullptr);
-  summary["image_time_offset_unknown"] =
-      is_offset_known ? Json(nullptr) : Json(explain(run.time_offset.state));
+  summary["image_time_offset_found_s"] = secondsAfterFirst(run, run.time_offset_found_ns);
+  summary["image_time_offset_estimate_s"] = is_known ? Json(offset.offset_s) : Json();
+  summary["image_time_offset_deviation_s"] = is_known ? Json(offset.sigma_s) : Json();
+  summary["image_time_offset_unknown"] = is_known ? Json() : Json(explain(offset.state));
   summary["setup_fault"] = nameOf(run.setup.fault);
   summary["setup_confirmed"] = run.setup.is_confirmed;
-  summary["setup_fault_found_s"] =
-      run.setup_fault_ns == 0
-          ? Json(nullptr)
-          : Json(static_cast<double>(run.setup_fault_ns - run.frames.front().result.stamp_ns) *
-                 1e-9);
+  summary["setup_fault_found_s"] = secondsAfterFirst(run, run.setup_fault_ns);
   addMap(run, evaluation.found_frame, summary);
   summary["odometry_steps"] =
       std::count_if(run.frames.begin(), run.frames.end(),

@@ -80,6 +80,7 @@ std::vector<std::string> cellsOf(const std::string& line) {
 TEST(RunReport, PosesAreOfTheImagesExposures) {
   RunResult run = someRun();
   run.image_time_offset_s = 0.25;
+  for (RunFrame& frame : run.frames) frame.image_time_offset_ns = 250'000'000;
   const RunEvaluation e = evaluate(run, straightTruth());
   EXPECT_EQ(e.fused.poses()[1].stamp_ns, 1'250'000'000);
   EXPECT_EQ(e.truth.poses()[1].stamp_ns, 1'250'000'000);
@@ -87,9 +88,12 @@ TEST(RunReport, PosesAreOfTheImagesExposures) {
   EXPECT_EQ(e.frames_without_truth, 1);  // the last one's exposure is behind its end
   Json summary = summaryOf(run, e, {});
   EXPECT_EQ(summary["image_time_offset_s"], 0.25);
+  EXPECT_TRUE(summary["image_time_offset_found_s"].is_null()) << "told";
   EXPECT_TRUE(summary["image_time_offset_estimate_s"].is_null());
+  run.time_offset_found_ns = run.frames.front().result.stamp_ns + 1'500'000'000;
   run.time_offset = {TimeOffsetState::kKnown, 0.3, 0.002};
   summary = summaryOf(run, e, {});
+  EXPECT_EQ(summary["image_time_offset_found_s"], 1.5);
   EXPECT_EQ(summary["image_time_offset_estimate_s"], 0.3);
   EXPECT_EQ(summary["image_time_offset_deviation_s"], 0.002);
 }

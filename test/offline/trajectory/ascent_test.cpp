@@ -37,7 +37,7 @@ TEST(Ascent, IsTheLongest) {
   std::mt19937 random(1);
   for (int round = 0; round < 200; ++round) {
     std::vector<std::int64_t> stamps(8);
-    for (std::int64_t& stamp : stamps) stamp = random() % 6;
+    for (std::int64_t& stamp : stamps) stamp = static_cast<std::int64_t>(random() % 6);
     for (const Ascent kind : {Ascent::kStrict, Ascent::kMayRepeat}) {
       const Indices kept = longestAscent(stamps, kind);
       EXPECT_EQ(kept.size(), longestByTrial(stamps, kind));

@@ -200,16 +200,6 @@ TEST(SetupWatch, StampsThatGoBackBeginAnew) {
   EXPECT_LE(film(watch, flight, odometry, fault, 0, 10, 2).value_or(100), 6);
 }
 
-TEST(SetupWatch, AnotherCameraBeginsAnew) {
-  const Fault fault = turnedBy(180, 1);
-  const Swaying flight = flightOf(2);
-  const OdometryBuffer odometry = odometryOf(flight, 2);
-  SetupWatch watch(told(fault));
-  ASSERT_TRUE(film(watch, flight, odometry, fault, 0, 10, 2));
-  watch.useCamera(test::forwardExtrinsics());
-  EXPECT_FALSE(film(watch, flight, odometry, {}, 10, 20, 2));
-}
-
 TEST(SetupFindingText, NamesTheFaultAndWhatHelps) {
   SetupFinding finding;
   EXPECT_EQ(explain(finding, "base_link", "camera"), "");

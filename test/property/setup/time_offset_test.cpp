@@ -125,10 +125,18 @@ TEST(TimeOffset, IsKeptWhenTimeBeginsAgain) {
 
 TEST(TimeOffset, AdviceNeedsAClearDifference) {
   const TimeOffset found{TimeOffsetState::kKnown, -0.08, 0.003};
-  EXPECT_NE(adviceOn(found, 0).find("set image_time_offset_s: -0.080"), std::string::npos);
-  EXPECT_EQ(adviceOn(found, -0.07), "");  // less than 15 ms
-  EXPECT_EQ(adviceOn({TimeOffsetState::kKnown, -0.08, 0.03}, 0), "");
-  EXPECT_EQ(adviceOn({TimeOffsetState::kTooLittleTurn, 0, 0}, 1), "");
+  EXPECT_NE(adviceOn(found, 0.0, 0).find("set image_time_offset_s: -0.080"), std::string::npos);
+  EXPECT_EQ(adviceOn(found, -0.07, -0.07), "");  // less than 15 ms
+  EXPECT_EQ(adviceOn({TimeOffsetState::kKnown, -0.08, 0.03}, 0.0, 0), "");
+  EXPECT_EQ(adviceOn({TimeOffsetState::kTooLittleTurn, 0, 0}, 1.0, 1), "");
+}
+
+TEST(TimeOffset, WhatIsUsedByItselfIsSaid) {
+  const TimeOffset found{TimeOffsetState::kKnown, -0.081, 0.003};
+  EXPECT_EQ(adviceOn(found, {}, 0), "") << "not in use yet";
+  EXPECT_NE(adviceOn(found, {}, -0.08).find("with image_time_offset_s: -0.080"), std::string::npos);
+  EXPECT_NE(adviceOn({}, {}, -0.08).find("with image_time_offset_s: -0.080"), std::string::npos)
+      << "told of what is in use although nothing is known at last";
 }
 
 TEST(TimeOffset, FollowsAChange) {

@@ -33,7 +33,8 @@ bool unusable(const Features& /*unused*/) {
 
 class FrameMatcherTest : public testing::Test {
  protected:
-  FrameMatcher matcher_{OdometryBufferConfig{}, 0.5};
+  ImageClock clock_{0.0};
+  FrameMatcher matcher_{OdometryBufferConfig{}, 0.5, clock_};
 };
 
 TEST_F(FrameMatcherTest, WaitsForTheOdometryAfterTheImage) {
@@ -51,7 +52,8 @@ TEST_F(FrameMatcherTest, WaitsForTheOdometryAfterTheImage) {
 
 TEST_F(FrameMatcherTest, TheOdometryIsThatOfTheExposure) {
   for (const double offset_s : {-0.1, 0.1}) {
-    FrameMatcher matcher({}, 0.5, offset_s);
+    const ImageClock clock(offset_s);
+    FrameMatcher matcher({}, 0.5, clock);
     const std::int64_t exposed_ns = 10 * kSecond_ns + (offset_s > 0 ? 1 : -1) * kSecond_ns / 10;
     matcher.addFeatures(featuresAt(10 * kSecond_ns), 0);
     matcher.addOdometry(odometryAt(exposed_ns - kSecond_ns / 20, {1, 0, 0}));

@@ -52,7 +52,7 @@ struct Spoil {
     if constexpr (std::is_same_v<T, int>) {
       value = static_cast<int>(info.min) - 1;
       ++*count;
-    } else if constexpr (std::is_same_v<T, double>) {
+    } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, NumberOrAuto>) {
       value = *count % 2 == 0 ? std::nan("") : 2 * std::abs(info.max) + 1;
       ++*count;
     }
