@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "matching/hamming.hpp"
 
@@ -41,42 +40,56 @@ std::vector<BearingPair> ReferenceImage::pairsWith(const ImageFeatures& features
   return pairs;
 }
 
-std::vector<std::size_t> ReferenceImage::lostIn(const ImageFeatures& features) const {
-  std::vector<std::size_t> lost(corners_.size());
-  std::iota(lost.begin(), lost.end(), std::size_t{0});
-  const auto isThere = [&](std::size_t corner) {
-    return std::find(features.track_id.begin(), features.track_id.end(),
-                     corners_[corner].track_id) != features.track_id.end();
-  };
-  lost.erase(std::remove_if(lost.begin(), lost.end(), isThere), lost.end());
-  return lost;
-}
-
 void ReferenceImage::findAgain(const ImageFeatures& features,
                                const Eigen::Matrix3d& R_reference_now) {
-  std::vector<std::size_t> lost = lostIn(features);
-  const double nearest_cosine = std::cos(kReachJumps * kCornerJump_px / features.focal_length_px);
-  std::vector<Corner> found;
-  for (std::size_t i = 0; i < features.size() && !lost.empty(); ++i) {
-    const std::uint32_t id = features.track_id[i];
-    if (find(id)) continue;
-    const Eigen::Vector3d bearing = R_reference_now * features.bearing_cam[i].cast<double>();
-    int fewest = kSameCorner_bits;
-    auto best = lost.end();
-    for (auto corner = lost.begin(); corner != lost.end(); ++corner) {
-      if (bearing.dot(corners_[*corner].bearing) < nearest_cosine) continue;
-      const int bits = hammingDistance(features.descriptor[i], corners_[*corner].descriptor);
-      if (bits >= fewest) continue;
-      fewest = bits;
-      best = corner;
+  std::vector<std::size_t> begun;  // features whose tracks are not the reference's
+  std::vector<char> is_held(corners_.size());
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (const Corner* corner = find(features.track_id[i])) {
+      is_held[static_cast<std::size_t>(corner - corners_.data())] = 1;
+    } else {
+      begun.push_back(i);
     }
+  }
+  std::vector<const Corner*> lost;  // in the order of x, as only near ones are compared
+  for (std::size_t i = 0; i < corners_.size(); ++i)
+    if (!is_held[i]) lost.push_back(&corners_[i]);
+  std::sort(lost.begin(), lost.end(),
+            [](const Corner* a, const Corner* b) { return a->bearing.x() < b->bearing.x(); });
+
+  const double reach_rad = kReachJumps * kCornerJump_px / features.focal_length_px;
+  std::vector<Corner> found;
+  for (const std::size_t i : begun) {
+    const Eigen::Vector3d bearing = R_reference_now * features.bearing_cam[i].cast<double>();
+    const auto best = sameCorner(bearing, features.descriptor[i], reach_rad, lost);
     if (best == lost.end()) continue;
-    found.push_back({id, corners_[*best].bearing, corners_[*best].descriptor});
+    found.push_back({features.track_id[i], (*best)->bearing, (*best)->descriptor});
     lost.erase(best);
   }
   corners_.insert(corners_.end(), found.begin(), found.end());
   std::sort(corners_.begin(), corners_.end(),
             [](const Corner& a, const Corner& b) { return a.track_id < b.track_id; });
+}
+
+std::vector<const ReferenceImage::Corner*>::iterator ReferenceImage::sameCorner(
+    const Eigen::Vector3d& bearing, const Descriptor& descriptor, double reach_rad,
+    std::vector<const Corner*>& lost) {
+  const double nearest_cosine = std::cos(reach_rad);
+  int fewest = kSameCorner_bits;
+  auto best = lost.end();
+  auto corner =
+      std::lower_bound(lost.begin(), lost.end(), bearing.x() - reach_rad,
+                       [](const Corner* c, double least_x) { return c->bearing.x() < least_x; });
+  for (; corner != lost.end() && (*corner)->bearing.x() <= bearing.x() + reach_rad; ++corner) {
+    if (bearing.dot((*corner)->bearing) < nearest_cosine) continue;
+    const int bits = hammingDistance(descriptor, (*corner)->descriptor);
+    if (bits > fewest || bits == kSameCorner_bits) continue;
+    // Of equal ones the first one is taken.
+    if (bits == fewest && (*corner)->track_id > (*best)->track_id) continue;
+    fewest = bits;
+    best = corner;
+  }
+  return best;
 }
 
 }  // namespace ardrone_vslam

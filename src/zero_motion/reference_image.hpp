@@ -21,7 +21,7 @@ class ReferenceImage {
   /// Its corners that the image's tracks still hold. O(features log corners).
   std::vector<BearingPair> pairsWith(const ImageFeatures& features) const;
   /// Tracks that have begun anew take the places of lost ones whose corner they show, by place and
-  /// descriptor. O(features * lost corners).
+  /// descriptor. O(features log features), and the corners near each.
   void findAgain(const ImageFeatures& features, const Eigen::Matrix3d& R_reference_now);
 
  private:
@@ -32,7 +32,11 @@ class ReferenceImage {
   };
 
   const Corner* find(std::uint32_t track_id) const;
-  std::vector<std::size_t> lostIn(const ImageFeatures& features) const;
+  /// That of the lost ones, ascending in x, that is nearest in its descriptor.
+  static std::vector<const Corner*>::iterator sameCorner(const Eigen::Vector3d& bearing,
+                                                         const Descriptor& descriptor,
+                                                         double reach_rad,
+                                                         std::vector<const Corner*>& lost);
 
   TrackOrder order_;             // of the image's features
   std::vector<Corner> corners_;  // ascending in track id

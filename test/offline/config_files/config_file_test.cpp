@@ -57,6 +57,19 @@ TEST_F(ConfigFile, ReadsBothSectionsAndKeepsDefaults) {
   EXPECT_EQ(config.mapper.landmark_map.max_landmarks, LandmarkMapConfig{}.max_landmarks);
 }
 
+TEST_F(ConfigFile, AnOffsetIsANumberOrAuto) {
+  const auto offsetOf = [this](const std::string& text) {
+    return load("mapper:\n  image_time_offset_s: " + text + "\n").mapper.image_time_offset_s;
+  };
+  EXPECT_EQ(offsetOf("auto"), NumberOrAuto{});
+  EXPECT_EQ(offsetOf("-0.25"), -0.25);
+  EXPECT_EQ(loadConfig("", {"mapper/image_time_offset_s=0"}).mapper.image_time_offset_s, 0.0);
+  EXPECT_EQ(faultsOf("mapper:\n  image_time_offset_s: late\n"),
+            std::vector<std::string>{"mapper/image_time_offset_s is 'late' but must be a number or "
+                                     "auto [s]"});
+  EXPECT_EQ(faultsOf("mapper:\n  image_time_offset_s: 6\n").size(), 1U) << "out of range";
+}
+
 TEST_F(ConfigFile, EmptyPathFileAndSectionsAreTheDefaults) {
   EXPECT_NO_THROW(loadConfig("", {}));
   EXPECT_NO_THROW(load(""));

@@ -39,8 +39,9 @@ class Params(unittest.TestCase):
 
     def test_mapper_lists_all_faults(self):
         self.assert_refused("mapper_node", [
-            "__name:=bad_mapper", "_odometry_wait_s:=-1", "_estimator:=constraint"], [
+            "__name:=bad_mapper", "_odometry_wait_s:=-1", "_estimator:=constraint", "_image_time_offset_s:=late"], [
                 "odometry_wait_s is -1 but must be between 0 and 60",
+                "/bad_mapper/image_time_offset_s is 'late' but must be a number or auto",
                 "/bad_mapper/estimator is 'constraint' but must be one of: thesis, msckf, odometry; constraint is called msckf now"])
 
     def test_odometry_fusion_lists_all_faults(self):
@@ -64,7 +65,7 @@ class Params(unittest.TestCase):
     def test_unknown_parameter_is_warned_of(self):
         rospy.set_param("/observer_fusion/odometry_mode", "twist")
         process = start("tracker_node", "__name:=odd_tracker", "_thresold_min:=30", "_arc_length_px:=9",
-                        "_queue_size:=7")
+                        "_queue_size:=7", "_image_time_offset_s:=auto")
         output = ""
         for line in process.stdout:
             output += line
@@ -78,6 +79,7 @@ class Params(unittest.TestCase):
         self.assertIn("/observer_fusion is not a section and has no effect; observer_fusion is called odometry_fusion now", output)
         self.assertIn("queue_size=7", output)
         self.assertIn("threshold_min=8", output)
+        self.assertIn("image_time_offset_s=auto", output)
 
     def test_launch_file_leaves_the_transport_to_the_configuration(self):
         with tempfile.NamedTemporaryFile("w", suffix=".yaml") as config:
