@@ -20,6 +20,7 @@ constexpr double kFewestTurns = 30;      // in the sums
 constexpr double kClearTurn = 16;        // mean square of turns, in sigmas: no noise
 constexpr double kAlike = 4;             // mean square that may stay; usual is below 1
 constexpr double kSignificant = 5;       // times what noise makes of the squares
+constexpr double kTwoTurns = 4;          // squares of a difference of two like turns, at most
 constexpr std::size_t kParabola = 5;     // grid points to each side of the minimum
 constexpr double kLikeNeighbours = 2;    // turns of neighbouring images share their errors
 constexpr double kFloor_s = 0.001;       // smoothing and grid
@@ -122,6 +123,7 @@ void TimeOffsetSums::findMinimum() {
   }
   estimate_.state = TimeOffsetState::kTooLittleTurn;
   if (contrast < kSignificant * ripple) return;
+  if (contrast > kTwoTurns * turned_) return;  // the odometry turned alone: its heading jumped
   if (best_ < kParabola || best_ + kParabola >= kOffsetCount) {
     estimate_.state = TimeOffsetState::kOutOfReach;
     return;

@@ -84,6 +84,36 @@ TEST(TimeOffset, IsNotKnownWithoutTurningToAndFro) {
   }
 }
 
+/// A flight as odometry has it whose heading jumps, as when a driver starts anew.
+struct Jumping {
+  const Swaying& flight;
+  double jumps_s;
+  double by_rad;
+  Eigen::Isometry3d T_map_base(double t_s) const {
+    const Eigen::AngleAxisd heading(t_s < jumps_s ? 0 : by_rad, Eigen::Vector3d::UnitZ());
+    return heading * flight.T_map_base(t_s);
+  }
+};
+
+TEST(TimeOffset, IsNotToldByAHeadingThatJumps) {
+  for (const double turns_rad : {0.0, 0.02, 0.15}) {
+    const Swaying flight(3, turns_rad);
+    for (const double jumps_s : {0.5, 1.0, 2.0, 5.0, 10.0}) {
+      for (const double by_rad : {0.1, 0.3, 2.0}) {
+        const Jumping jumping{flight, jumps_s, by_rad};
+        const auto odometry = test::swayOdometry(jumping, 20, 200, {0.001, 0}, 3);
+        TimeOffsetEstimator estimator(test::forwardExtrinsics());
+        film(estimator, flight, odometry, 0, 20, 3, [&](double t_s) {
+          const TimeOffset& found = estimator.estimate();
+          if (found.state != TimeOffsetState::kKnown) return;
+          ASSERT_NEAR(found.offset_s, 0, 0.015) << "turns " << turns_rad << ", jump of " << by_rad
+                                                << " at " << jumps_s << " s, at " << t_s << " s";
+        });
+      }
+    }
+  }
+}
+
 TEST(TimeOffset, AWrongMountingIsADisagreement) {
   const Swaying flight(2);
   const auto odometry = test::swayOdometry(flight, 20, 200, {0.001, 0}, 2);
