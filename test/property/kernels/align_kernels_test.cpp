@@ -21,7 +21,7 @@ using kernels::alignScalar;
 class AlignKernels : public ::testing::TestWithParam<InstructionSet> {};
 
 bool sameBits(float a, float b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
+  return std::memcmp(&a, &b, sizeof a) == 0;  // NOLINT(*-suspicious-memory-comparison)
 }
 
 /// @return whether the patch was found

@@ -106,8 +106,8 @@ TEST_P(FreakKernels, MeansOfEveryOrientation) {
       for (int field = 0; field < kernels::kFreakFields; ++field) {
         const FreakBox box = boxes[field];
         int sum = 0;
-        for (int row = box.top; row < box.bottom; ++row) {
-          for (int column = box.left; column < box.right; ++column)
+        for (int row = box.top; row < box.bottom; ++row) {           // NOLINT(*-signed-char-misuse)
+          for (int column = box.left; column < box.right; ++column)  // NOLINT(*-signed-char-misuse)
             sum += image.at(x + column, y + row);
         }
         const int area = (box.right - box.left) * (box.bottom - box.top);
