@@ -38,7 +38,7 @@ constexpr PagePlace ofPart(PagePart part) {
 
 /// A number, or nothing, which is `auto` in yaml files: the program finds it by itself.
 using NumberOrAuto = std::optional<double>;
-constexpr const char* kAuto = "auto";
+constexpr const char* kAuto = "auto";  ///< its word
 
 /// What a user needs to know of one parameter. Its default is the value in the freshly constructed
 /// struct, so that it is written only once.

@@ -30,6 +30,7 @@ class ImageClock {
 
   /// The offset in use, or on the way to it.
   double used_s() const { return static_cast<double>(offset_ns_) * 1e-9; }
+  /// The parameter.
   const NumberOrAuto& told_s() const { return told_s_; }
   /// By the images seen so far.
   TimeOffset estimate() const;
@@ -57,6 +58,7 @@ class SetupMonitor {
   /// @return whether an offset that was found is used from this image on
   bool see(const ImageFeatures& features, const OdometryBuffer& odometry, Slam& slam);
 
+  /// When images were exposed.
   const ImageClock& clock() const { return clock_; }
   /// After the images so far.
   const SetupFinding& finding() const { return finding_; }

@@ -42,13 +42,14 @@ struct SeenYaw {
 
 /// What the motion so far says of the set-up.
 struct SetupFinding {
-  SetupFault fault = SetupFault::kNone;
+  SetupFault fault = SetupFault::kNone;  ///< what contradicts
   /// Another fault, or kMounting another mounting, that explains the images nearly as well.
   SetupFault rival = SetupFault::kNone;
   /// Without a fault: the motion since the last fault has shown that there is none.
   bool is_confirmed = false;
   /// The images so far were taken for other times than they were of: what they said is given up.
   bool forgets_images = false;
+  /// Whether images may correct the pose.
   bool isCameraUsed() const { return fault == SetupFault::kNone && !forgets_images; }
   Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();  ///< kMounting: that which fits
   double offset_s = 0;      ///< kTimeOffset: an image is exposed at its stamp plus this, roughly
