@@ -37,12 +37,7 @@ struct SectionValues {
       return;
     } else {
       if (readNumber(text, value)) return;
-      must_be = std::string("a ") +
-                (std::is_same_v<T, bool>           ? "switch (true or false)"
-                 : std::is_same_v<T, int>          ? "whole number"
-                 : std::is_same_v<T, NumberOrAuto> ? "number or auto"
-                                                   : "number") +
-                " [" + info.unit + "]";
+      must_be = std::string(kindOf(value)) + " [" + info.unit + "]";
     }
     faults->push_back(section_name + "/" + info.name + " is '" + shortened(text) +
                       "' but must be " + must_be +
@@ -50,6 +45,11 @@ struct SectionValues {
   }
 
  private:
+  static const char* kindOf(bool) { return "a switch (true or false)"; }
+  static const char* kindOf(int) { return "a whole number"; }
+  static const char* kindOf(double) { return "a number"; }
+  static const char* kindOf(const NumberOrAuto&) { return "a number or auto"; }
+
   template <class T>
   bool readNumber(const std::string& text, T& value) const {
     return read_scalar(text, value);
