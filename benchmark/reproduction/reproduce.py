@@ -27,6 +27,7 @@ Written by `scripts/reproduce`, not by hand. This package implements a master th
 figures with this package's code: what is printed there, what comes out here, and why they differ. Times are of {machine} and are a rough scale. All other
 numbers are the same each time. "Must lie within" is tested (`ctest -R reproduction`, with fewer pictures and frames). What the thesis calls the observer is called
 the odometry on all other pages. "Landmarks alone" is [not free of it](thesis_estimator.md#what-position-by-landmarks-alone-is).
+Tracks keep to whole pixels here, as in the thesis (`replay --whole-pixels`), so rows of the default estimator are not those of [results.md](results.md).
 
 Not repeated are the times on the drone itself, and the figures that explain or show and do not measure:
 - 1.1, 1.2a, those of chapter 2, 3.1, 3.2, 3.4, 3.5, 3.9, 3.10, 4.1 to 4.4;

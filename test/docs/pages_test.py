@@ -114,6 +114,17 @@ class FiguresTest(unittest.TestCase):
 
 
 class RoomsTest(unittest.TestCase):
+    def test_the_readme_says_what_the_drivers_faults_may_cost(self):
+        test = (ROOT / "test/offline_ros/driver_fault_error_test.cpp").read_text(encoding="utf-8")
+        factor = re.search(r"([\d.]+) \* clean_m", test)[1]
+        self.assertIn(f"below {factor} times that without faults", (ROOT / "README.md").read_text(encoding="utf-8"))
+
+    def test_what_is_said_to_be_in_status_is_there(self):
+        fields = set(re.findall(r"^[\w/]+(?:\[\])? (\w+) ", (ROOT / "msg/Status.msg").read_text(encoding="utf-8"), re.MULTILINE))
+        for page in PAGES:
+            named = re.findall(r"`(\w+)` in `(?i:status)`", page.read_text(encoding="utf-8"))
+            self.assertLessEqual(set(named), fields, page)
+
     def test_every_room_of_the_core_is_named_and_none_that_is_not_there(self):
         named = set(re.findall(r"`src/(\w+)`", (ROOT / "docs/rooms.md").read_text(encoding="utf-8")))
         self.assertEqual(named, {path.name for path in (ROOT / "src").iterdir() if path.is_dir()})
