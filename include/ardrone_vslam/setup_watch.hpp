@@ -42,7 +42,7 @@ struct SeenYaw {
 
 /// What the motion so far says of the set-up.
 struct SetupFinding {
-  SetupFault fault = SetupFault::kNone;  ///< what contradicts
+  SetupFault fault = SetupFault::kNone;  ///< what is wrong, as far as seen
   /// Another fault, or kMounting another mounting, that explains the images nearly as well.
   SetupFault rival = SetupFault::kNone;
   /// Without a fault: the motion since the last fault has shown that there is none.

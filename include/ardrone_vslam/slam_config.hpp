@@ -197,8 +197,7 @@ constexpr const char* kImageTimeOffset =
     "an image is exposed at its stamp plus this on the odometry's clock: negative where the driver "
     "stamps images late. auto: 0, until the mapper has found it by the turns of camera and "
     "odometry; `status` and `replay` tell what it is. In the tracker for `use_attitude`, where "
-    "auto "
-    "is 0";
+    "auto is 0";
 
 template <class Visitor>
 void visitParameters(SlamConfig& c, Visitor&& visit) {
