@@ -181,7 +181,7 @@ int run(const Options& o) {
   for (const std::string& estimator : o.estimators) configs.push_back(configOf(o, estimator));
   const Trajectory path = readPath(o.path);
   const Trajectory truth = selected(path, o.frames);
-  if (!(displacements_m(path).back() >= kShortestStreet_m))
+  if (!(distancesAlong_m(path).back() >= kShortestStreet_m))
     throw std::runtime_error(o.path +
                              ": its poses do not move by a metre in all, so there is no "
                              "street beside them; give a longer path");

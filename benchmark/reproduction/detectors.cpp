@@ -17,7 +17,7 @@ constexpr int kRounds = 5;
 constexpr int kThreshold = 35;  // of ours: the thesis's
 constexpr int kAllCorners = 100000;
 // Table 3.5: how far a point is followed off. The thesis's source does not say from where to where.
-constexpr double kTurn_deg = 4;
+constexpr double kRotation_deg = 4;
 constexpr std::size_t kTracked = 500;
 constexpr double kLost_px = 20;
 
@@ -74,7 +74,7 @@ std::vector<Detector> detectors(int fast_threshold) {
 /// Errors of points followed by cv::calcOpticalFlowPyrLK into the turned picture.
 void addTrackingErrors(const cv::Mat& picture, Points points, std::vector<double>& errors_px) {
   const quality::ChangedPicture from = quality::turned(picture, 0);
-  const quality::ChangedPicture to = quality::turned(picture, kTurn_deg);
+  const quality::ChangedPicture to = quality::turned(picture, kRotation_deg);
   if (points.size() > kTracked) points.resize(kTracked);
   if (points.empty()) return;
   const auto mapped = [](const Eigen::Matrix3d& H, const cv::Point2f& p) {

@@ -24,7 +24,7 @@ std::optional<PlanePoint> planePointOf(const CameraModel& camera, const Eigen::V
 }
 
 Eigen::Matrix3d RelativePose::essential(double row_second) const {
-  return skew(direction_second) * rotationOf(row_second * turn_per_row) * R_second_first;
+  return skew(direction_second) * rotationOf(row_second * rotation_per_row) * R_second_first;
 }
 
 EpipolarDistance epipolarDistance(const RelativePose& pose, const PointPair& pair) {

@@ -32,7 +32,7 @@ struct RelativePose {
   Eigen::Vector3d direction_second = Eigen::Vector3d::UnitZ();  ///< of the first camera
   /// What further down in the second image the camera has turned more, per focal length [rad]: a
   /// shutter that rolls while the camera's turn rate changes.
-  Eigen::Vector3d turn_per_row = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rotation_per_row = Eigen::Vector3d::Zero();
 
   /// @param row_second  y on the second image's plane
   Eigen::Matrix3d essential(double row_second) const;

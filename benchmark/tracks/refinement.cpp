@@ -24,7 +24,7 @@ RelativePose changed(const RelativePose& pose, const Change& change) {
   result.R_second_first = rotationOf(change.head<3>()) * pose.R_second_first;
   result.direction_second =
       (pose.direction_second + change[3] * across + change[4] * other).normalized();
-  result.turn_per_row = pose.turn_per_row + change.tail<3>();
+  result.rotation_per_row = pose.rotation_per_row + change.tail<3>();
   return result;
 }
 

@@ -45,7 +45,7 @@ Checked<DroneImu> toDroneImu(const sensor_msgs::Imu& m) {
   if (m.header.stamp.isZero()) return {std::nullopt, kNoStamp};
   DroneImu imu;
   imu.stamp_ns = static_cast<std::int64_t>(m.header.stamp.toNSec());
-  imu.turn_rate_base_rad_s << m.angular_velocity.x, m.angular_velocity.y, m.angular_velocity.z;
+  imu.angular_rate_base_rad_s << m.angular_velocity.x, m.angular_velocity.y, m.angular_velocity.z;
   imu.force_base_m_s2 << m.linear_acceleration.x, m.linear_acceleration.y, m.linear_acceleration.z;
   return {imu, {}};
 }

@@ -89,16 +89,16 @@ class DelayedFusion {
   std::int64_t newestStamp_ns() const { return buffer_.newestStamp_ns(); }
 
  private:
-  MapState inMap(const OdometryState& state, double displacement_m) const;
+  MapState inMap(const OdometryState& state, double travelled_m) const;
   /// What the odometry's error can have grown by since the correction's stamp.
-  Matrix6d growth(const OdometryState& state, double displacement_m) const;
+  Matrix6d growth(const OdometryState& state, double travelled_m) const;
 
   DelayedFusionConfig config_;
   OdometryBuffer buffer_;
   std::optional<LateCorrection> correction_;
   OdometryState at_correction_;  // the odometry at its stamp
   Eigen::Isometry3d T_map_odom_ = Eigen::Isometry3d::Identity();
-  double way_m_ = 0;  // of the odometry since then
+  double travelled_m_ = 0;  // of the odometry since then
 };
 
 }  // namespace ardrone_vslam

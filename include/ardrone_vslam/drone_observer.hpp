@@ -29,8 +29,8 @@ struct NavdataReading {
 
 /// One reading of its gyroscope and accelerometer.
 struct DroneImu {
-  std::int64_t stamp_ns = 0;                                       ///< of reception
-  Eigen::Vector3d turn_rate_base_rad_s = Eigen::Vector3d::Zero();  ///< about forward, left, up
+  std::int64_t stamp_ns = 0;                                          ///< of reception
+  Eigen::Vector3d angular_rate_base_rad_s = Eigen::Vector3d::Zero();  ///< about forward, left, up
   Eigen::Vector3d force_base_m_s2 = Eigen::Vector3d::Zero();  ///< specific force: forward, left, up
 };
 

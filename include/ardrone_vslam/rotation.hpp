@@ -19,8 +19,8 @@ inline Eigen::Matrix3d rotationOf(const Eigen::Vector3d& rotation_vector) {
 
 /// Rotation vector [rad] of a rotation matrix.
 inline Eigen::Vector3d rotationVectorOf(const Eigen::Matrix3d& R) {
-  const Eigen::AngleAxisd turn(R);
-  return turn.angle() * turn.axis();
+  const Eigen::AngleAxisd angle_axis(R);
+  return angle_axis.angle() * angle_axis.axis();
 }
 
 /// skew(v) w = v x w.

@@ -35,7 +35,7 @@ struct EnumNames<SetupFault> {
 struct SeenYaw {
   std::int64_t stamp_ns = 0;  ///< of the later image
   double span_s = 0;          ///< between the two; 0: none is known
-  double way_m = 0;           ///< likewise, by the odometry
+  double displacement_m = 0;  ///< likewise, by the odometry
   double off_rad = 0;         ///< camera less odometry
   double variance_rad2 = 0;   ///< of this, by images and calibration; the odometry's is not in it
 };

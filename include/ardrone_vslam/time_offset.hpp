@@ -15,10 +15,10 @@ namespace ardrone_vslam {
 /// Whether the images' time offset can be told, and why not; `explain` gives the sentence for
 /// users.
 enum class TimeOffsetState {
-  kTooFewImages,   ///< too few images with enough tracks and odometry around them yet
-  kTooLittleTurn,  ///< the camera has not turned to and fro enough to tell within kSure_s
-  kDisagreement,   ///< at no offset do camera and odometry turn alike
-  kOutOfReach,     ///< the best offset is at the end of those that are compared
+  kTooFewImages,       ///< too few images with enough tracks and odometry around them yet
+  kTooLittleRotation,  ///< the camera has not turned to and fro enough to tell within kSure_s
+  kDisagreement,       ///< at no offset do camera and odometry turn alike
+  kOutOfReach,         ///< the best offset is at the end of those that are compared
   kKnown
 };
 
@@ -32,7 +32,7 @@ struct TimeOffset {
 };
 
 /// Finds the images' time offset: that at which the attitude turns as the tracks do. Images about
-/// kStep_s apart are compared with those kSpan_s before (fitTurn, so depths do not matter);
+/// kStep_s apart are compared with those kSpan_s before (fitRotation, so depths do not matter);
 /// for each offset of a grid the squares of the differences between the two turns, in sigmas,
 /// are summed up and forgotten with kMemory_s. Constant differences between them are fitted away:
 /// of the rates (drift of the attitude) and, by the turn about each axis, of scale (calibration,

@@ -143,12 +143,12 @@ Eigen::Isometry3d extrinsicsOf(const OnboardConfig& config) {
   readVector("camera_position_m", config.camera_position_m, position_m, faults);
   readVector("camera_rotation_deg", config.camera_rotation_deg, rotation_deg, faults);
   if (!faults.empty()) throw ConfigError(faults);
-  const auto turn = [](double angle_deg, const Eigen::Vector3d& axis) {
+  const auto rotation = [](double angle_deg, const Eigen::Vector3d& axis) {
     return Eigen::AngleAxisd(angle_deg * M_PI / 180, axis);
   };
-  return Eigen::Translation3d(position_m) * turn(rotation_deg.z(), Eigen::Vector3d::UnitZ()) *
-         turn(rotation_deg.y(), Eigen::Vector3d::UnitY()) *
-         turn(rotation_deg.x(), Eigen::Vector3d::UnitX());
+  return Eigen::Translation3d(position_m) * rotation(rotation_deg.z(), Eigen::Vector3d::UnitZ()) *
+         rotation(rotation_deg.y(), Eigen::Vector3d::UnitY()) *
+         rotation(rotation_deg.x(), Eigen::Vector3d::UnitX());
 }
 
 }  // namespace ardrone_vslam

@@ -18,22 +18,22 @@ void PatchReference::begin(const ImageView& image, const Eigen::Vector2f& point_
   failures = 0;
 }
 
-void PatchReference::turnTo(const ViewChange& change_since) {
-  constexpr float kTurnAgain = 0.05F;  // 3 degrees, or 5 %
-  constexpr float kMostGrowth = 1.6F;  // beyond it the surroundings have too little detail
+void PatchReference::rotateTo(const ViewChange& change_since) {
+  constexpr float kRotateAgain = 0.05F;  // 3 degrees, or 5 %
+  constexpr float kMostGrowth = 1.6F;    // beyond it the surroundings have too little detail
   const float growth = std::abs(change_since);
-  const bool is_turned = differenceOf(change_since, applied) >= kTurnAgain &&
-                         growth >= Surroundings::kLeastGrowth && growth <= kMostGrowth;
-  if (!std::exchange(is_to_be_made, false) && !(patch && is_turned)) return;
-  const ViewChange wanted = is_turned ? change_since : applied;
+  const bool is_rotated = differenceOf(change_since, applied) >= kRotateAgain &&
+                          growth >= Surroundings::kLeastGrowth && growth <= kMostGrowth;
+  if (!std::exchange(is_to_be_made, false) && !(patch && is_rotated)) return;
+  const ViewChange wanted = is_rotated ? change_since : applied;
   const auto made = patchOf(surroundings, wanted);
   if (!made) return;
   patch = made;
   const ViewChange more = wanted / applied;
   offset_px = vectorOf(more * complexOf(offset_px));
-  Eigen::Matrix2f turn;
-  turn << more.real(), -more.imag(), more.imag(), more.real();
-  variance_px2 = turn * variance_px2 * turn.transpose();
+  Eigen::Matrix2f rotation;
+  rotation << more.real(), -more.imag(), more.imag(), more.real();
+  variance_px2 = rotation * variance_px2 * rotation.transpose();
   applied = wanted;
 }
 

@@ -21,9 +21,9 @@ constexpr double kCommandTilt_deg =
 constexpr double kCommandTime_s = 0.12;  // in which roll and pitch follow, twice over
 constexpr double kLongestHole_s = 1;     // as the OdometryAdapter's
 constexpr double kLostSpeed_m_s = 1;     // that a drone may have flown at beyond it
-constexpr double kTurnNoise_rad_s = 0.01;
+constexpr double kAngularNoise_rad_s = 0.01;
 constexpr double kYawJump_rad = 0.5;
-constexpr double kFastestTurn_rad_s = 6;
+constexpr double kFastestRotation_rad_s = 6;
 
 double seconds(std::int64_t nanoseconds) {
   return static_cast<double>(nanoseconds) * 1e-9;
@@ -77,9 +77,9 @@ std::optional<OdometryState> DroneFlight::advance(const NavdataSample& sample) {
   last_ = packet;
   OdometryState state = filter_.observed(packet.measured.R_odom_base);
   state.stamp_ns = packet.stamp_ns;
-  if (sample.turn_rate_base_rad_s) {
-    state.twist_base.tail<3>() = *sample.turn_rate_base_rad_s;
-    state.twist_covariance.diagonal().tail<3>().setConstant(squared(kTurnNoise_rad_s));
+  if (sample.angular_rate_base_rad_s) {
+    state.twist_base.tail<3>() = *sample.angular_rate_base_rad_s;
+    state.twist_covariance.diagonal().tail<3>().setConstant(squared(kAngularNoise_rad_s));
   }
   return state;
 }
@@ -90,7 +90,7 @@ void DroneFlight::keepYaw(NavdataReading& packet, double dt_s) {
   R = Eigen::AngleAxisd(yaw_offset_rad_, Eigen::Vector3d::UnitZ()) * R;
   const double rotation_rad =
       std::remainder(yawOf(R) - yawOf(last_->measured.R_odom_base), 2 * M_PI);
-  if (std::abs(rotation_rad) <= kYawJump_rad + kFastestTurn_rad_s * dt_s) return;
+  if (std::abs(rotation_rad) <= kYawJump_rad + kFastestRotation_rad_s * dt_s) return;
   count(OdometryFault::kReset);
   yaw_offset_rad_ -= rotation_rad;
   R = Eigen::AngleAxisd(-rotation_rad, Eigen::Vector3d::UnitZ()) * R;

@@ -58,14 +58,14 @@ Covariance motionJacobian(const State& x, const DroneMeasurement& measured, doub
   A.col(kForceBias + 2) = -R.col(2);
   A.col(kDrag) = -R * kAcross * velocity_base;
 
-  const Eigen::Matrix3d turn =
+  const Eigen::Matrix3d rotation =
       Eigen::AngleAxisd(x[kYaw], Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const Eigen::Vector3d acceleration = R * push_base - kGravity_m_s2 * Eigen::Vector3d::UnitZ();
   Covariance F = Covariance::Identity();
-  F.middleRows<3>(kPosition) += 0.5 * dt_s * dt_s * turn * A;
-  F.block<3, 3>(kPosition, kVelocity) += dt_s * turn;
-  F.block<3, 1>(kPosition, kYaw) +=
-      skew(Eigen::Vector3d::UnitZ()) * turn * (velocity * dt_s + 0.5 * dt_s * dt_s * acceleration);
+  F.middleRows<3>(kPosition) += 0.5 * dt_s * dt_s * rotation * A;
+  F.block<3, 3>(kPosition, kVelocity) += dt_s * rotation;
+  F.block<3, 1>(kPosition, kYaw) += skew(Eigen::Vector3d::UnitZ()) * rotation *
+                                    (velocity * dt_s + 0.5 * dt_s * dt_s * acceleration);
   F.middleRows<3>(kVelocity) += dt_s * A;
   return F;
 }

@@ -26,10 +26,10 @@ Push check(const DroneMeasurement& m) {
 }
 
 Push check(const DroneImu& imu) {
-  if (!imu.turn_rate_base_rad_s.allFinite() || !imu.force_base_m_s2.allFinite()) {
+  if (!imu.angular_rate_base_rad_s.allFinite() || !imu.force_base_m_s2.allFinite()) {
     return Push::kNotFinite;
   }
-  const bool is_in_range = imu.turn_rate_base_rad_s.cwiseAbs().maxCoeff() <= kFastestOdometry &&
+  const bool is_in_range = imu.angular_rate_base_rad_s.cwiseAbs().maxCoeff() <= kFastestOdometry &&
                            imu.force_base_m_s2.cwiseAbs().maxCoeff() <= kLargestForce_m_s2;
   return is_in_range ? Push::kAccepted : Push::kOutOfRange;
 }

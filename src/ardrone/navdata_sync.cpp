@@ -79,17 +79,17 @@ void NavdataSync::putImuInto(std::vector<NavdataSample>& samples) {
   if (readings.size() != samples.size()) {
     DroneImu mean = readings.front();
     const auto share = 1 / static_cast<double>(readings.size());
-    mean.turn_rate_base_rad_s.setZero();
+    mean.angular_rate_base_rad_s.setZero();
     mean.force_base_m_s2.setZero();
     for (const DroneImu& reading : readings) {
-      mean.turn_rate_base_rad_s += share * reading.turn_rate_base_rad_s;
+      mean.angular_rate_base_rad_s += share * reading.angular_rate_base_rad_s;
       mean.force_base_m_s2 += share * reading.force_base_m_s2;
     }
     readings.assign(samples.size(), mean);
   }
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].packet.measured.force_base_m_s2 = readings[i].force_base_m_s2;
-    samples[i].turn_rate_base_rad_s = readings[i].turn_rate_base_rad_s;
+    samples[i].angular_rate_base_rad_s = readings[i].angular_rate_base_rad_s;
   }
 }
 

@@ -13,7 +13,7 @@ namespace ardrone_vslam {
 /// A packet at its own time, with what the IMU measured then.
 struct NavdataSample {
   NavdataReading packet;
-  std::optional<Eigen::Vector3d> turn_rate_base_rad_s;
+  std::optional<Eigen::Vector3d> angular_rate_base_rad_s;
 };
 
 /// Puts packets and IMU readings together, which come with the stamps of their reception: see

@@ -161,8 +161,8 @@ bool MapSearch::isConfirmed(const Sight& newest) const {
         newest.entry.T_loaded_flight * earlier.entry.T_loaded_flight.inverse();
     const Eigen::Vector3d position = earlier.entry.T_loaded_flight * newest.camera_flight;
     const double off_m = (difference * position - position).norm();
-    const double way_m = (newest.camera_flight - earlier.camera_flight).norm();
-    return off_m < kAgreeDistance * newest.distance_m + kAgreeDrift * way_m &&
+    const double displacement_m = (newest.camera_flight - earlier.camera_flight).norm();
+    return off_m < kAgreeDistance * newest.distance_m + kAgreeDrift * displacement_m &&
            std::abs(headingOf(difference.linear())) < kAgreeHeading_rad;
   };
   const auto agreeing = std::count_if(sights_.begin(), sights_.end(), agrees);

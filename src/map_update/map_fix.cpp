@@ -15,8 +15,8 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr int kSamples = 40;
-constexpr double kTurn_rad = 0.02;    // keeps the turn of a fix by few landmarks regular
-constexpr double kNoTurn_rad = 1e-6;  // where the attitude is taken as exact
+constexpr double kRotation_rad = 0.02;    // keeps the turn of a fix by few landmarks regular
+constexpr double kNoRotation_rad = 1e-6;  // where the attitude is taken as exact
 
 /// Coordinates of a fix: scale, newest pose, anchors (each once, ascending).
 struct FixCoordinates {
@@ -143,7 +143,7 @@ MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_rig,
   Matrix6d on_pose = fix.information.matrix.block<6, 6>(1, 1);
   const int attitude = state.frameCoordinate(state.frames().size() - 1) + 3;
   const bool is_exact = state.covariance().diagonal().segment<3>(attitude).isZero(0);
-  const double rotation_rad = is_exact ? kNoTurn_rad : kTurn_rad;
+  const double rotation_rad = is_exact ? kNoRotation_rad : kRotation_rad;
   on_pose.diagonal().tail<3>().array() += 1 / (rotation_rad * rotation_rad);
   fix.covariance = on_pose.inverse();
   const Eigen::MatrixXd J = fix.covariance * fix.information.matrix.middleRows<6>(1);

@@ -65,7 +65,7 @@ void Msckf::watchForContradiction() {
   contradiction.is_camera_confirmed = map_update_.isLocated();
   if (watchdog_.see(newest().stamp_ns, contradiction)) {
     // Nothing that the camera said counts any more. Landmarks keep their anchors: they may be
-    // right, and show it later. Ways of the pose make it uncertain, there and back as well.
+    // right, and show it later. Moves of the pose make it uncertain, there and back as well.
     tracks_ = TrackWindow(T_rig_cam_.linear(), config_.track_sigma_px, config_.track_scene_px);
     track_update_.forgetEarlierCamera();
     map_update_.reset();

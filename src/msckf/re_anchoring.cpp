@@ -15,14 +15,14 @@ AnchorCorrection moveBetween(const Clone& placed, const Clone& now) {
   move.new_anchor_id = placed.id;
   move.from_map = placed.position_map;
   move.to_map = now.position_map;
-  move.turn = now.R_map_rig * placed.R_map_rig.transpose();
+  move.rotation = now.R_map_rig * placed.R_map_rig.transpose();
   move.stretch = now.stretch / placed.stretch;
   return move;
 }
 
 bool isSeen(const AnchorCorrection& move, double distance_m, double tolerance_rad) {
   return (move.to_map - move.from_map).norm() > tolerance_rad * distance_m ||
-         Eigen::AngleAxisd(move.turn).angle() > tolerance_rad ||
+         Eigen::AngleAxisd(move.rotation).angle() > tolerance_rad ||
          std::abs(move.stretch - 1) > tolerance_rad;
 }
 
@@ -30,9 +30,10 @@ bool isSeen(const AnchorCorrection& move, double distance_m, double tolerance_ra
 
 void AnchorCorrection::apply(Landmark& landmark) const {
   landmark.position_map =
-      to_map + stretch * (turn * Eigen::Vector3d(landmark.position_map - from_map));
-  landmark.view_direction_map = turn * landmark.view_direction_map;
-  landmark.covariance_m2 = stretch * stretch * turn * landmark.covariance_m2 * turn.transpose();
+      to_map + stretch * (rotation * Eigen::Vector3d(landmark.position_map - from_map));
+  landmark.view_direction_map = rotation * landmark.view_direction_map;
+  landmark.covariance_m2 =
+      stretch * stretch * rotation * landmark.covariance_m2 * rotation.transpose();
   landmark.anchor_id = new_anchor_id;
 }
 

@@ -18,8 +18,8 @@ struct AnchorCorrection {
   std::uint32_t new_anchor_id = 0;  ///< to which they belong from now on
   Eigen::Vector3d from_map =
       Eigen::Vector3d::Zero();  ///< where base of the anchor stood when they were placed
-  Eigen::Vector3d to_map = Eigen::Vector3d::Zero();    ///< where it stands now
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< its rotation since then, axes of map
+  Eigen::Vector3d to_map = Eigen::Vector3d::Zero();        ///< where it stands now
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< its rotation since then, axes of map
   double stretch = 1;  ///< of their distance from it since then, by corrections of the scale
 
   /// Moves position, view direction and covariance of a landmark of the anchor, and gives it the

@@ -22,9 +22,9 @@ constexpr double kLeastFactor = 4;  // of the variance
 
 }  // namespace
 
-double YawLevel::configuredWalk_rad2(double time_s, double way_m) const {
+double YawLevel::configuredWalk_rad2(double time_s, double displacement_m) const {
   return squared(radians(config_.yaw_walk_deg_per_sqrt_s)) * time_s +
-         squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * way_m;
+         squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * displacement_m;
 }
 
 void YawLevel::learn(const SetupFinding& finding) {
@@ -35,7 +35,7 @@ void YawLevel::learn(const SetupFinding& finding) {
   const double new_s =
       std::clamp(static_cast<double>(yaw.stamp_ns - learned_ns_) * 1e-9, 0.0, yaw.span_s);
   learned_ns_ = yaw.stamp_ns;
-  const double walk_rad2 = configuredWalk_rad2(yaw.span_s, yaw.way_m);
+  const double walk_rad2 = configuredWalk_rad2(yaw.span_s, yaw.displacement_m);
   const double rest_rad2 = yaw.variance_rad2 + 2 * squared(radians(config_.attitude_noise_deg));
   const double kept = std::exp(-new_s / kMemory_s);
   double most = -std::numeric_limits<double>::infinity();

@@ -28,8 +28,8 @@ class YawLevel {
   void reset() { *this = YawLevel(config_); }
 
   /// Variance by which yaw drifts over such a way.
-  double walk_rad2(double time_s, double way_m) const {
-    return variance_factor_ * configuredWalk_rad2(time_s, way_m);
+  double walk_rad2(double time_s, double displacement_m) const {
+    return variance_factor_ * configuredWalk_rad2(time_s, displacement_m);
   }
   /// Of the walk's standard deviation, over what is configured.
   double factor() const { return std::sqrt(variance_factor_); }
@@ -37,7 +37,7 @@ class YawLevel {
  private:
   static constexpr std::size_t kFactors = 21;
 
-  double configuredWalk_rad2(double time_s, double way_m) const;
+  double configuredWalk_rad2(double time_s, double displacement_m) const;
 
   OdometryNoiseConfig config_;
   double variance_factor_ = 1;

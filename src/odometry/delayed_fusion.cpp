@@ -77,7 +77,8 @@ OdometryBuffer::Push DelayedFusion::push(const OdometryState& state) {
   const bool has_before = !buffer_.empty();
   const OdometryState before = has_before ? buffer_.states().back() : OdometryState{};
   const OdometryBuffer::Push answer = buffer_.push(state);
-  if (answer == OdometryBuffer::Push::kAccepted && has_before) way_m_ += distance_m(before, state);
+  if (answer == OdometryBuffer::Push::kAccepted && has_before)
+    travelled_m_ += distance_m(before, state);
   return answer;
 }
 
@@ -104,11 +105,11 @@ DelayedFusion::Answer DelayedFusion::correct(const LateCorrection& correction) {
   correction_ = correction;
   at_correction_ = then;
   T_map_odom_ = correction.T_map_base * correction.T_odom_base.inverse();
-  way_m_ = 0;
+  travelled_m_ = 0;
   OdometryState before = then;
   for (const OdometryState& state : buffer_.states()) {
     if (state.stamp_ns <= then.stamp_ns) continue;
-    way_m_ += distance_m(before, state);
+    travelled_m_ += distance_m(before, state);
     before = state;
   }
   return Answer::kUsed;
@@ -116,20 +117,20 @@ DelayedFusion::Answer DelayedFusion::correct(const LateCorrection& correction) {
 
 std::optional<MapState> DelayedFusion::newest() const {
   if (!correction_ || buffer_.empty()) return std::nullopt;
-  return inMap(buffer_.states().back(), way_m_);
+  return inMap(buffer_.states().back(), travelled_m_);
 }
 
 std::vector<MapState> DelayedFusion::sinceCorrection() const {
   std::vector<MapState> states;
   if (!correction_) return states;
   // Backwards: the oldest since the correction may have left the buffer.
-  double displacement_m = way_m_;
+  double travelled_m = travelled_m_;
   const auto& kept = buffer_.states();
   for (auto state = kept.rbegin(); state != kept.rend(); ++state) {
     if (state->stamp_ns < at_correction_.stamp_ns) break;
-    states.push_back(inMap(*state, std::max(displacement_m, 0.0)));
+    states.push_back(inMap(*state, std::max(travelled_m, 0.0)));
     const auto older = std::next(state);
-    if (older != kept.rend()) displacement_m -= distance_m(*older, *state);
+    if (older != kept.rend()) travelled_m -= distance_m(*older, *state);
   }
   std::reverse(states.begin(), states.end());
   return states;
@@ -139,10 +140,10 @@ void DelayedFusion::clear() {
   buffer_.clear();
   correction_.reset();
   T_map_odom_.setIdentity();
-  way_m_ = 0;
+  travelled_m_ = 0;
 }
 
-MapState DelayedFusion::inMap(const OdometryState& state, double displacement_m) const {
+MapState DelayedFusion::inMap(const OdometryState& state, double travelled_m) const {
   MapState result;
   result.stamp_ns = state.stamp_ns;
   result.T_map_base = T_map_odom_ * state.T_odom_base;
@@ -153,12 +154,12 @@ MapState DelayedFusion::inMap(const OdometryState& state, double displacement_m)
       result.T_map_base.translation() - correction_->T_map_base.translation();
   Matrix6d J = Matrix6d::Identity();
   J.topRightCorner<3, 3>() = -skew(moved_map);
-  const Matrix6d sum = J * correction_->covariance * J.transpose() + growth(state, displacement_m);
+  const Matrix6d sum = J * correction_->covariance * J.transpose() + growth(state, travelled_m);
   result.covariance = 0.5 * (sum + sum.transpose());
   return result;
 }
 
-Matrix6d DelayedFusion::growth(const OdometryState& state, double displacement_m) const {
+Matrix6d DelayedFusion::growth(const OdometryState& state, double travelled_m) const {
   assert(state.stamp_ns >= at_correction_.stamp_ns && "growth is from the correction on");
   const double dt_s = static_cast<double>(state.stamp_ns - at_correction_.stamp_ns) * 1e-9;
   const Eigen::Matrix3d& R_map_odom = T_map_odom_.linear();
@@ -174,7 +175,7 @@ Matrix6d DelayedFusion::growth(const OdometryState& state, double displacement_m
         (state.covariance - at_correction_.covariance).diagonal().head<3>().cwiseMax(0);
     position = R_map_odom * grown_m2.asDiagonal() * R_map_odom.transpose();
   } else {
-    position.diagonal().setConstant(squared(config_.walk_m_per_sqrt_m) * displacement_m +
+    position.diagonal().setConstant(squared(config_.walk_m_per_sqrt_m) * travelled_m +
                                     squared(config_.walk_m_per_sqrt_s) * dt_s);
   }
   position.diagonal().array() += squared(config_.velocity_bias_m_s * dt_s);
@@ -182,7 +183,7 @@ Matrix6d DelayedFusion::growth(const OdometryState& state, double displacement_m
   const double keep_tilt = std::exp(-dt_s / config_.tilt_time_s);
   const double tilt_rad2 = squared(radians(config_.tilt_sigma_deg)) * (1 - keep_tilt * keep_tilt);
   const double yaw_rad2 = squared(radians(config_.yaw_walk_deg_per_sqrt_s)) * dt_s +
-                          squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * displacement_m;
+                          squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * travelled_m;
   Q.diagonal().tail<3>() << tilt_rad2, tilt_rad2, yaw_rad2;
   return Q;
 }

@@ -26,9 +26,10 @@ struct DisplacementGuess {
 struct ImageMotion {
   Eigen::Matrix3d R_then_now =
       Eigen::Matrix3d::Identity();  ///< takes directions in the later image to the earlier one
-  Eigen::Vector3d way_then = Eigen::Vector3d::UnitZ();  ///< of length 1, axes of the image then
+  Eigen::Vector3d direction_then =
+      Eigen::Vector3d::UnitZ();  ///< of length 1, axes of the image then
   /// Inverse covariance [1/rad^2] of the rotation vector, axes of the image then, and of the way
-  /// along tangentsOf(way_then).
+  /// along tangentsOf(direction_then).
   Matrix5d information = Matrix5d::Zero();
   int inliers = 0;  ///< pairs that agree with it
   double cost = 0;  ///< sum over the pairs, each 0 (agrees) to 1; one seen behind the camera 1 more
@@ -48,9 +49,9 @@ struct ImageRotation {
 };
 
 /// Fewer tracks tell no turn.
-constexpr std::size_t kFewestTurnTracks = 20;
+constexpr std::size_t kFewestRotationTracks = 20;
 
-/// As fitTurn(), which says more: turn and way together. The sense of the way is that in which
+/// As fitRotation(), which says more: turn and way together. The sense of the way is that in which
 /// points lie in front of the camera.
 std::optional<ImageMotion> fitMotion(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
                                      const DisplacementGuess& guess);
@@ -58,7 +59,7 @@ std::optional<ImageMotion> fitMotion(const std::vector<BearingPair>& pairs, doub
 /// A camera's motion between two images as far as it is known without them.
 struct KnownMotion {
   Eigen::Matrix3d R_then_now = Eigen::Matrix3d::Identity();
-  double turn_sigma_rad = 0;  ///< per axis
+  double rotation_sigma_rad = 0;  ///< per axis
   DisplacementGuess displacement;
 };
 
@@ -72,8 +73,8 @@ double squaresAgainst(const KnownMotion& known, const ImageMotion& fitted,
 /// a third of them may be wrong. Neither depths nor the length of the way matter. O(pairs).
 /// @param corner_sigma_rad  of a corner between two images, per axis
 /// @param guess  how surely the direction is known follows from length and sigma
-/// @return nothing for fewer than kFewestTurnTracks pairs, and when too few agree
-std::optional<ImageRotation> fitTurn(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
-                                     const DisplacementGuess& guess);
+/// @return nothing for fewer than kFewestRotationTracks pairs, and when too few agree
+std::optional<ImageRotation> fitRotation(const std::vector<BearingPair>& pairs,
+                                         double corner_sigma_rad, const DisplacementGuess& guess);
 
 }  // namespace ardrone_vslam

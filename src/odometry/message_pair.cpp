@@ -18,19 +18,19 @@ Eigen::Vector3d velocity_odom_m_s(const OdometryState& state) {
   return state.T_odom_base.linear() * state.twist_base.head<3>();
 }
 
-Eigen::Vector3d wayBetween_m(const OdometryState& a, const OdometryState& b) {
+Eigen::Vector3d displacementBetween_m(const OdometryState& a, const OdometryState& b) {
   return b.T_odom_base.translation() - a.T_odom_base.translation();
 }
 
 bool isJump(const OdometryState& a, const OdometryState& b) {
-  const double displacement_m = wayBetween_m(a, b).norm();
+  const double displacement_m = displacementBetween_m(a, b).norm();
   return displacement_m > kJump_m && displacement_m > kFastestOdometry * secondsBetween(a, b);
 }
 
 bool isReset(const OdometryState& a, const OdometryState& b) {
   return a.T_odom_base.translation().head<2>().norm() > kResetFrom_m &&
          b.T_odom_base.translation().head<2>().norm() < kResetTo_m &&
-         wayBetween_m(a, b).head<2>().norm() > kResetSpeed_m_s * secondsBetween(a, b);
+         displacementBetween_m(a, b).head<2>().norm() > kResetSpeed_m_s * secondsBetween(a, b);
 }
 
 bool isRepeated(const OdometryState& a, const OdometryState& b) {

@@ -13,7 +13,7 @@ double secondsBetween(const OdometryState& a, const OdometryState& b);
 /// By the twist, axes of odom.
 Eigen::Vector3d velocity_odom_m_s(const OdometryState& state);
 /// By the poses.
-Eigen::Vector3d wayBetween_m(const OdometryState& a, const OdometryState& b);
+Eigen::Vector3d displacementBetween_m(const OdometryState& a, const OdometryState& b);
 /// The position is kilometres off.
 bool isJump(const OdometryState& a, const OdometryState& b);
 /// The position began anew at the origin.

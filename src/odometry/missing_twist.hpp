@@ -8,14 +8,14 @@ namespace ardrone_vslam {
 /// Tells poses that move on although the twist is zero.
 class MissingTwistWatch {
  public:
-  /// One message, in order. @param way_m  since the one before, by the poses
+  /// One message, in order. @param displacement_m  since the one before, by the poses
   /// @return whether a metre (again) was moved without a twist
-  bool see(bool is_twist_zero, double way_m) {
+  bool see(bool is_twist_zero, double displacement_m) {
     constexpr double kMost_m = 1;
     if (!is_twist_zero) {
       without_twist_m_ = 0;
-    } else if (way_m < kJump_m) {
-      without_twist_m_ += way_m;
+    } else if (displacement_m < kJump_m) {
+      without_twist_m_ += displacement_m;
     }
     if (without_twist_m_ < kMost_m) return false;
     without_twist_m_ = 0;

@@ -18,7 +18,7 @@ using Push = OdometryBuffer::Push;
 
 constexpr std::int64_t kRestart_ns = 1'000'000'000;   // stamps further back are a new run
 constexpr std::int64_t kLongestGap_ns = 100'000'000;  // that a burst is spread over
-constexpr double kLongestWay_s = 1;                   // across which the twist tells the way
+constexpr double kLongestStep_s = 1;  // across which the twist tells the displacement
 /// The epoch in seconds at the fastest speed: beyond this lie no jumps, only nonsense.
 constexpr double kFarthestJump_m = 2e9 * kFastestOdometry;
 constexpr double kWholeMetreVariance_m2 = 1.0 / 12.0;  // of a metre cut off
@@ -47,8 +47,8 @@ class OdometryAdapter::State {
   Push absorb(const OdometryState& message);
   Push adapt(const OdometryState& message, std::vector<OdometryState>& ready);
   bool follows(const OdometryState& message);
-  Eigen::Vector3d wayByTwist_m(const OdometryState& message) const;
-  void moveByTwist(const Eigen::Vector3d& way_m, OdometryState& state);
+  Eigen::Vector3d displacementByTwist_m(const OdometryState& message) const;
+  void moveByTwist(const Eigen::Vector3d& by_twist_m, OdometryState& state);
 
   /// What became of the time before a message.
   struct Gap {
@@ -170,35 +170,35 @@ bool OdometryAdapter::State::follows(const OdometryState& message) {
     count(OdometryFault::kJump);
   }
   const Eigen::Vector3d position_m = message.T_odom_base.translation();
-  const Eigen::Vector3d expected_m = position_odom_m_ + wayByTwist_m(message);
+  const Eigen::Vector3d expected_m = position_odom_m_ + displacementByTwist_m(message);
   // Some drivers measure the height, which goes on by itself, and some integrate it, which does
   // not. Only what the twist cannot tell, across a hole or within a metre, is left to the message.
   const bool is_height_sane = std::abs(position_m.z() - position_odom_m_.z()) < kJump_m;
-  const bool is_way_known = last_ && secondsBetween(*last_, message) <= kLongestWay_s;
+  const bool is_displacement_known = last_ && secondsBetween(*last_, message) <= kLongestStep_s;
   offset_odom_m_ = expected_m - position_m;
-  if (is_height_sane && (!is_way_known || whole_metres_.isWhole())) offset_odom_m_.z() = 0;
+  if (is_height_sane && (!is_displacement_known || whole_metres_.isWhole())) offset_odom_m_.z() = 0;
   return true;
 }
 
 /// Since the last message, trapezoid; zero where it cannot be told.
-Eigen::Vector3d OdometryAdapter::State::wayByTwist_m(const OdometryState& message) const {
+Eigen::Vector3d OdometryAdapter::State::displacementByTwist_m(const OdometryState& message) const {
   if (!last_) return Eigen::Vector3d::Zero();
   const double dt_s = secondsBetween(*last_, message);
-  if (dt_s > kLongestWay_s) return Eigen::Vector3d::Zero();
+  if (dt_s > kLongestStep_s) return Eigen::Vector3d::Zero();
   return 0.5 * dt_s * (velocity_odom_m_s(*last_) + velocity_odom_m_s(message));
 }
 
 /// The state goes on from the last answer, but for a height that is measured.
-void OdometryAdapter::State::moveByTwist(const Eigen::Vector3d& way_m, OdometryState& state) {
+void OdometryAdapter::State::moveByTwist(const Eigen::Vector3d& by_twist_m, OdometryState& state) {
   auto position_m = state.T_odom_base.translation();
-  position_m.head<2>() = position_odom_m_.head<2>() + way_m.head<2>();
+  position_m.head<2>() = position_odom_m_.head<2>() + by_twist_m.head<2>();
   if (config_.height == OdometryHeight::kTwist) {
-    position_m.z() = position_odom_m_.z() + way_m.z();
+    position_m.z() = position_odom_m_.z() + by_twist_m.z();
   } else if (whole_metres_.isWhole()) {
-    const double dt_s = std::min(secondsBetween(*last_, state), kLongestWay_s);
-    position_m.z() = smoothedHeight_m(position_m.z(), position_odom_m_.z() + way_m.z(), dt_s);
+    const double dt_s = std::min(secondsBetween(*last_, state), kLongestStep_s);
+    position_m.z() = smoothedHeight_m(position_m.z(), position_odom_m_.z() + by_twist_m.z(), dt_s);
   } else {
-    if (height_jumps_.see(state.stamp_ns, position_m.z(), way_m.z()))
+    if (height_jumps_.see(state.stamp_ns, position_m.z(), by_twist_m.z()))
       count(OdometryFault::kTableStep);
     position_m.z() += height_jumps_.offset_m();
   }
@@ -210,23 +210,24 @@ Push OdometryAdapter::State::adapt(const OdometryState& message,
   if (!follows(message)) return Push::kOutOfRange;
   const bool is_repaired = before != faults_;
   if (message.covariance.diagonal().head<3>().isZero(0)) count(OdometryFault::kNoCovariance);
-  const Eigen::Vector3d way_m = wayByTwist_m(message);
-  if (whole_metres_.see(message.T_odom_base.translation().z(), way_m.z()))
+  const Eigen::Vector3d by_twist_m = displacementByTwist_m(message);
+  if (whole_metres_.see(message.T_odom_base.translation().z(), by_twist_m.z()))
     count(OdometryFault::kWholeMetres);
 
   OdometryState state = message;
   if (!offset_odom_m_.isZero(0)) state.T_odom_base.translation() += offset_odom_m_;
   if (config_.mode == OdometryMode::kTwist && last_) {
-    if (secondsBetween(*last_, message) > kLongestWay_s) count(OdometryFault::kHole);
+    if (secondsBetween(*last_, message) > kLongestStep_s) count(OdometryFault::kHole);
     const bool is_twist_zero = message.twist_base.head<3>().isZero(0);
-    if (!is_repaired && missing_twist_.see(is_twist_zero, wayBetween_m(*last_, message).norm()))
+    if (!is_repaired &&
+        missing_twist_.see(is_twist_zero, displacementBetween_m(*last_, message).norm()))
       count(OdometryFault::kNoTwist);
-    moveByTwist(way_m, state);
+    moveByTwist(by_twist_m, state);
   }
   if (whole_metres_.isWhole() && positionVariance_m2(state)) {
     state.covariance(2, 2) += kWholeMetreVariance_m2;
   }
-  gap_ = {last_ ? std::min(secondsBetween(*last_, message), kLongestWay_s) : 0,
+  gap_ = {last_ ? std::min(secondsBetween(*last_, message), kLongestStep_s) : 0,
           0.5 * (velocity_odom_m_s(last_ ? *last_ : message) + velocity_odom_m_s(message)), 1};
   last_ = message;
   position_odom_m_ = state.T_odom_base.translation();

@@ -14,7 +14,7 @@ namespace {
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 
 constexpr double kAttitude_rad = 0.005;  // sigma of a turn by the odometry, per axis
-constexpr double kOfTurn = 0.05;         // and as a share of it: calibration, clocks
+constexpr double kOfRotation = 0.05;     // and as a share of it: calibration, clocks
 constexpr double kDirection_rad = 0.1;   // of a way: many tracks of a street err alike
 constexpr double kVelocity_m_s = 0.4;    // of the odometry: three times that of a bad one
 constexpr double kSlowest_m_s = 0.6;     // below it the odometry tells no direction
@@ -27,52 +27,56 @@ constexpr double kAsGood = 0.05;       // share of the tracks by which fits may 
 constexpr double kAnywhere_m = 10;     // sigma of a way that is not known
 
 double directionSigma_rad(const ToldMotion& told, double span_s) {
-  const double way_m = told.way_then_m.norm();
-  return way_m < kSlowest_m_s * span_s ? kNoDirection_rad : kVelocity_m_s * span_s / way_m;
+  const double displacement_m = told.displacement_then_m.norm();
+  return displacement_m < kSlowest_m_s * span_s ? kNoDirection_rad
+                                                : kVelocity_m_s * span_s / displacement_m;
 }
 
-double turnSigma_rad(const ImageMotion& seen, const ToldMotion& told) {
-  const double turned_rad =
+double rotationSigma_rad(const ImageMotion& seen, const ToldMotion& told) {
+  const double rotation_rad =
       std::max(rotationVectorOf(told.R_then_now).norm(), rotationVectorOf(seen.R_then_now).norm());
-  return kAttitude_rad + kOfTurn * turned_rad;
+  return kAttitude_rad + kOfRotation * rotation_rad;
 }
 
 DisplacementGuess guessFrom(const ToldMotion& told, double span_s) {
   DisplacementGuess guess;
-  guess.displacement_m = told.way_then_m;
-  const double way_m = told.way_then_m.norm();
-  guess.sigma_m =
-      way_m < kSlowest_m_s * span_s ? kAnywhere_m : kVelocity_m_s * span_s + kOfTurn * way_m;
+  guess.displacement_m = told.displacement_then_m;
+  const double displacement_m = told.displacement_then_m.norm();
+  guess.sigma_m = displacement_m < kSlowest_m_s * span_s
+                      ? kAnywhere_m
+                      : kVelocity_m_s * span_s + kOfRotation * displacement_m;
   return guess;
 }
 
 /// From all sides, without regard to what is told.
 void addFitsFromAllSides(const std::vector<BearingPair>& pairs, double corner_sigma_rad,
                          std::vector<ImageMotion>& fits) {
-  static const std::array<Eigen::Vector3d, 7> kWays{
+  static const std::array<Eigen::Vector3d, 7> kDirections{
       Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),  Eigen::Vector3d(0, 0, 1),
       Eigen::Vector3d(1, 0, 1), Eigen::Vector3d(-1, 0, 1), Eigen::Vector3d(0, 1, 1),
       Eigen::Vector3d(0, -1, 1)};
-  for (const Eigen::Vector3d& way : kWays)
-    if (const auto fit = fitMotion(pairs, corner_sigma_rad, {way, kAnywhere_m}))
+  for (const Eigen::Vector3d& direction : kDirections)
+    if (const auto fit = fitMotion(pairs, corner_sigma_rad, {direction, kAnywhere_m}))
       fits.push_back(*fit);
 }
 
 }  // namespace
 
 double squaresBetween(const ImageMotion& seen, const ToldMotion& told, double span_s) {
-  const double turn_sigma_rad = turnSigma_rad(seen, told);
+  const double rotation_sigma_rad = rotationSigma_rad(seen, told);
   const double direction_sigma_rad = directionSigma_rad(told, span_s);
   Vector5d variance;
-  variance.head<3>().setConstant(turn_sigma_rad * turn_sigma_rad);
+  variance.head<3>().setConstant(rotation_sigma_rad * rotation_sigma_rad);
   variance.tail<2>().setConstant(kDirection_rad * kDirection_rad +
                                  direction_sigma_rad * direction_sigma_rad);
 
   Vector5d off;
   off.head<3>() = rotationVectorOf(seen.R_then_now * told.R_then_now.transpose());
-  const Eigen::Vector3d way = told.way_then_m / std::max(told.way_then_m.norm(), 1e-9);
-  const double angle_rad = std::atan2(seen.way_then.cross(way).norm(), seen.way_then.dot(way));
-  const Eigen::Vector2d across = tangentsOf(seen.way_then).transpose() * way;
+  const Eigen::Vector3d direction =
+      told.displacement_then_m / std::max(told.displacement_then_m.norm(), 1e-9);
+  const double angle_rad =
+      std::atan2(seen.direction_then.cross(direction).norm(), seen.direction_then.dot(direction));
+  const Eigen::Vector2d across = tangentsOf(seen.direction_then).transpose() * direction;
   // Of the opposite direction all tangents are alike.
   off.tail<2>() = across.norm() > 1e-9 ? Eigen::Vector2d(across.normalized() * angle_rad)
                                        : Eigen::Vector2d(angle_rad, 0);
@@ -114,10 +118,10 @@ double squaresTold(const std::vector<BearingPair>& pairs, double corner_sigma_ra
   if (squares <= kUsual || direction_sigma_rad >= kNoDirection_rad) return squares;
   KnownMotion known;
   known.R_then_now = told.R_then_now;
-  known.turn_sigma_rad = turnSigma_rad(seen, told);
-  const double way_m = told.way_then_m.norm();
-  known.displacement.displacement_m = told.way_then_m;
-  known.displacement.sigma_m = way_m * std::hypot(kDirection_rad, direction_sigma_rad);
+  known.rotation_sigma_rad = rotationSigma_rad(seen, told);
+  const double displacement_m = told.displacement_then_m.norm();
+  known.displacement.displacement_m = told.displacement_then_m;
+  known.displacement.sigma_m = displacement_m * std::hypot(kDirection_rad, direction_sigma_rad);
   return std::min(squares, squaresAgainst(known, seen, pairs, corner_sigma_rad));
 }
 
@@ -127,11 +131,11 @@ SeenYaw seenYaw(const ComparedMotion& motion, const Eigen::Matrix3d& R_base_cam,
   const Eigen::Vector3d up_cam = R_base_cam.row(2).transpose();
   const Eigen::Matrix3d R_off = motion.seen.R_then_now * told.R_then_now.transpose();
   const Eigen::Matrix3d covariance = motion.seen.information.inverse().topLeftCorner<3, 3>();
-  const double of_turn_rad = kOfTurn * rotationVectorOf(told.R_then_now).norm();
-  const double variance_rad2 = up_cam.dot(covariance * up_cam) + of_turn_rad * of_turn_rad;
+  const double of_rotation_rad = kOfRotation * rotationVectorOf(told.R_then_now).norm();
+  const double variance_rad2 = up_cam.dot(covariance * up_cam) + of_rotation_rad * of_rotation_rad;
   if (!(variance_rad2 > 0) || !std::isfinite(variance_rad2)) return {};
-  return {stamp_ns, motion.span_s, told.way_then_m.norm(), up_cam.dot(rotationVectorOf(R_off)),
-          variance_rad2};
+  return {stamp_ns, motion.span_s, told.displacement_then_m.norm(),
+          up_cam.dot(rotationVectorOf(R_off)), variance_rad2};
 }
 
 std::optional<ImageMotion> motionAtFactor(std::vector<BearingPair>& pairs, double corner_sigma_rad,

@@ -15,7 +15,7 @@ namespace ardrone_vslam {
 /// The camera's motion between two images by the odometry and the extrinsics that are told.
 struct ToldMotion {
   Eigen::Matrix3d R_then_now = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d way_then_m = Eigen::Vector3d::Zero();  ///< axes of the image then
+  Eigen::Vector3d displacement_then_m = Eigen::Vector3d::Zero();  ///< axes of the image then
 };
 
 /// Offsets of the images' stamps that are compared; the one in the middle is what is told.

@@ -33,13 +33,13 @@ double offsetOf_s(std::size_t offset) {
          static_cast<double>(kSetupOffsetStep_ns) * 1e-9;
 }
 
-ToldMotion turned(const Eigen::Matrix3d& Q, const ToldMotion& told) {
-  return {Q.transpose() * told.R_then_now * Q, Q.transpose() * told.way_then_m};
+ToldMotion rotated(const Eigen::Matrix3d& Q, const ToldMotion& told) {
+  return {Q.transpose() * told.R_then_now * Q, Q.transpose() * told.displacement_then_m};
 }
 
-/// Turns that take axes to axes, without none.
+/// Rotations that take axes to axes, without none.
 std::vector<Eigen::Matrix3d> quarterTurns() {
-  std::vector<Eigen::Matrix3d> turns;
+  std::vector<Eigen::Matrix3d> rotations;
   for (int x = 0; x < 6; ++x) {
     for (int y = 0; y < 6; ++y) {
       if (x % 3 == y % 3) continue;
@@ -47,10 +47,10 @@ std::vector<Eigen::Matrix3d> quarterTurns() {
       R.col(0) = Eigen::Vector3d::Unit(x % 3) * (x < 3 ? 1 : -1);
       R.col(1) = Eigen::Vector3d::Unit(y % 3) * (y < 3 ? 1 : -1);
       R.col(2) = R.col(0).cross(R.col(1));
-      if (!R.isIdentity()) turns.push_back(R);
+      if (!R.isIdentity()) rotations.push_back(R);
     }
   }
-  return turns;
+  return rotations;
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ double SetupHypotheses::squaresOf(const Hypothesis& h, const ComparedMotion& mot
   switch (h.fault) {
     case SetupFault::kMounting:
     case SetupFault::kMirrored:
-      return squaresBetween(motion.seen, turned(h.Q, told), motion.span_s);
+      return squaresBetween(motion.seen, rotated(h.Q, told), motion.span_s);
     case SetupFault::kFocalLength: {
       const auto& seen = motion.seen_at_factor[h.which];
       if (!seen) return kMostSquares;

@@ -44,9 +44,9 @@ Eigen::Isometry3d withMirroredYaw(Eigen::Isometry3d T_odom_base) {
 /// The pose now, if its way had been integrated with the mirrored yaw.
 Eigen::Isometry3d withMirroredPosition(const Eigen::Isometry3d& T_odom_then,
                                        Eigen::Isometry3d T_odom_now) {
-  const Eigen::Vector3d way_odom_m = T_odom_now.translation() - T_odom_then.translation();
+  const Eigen::Vector3d displacement_odom_m = T_odom_now.translation() - T_odom_then.translation();
   T_odom_now.translation() =
-      T_odom_then.translation() + yawed(2 * yawOf(T_odom_then.linear())) * way_odom_m;
+      T_odom_then.translation() + yawed(2 * yawOf(T_odom_then.linear())) * displacement_odom_m;
   return T_odom_now;
 }
 
@@ -67,7 +67,7 @@ class SetupWatch::State {
   ImageRays& image(std::size_t number) { return images_[number % kImages]; }
   void compare(const ImageRays& now, std::size_t number, const OdometryBuffer& odometry);
   void compare(const ImageRays& then, const ImageRays& now, const OdometryBuffer& odometry);
-  double medianWay_px(double focal_length_px);
+  double medianMotion_px(double focal_length_px);
   bool find(const OdometryBuffer& odometry, const ImageRays& then, const ImageRays& now,
             ComparedMotion& motion) const;
   ToldMotion motionOf(const Eigen::Isometry3d& then, const Eigen::Isometry3d& now) const;
@@ -80,7 +80,7 @@ class SetupWatch::State {
   std::int64_t compared_ns_ = 0;  // stamp of the last image that was
   TrackOrder order_;
   std::vector<BearingPair> pairs_;
-  std::vector<double> ways_;
+  std::vector<double> moved_;
   SetupHypotheses hypotheses_;
 };
 
@@ -118,7 +118,7 @@ void SetupWatch::State::compare(const ImageRays& now, std::size_t number,
 
 void SetupWatch::State::compare(const ImageRays& then, const ImageRays& now,
                                 const OdometryBuffer& odometry) {
-  if (medianWay_px(now.focal_length_px) < kLeast_px) return;
+  if (medianMotion_px(now.focal_length_px) < kLeast_px) return;
   ComparedMotion motion;
   motion.span_s = static_cast<double>(now.stamp_ns - then.stamp_ns) * 1e-9;
   motion.pairs = static_cast<double>(pairs_.size());
@@ -142,11 +142,11 @@ void SetupWatch::State::compare(const ImageRays& then, const ImageRays& now,
   hypotheses_.add(motion);
 }
 
-double SetupWatch::State::medianWay_px(double focal_length_px) {
-  ways_.clear();
-  for (const BearingPair& pair : pairs_) ways_.push_back((pair.now - pair.then).norm());
-  const auto middle = ways_.begin() + static_cast<std::ptrdiff_t>(ways_.size() / 2);
-  std::nth_element(ways_.begin(), middle, ways_.end());
+double SetupWatch::State::medianMotion_px(double focal_length_px) {
+  moved_.clear();
+  for (const BearingPair& pair : pairs_) moved_.push_back((pair.now - pair.then).norm());
+  const auto middle = moved_.begin() + static_cast<std::ptrdiff_t>(moved_.size() / 2);
+  std::nth_element(moved_.begin(), middle, moved_.end());
   return *middle * focal_length_px;
 }
 
@@ -175,7 +175,8 @@ bool SetupWatch::State::find(const OdometryBuffer& odometry, const ImageRays& th
     const bool is_found = findAt(used_ns + offsetOf_ns(i));
     motion.told_at_offset[i] = is_found ? motionOf(before.T_odom_base, after.T_odom_base) : told;
   }
-  return told.way_then_m.norm() > kStill || rotationVectorOf(told.R_then_now).norm() > kStill;
+  return told.displacement_then_m.norm() > kStill ||
+         rotationVectorOf(told.R_then_now).norm() > kStill;
 }
 
 SetupWatch::SetupWatch(const Eigen::Isometry3d& T_base_cam, double image_time_offset_s)

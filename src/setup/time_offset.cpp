@@ -87,14 +87,15 @@ void TimeOffsetEstimator::State::compare(std::size_t number) {
     const Image& then = image(i);
     const std::int64_t span_ns = now.stamp_ns - then.stamp_ns;
     if (span_ns > kSpan_ns + kStep_ns || !then.has_odometry) continue;
-    const auto turn = turnBetween(then, now);
-    if (!turn) continue;
-    return sums_.add({now.stamp_ns, seconds(span_ns), then.q_odom_cam, now.q_odom_cam, *turn,
-                      wayBetween(then, now).sigma_m});
+    const auto rotation = rotationBetween(then, now);
+    if (!rotation) continue;
+    return sums_.add({now.stamp_ns, seconds(span_ns), then.q_odom_cam, now.q_odom_cam, *rotation,
+                      displacementBetween(then, now).sigma_m});
   }
 }
 
-DisplacementGuess TimeOffsetEstimator::State::wayBetween(const Image& then, const Image& now) {
+DisplacementGuess TimeOffsetEstimator::State::displacementBetween(const Image& then,
+                                                                  const Image& now) {
   DisplacementGuess guess;
   guess.displacement_m =
       then.q_odom_cam[kMiddleOffset].conjugate() * (now.camera_odom_m - then.camera_odom_m);
@@ -103,10 +104,10 @@ DisplacementGuess TimeOffsetEstimator::State::wayBetween(const Image& then, cons
   return guess;
 }
 
-std::optional<ImageRotation> TimeOffsetEstimator::State::turnBetween(const Image& then,
-                                                                     const Image& now) {
+std::optional<ImageRotation> TimeOffsetEstimator::State::rotationBetween(const Image& then,
+                                                                         const Image& now) {
   findPairs(then, now, kMostPairs, pairs_);
-  return fitTurn(pairs_, kCorner_px / now.focal_length_px, wayBetween(then, now));
+  return fitRotation(pairs_, kCorner_px / now.focal_length_px, displacementBetween(then, now));
 }
 
 TimeOffsetEstimator::TimeOffsetEstimator(const Eigen::Isometry3d& T_base_cam, double centre_s)

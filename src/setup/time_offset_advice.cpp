@@ -12,7 +12,7 @@ const char* explain(TimeOffsetState state) {
   switch (state) {
     case TimeOffsetState::kTooFewImages:
       return "too few images with tracks and with odometry around them yet";
-    case TimeOffsetState::kTooLittleTurn:
+    case TimeOffsetState::kTooLittleRotation:
       return "the camera has not turned to and fro enough yet: yaw left and right";
     case TimeOffsetState::kDisagreement:
       return "camera and odometry do not turn alike at any offset: check the camera's mounting "

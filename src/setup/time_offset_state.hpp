@@ -33,8 +33,8 @@ class TimeOffsetEstimator::State {
   void take(const ImageFeatures& features);
   bool findOdometry(Image& image, const OdometryBuffer& odometry) const;
   void compare(std::size_t number);
-  static DisplacementGuess wayBetween(const Image& then, const Image& now);
-  std::optional<ImageRotation> turnBetween(const Image& then, const Image& now);
+  static DisplacementGuess displacementBetween(const Image& then, const Image& now);
+  std::optional<ImageRotation> rotationBetween(const Image& then, const Image& now);
 
   Eigen::Isometry3d T_base_cam_;
   std::int64_t centre_ns_;

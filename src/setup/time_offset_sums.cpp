@@ -16,11 +16,11 @@ constexpr double kDrift_rad_s = 0.02;    // sigma of the rates' constant differe
 constexpr double kDepth_m = 3;           // of the scene, roughly
 constexpr double kScale = 0.1;           // sigma of the turns' constant relative difference
 constexpr double kOutlierSigmas = 5;     // of a turn
-constexpr double kFewestTurns = 30;      // in the sums
-constexpr double kClearTurn = 16;        // mean square of turns, in sigmas: no noise
+constexpr double kFewestRotations = 30;  // in the sums
+constexpr double kClearRotation = 16;    // mean square of turns, in sigmas: no noise
 constexpr double kAlike = 4;             // mean square that may stay; usual is below 1
 constexpr double kSignificant = 5;       // times what noise makes of the squares
-constexpr double kTwoTurns = 4;          // squares of a difference of two like turns, at most
+constexpr double kTwoRotations = 4;      // squares of a difference of two like turns, at most
 constexpr std::size_t kParabola = 5;     // grid points to each side of the minimum
 constexpr double kLikeNeighbours = 2;    // turns of neighbouring images share their errors
 constexpr double kFloor_s = 0.001;       // smoothing and grid
@@ -61,12 +61,12 @@ Matrix6d priorOfConstants() {
 TimeOffsetSums::TimeOffsetSums(std::int64_t centre_ns)
     : centre_ns_(centre_ns), constants_(priorOfConstants()), solver_(constants_) {}
 
-void TimeOffsetSums::add(const ComparedTurn& turn) {
-  const ImageRotation& by_tracks = turn.by_tracks;
+void TimeOffsetSums::add(const ComparedRotation& rotation) {
+  const ImageRotation& by_tracks = rotation.by_tracks;
   const Eigen::Vector3d rotation_rad = rotationVectorOf(by_tracks.R_then_now);
   const double other_rad = kAttitude_rad + kCalibration * rotation_rad.norm();
   // A short way across looks like yaw or pitch of the camera, but not like roll.
-  const double hidden_rad = turn.way_sigma_m / kDepth_m;
+  const double hidden_rad = rotation.displacement_sigma_m / kDepth_m;
   Eigen::Vector3d other_rad2 = Eigen::Vector3d::Constant(other_rad * other_rad);
   other_rad2.head<2>().array() += hidden_rad * hidden_rad;
   // As (information^-1 + others)^-1 where some directions have no information.
@@ -78,17 +78,18 @@ void TimeOffsetSums::add(const ComparedTurn& turn) {
   const Eigen::Quaterniond q_now_then(by_tracks.R_then_now.transpose());
   std::array<Eigen::Vector3d, kOffsetCount> differences_rad;
   for (std::size_t i = 0; i < kOffsetCount; ++i) {
-    const Eigen::Quaterniond q_difference = turn.then[i].conjugate() * turn.now[i] * q_now_then;
+    const Eigen::Quaterniond q_difference =
+        rotation.then[i].conjugate() * rotation.now[i] * q_now_then;
     differences_rad[i] = std::copysign(2, q_difference.w()) * q_difference.vec();  // small
   }
   Eigen::Matrix<double, 3, 6> J;  // of a difference by the constant ones
-  J << turn.span_s * Eigen::Matrix3d::Identity(), Eigen::Matrix3d(rotation_rad.asDiagonal());
+  J << rotation.span_s * Eigen::Matrix3d::Identity(), Eigen::Matrix3d(rotation_rad.asDiagonal());
   const Eigen::Vector3d off_rad = differences_rad[best_] - J * constantsAt(best_);
   const double off = off_rad.dot(information * off_rad) / (kOutlierSigmas * kOutlierSigmas);
-  const double weight = turns_ < kFewestTurns ? 1 : 1 / ((1 + off) * (1 + off));
+  const double weight = rotations_ < kFewestRotations ? 1 : 1 / ((1 + off) * (1 + off));
 
-  const double passed_s = added_ns_ != 0 ? seconds(turn.stamp_ns - added_ns_) : 0;
-  added_ns_ = turn.stamp_ns;
+  const double passed_s = added_ns_ != 0 ? seconds(rotation.stamp_ns - added_ns_) : 0;
+  added_ns_ = rotation.stamp_ns;
   const double kept = std::exp(-passed_s / TimeOffsetEstimator::kMemory_s);
   for (std::size_t i = 0; i < kOffsetCount; ++i) {
     const Eigen::Vector3d weighed = weight * (information * differences_rad[i]);
@@ -98,8 +99,8 @@ void TimeOffsetSums::add(const ComparedTurn& turn) {
   const Matrix6d prior = priorOfConstants();
   constants_ = prior + kept * (constants_ - prior) + weight * J.transpose() * information * J;
   solver_.compute(constants_);
-  turns_ = kept * turns_ + weight;
-  turned_ = kept * turned_ + weight * rotation_rad.dot(information * rotation_rad);
+  rotations_ = kept * rotations_ + weight;
+  rotated_ = kept * rotated_ + weight * rotation_rad.dot(information * rotation_rad);
   findMinimum();
 }
 
@@ -113,17 +114,17 @@ void TimeOffsetSums::findMinimum() {
   best_ = static_cast<std::size_t>(std::min_element(squares_.begin(), squares_.end()) -
                                    squares_.begin());
   estimate_ = {};
-  if (turns_ < kFewestTurns) return;
-  const double per_turn = std::max(squares_[best_], 0.0) / (3 * turns_);
-  const double ripple = std::sqrt(6 * turns_) * per_turn;  // by white noise of the attitude
+  if (rotations_ < kFewestRotations) return;
+  const double per_rotation = std::max(squares_[best_], 0.0) / (3 * rotations_);
+  const double ripple = std::sqrt(6 * rotations_) * per_rotation;  // by white noise of the attitude
   const double contrast = *std::max_element(squares_.begin(), squares_.end()) - squares_[best_];
-  if (turned_ > kClearTurn * 3 * turns_ && per_turn > kAlike) {
+  if (rotated_ > kClearRotation * 3 * rotations_ && per_rotation > kAlike) {
     estimate_.state = TimeOffsetState::kDisagreement;
     return;
   }
-  estimate_.state = TimeOffsetState::kTooLittleTurn;
+  estimate_.state = TimeOffsetState::kTooLittleRotation;
   if (contrast < kSignificant * ripple) return;
-  if (contrast > kTwoTurns * turned_) return;  // the odometry turned alone: its heading jumped
+  if (contrast > kTwoRotations * rotated_) return;  // the odometry turned alone: its heading jumped
   if (best_ < kParabola || best_ + kParabola >= kOffsetCount) {
     estimate_.state = TimeOffsetState::kOutOfReach;
     return;
@@ -133,9 +134,9 @@ void TimeOffsetSums::findMinimum() {
   const double grid_s = seconds(TimeOffsetEstimator::kGrid_ns);
   const double half_s = static_cast<double>(kParabola) * grid_s;
   const double curvature_per_s2 = parabola.curvature / (grid_s * grid_s);
-  const double by_turns_s2 = kLikeNeighbours * per_turn * 2 / curvature_per_s2;
+  const double by_rotations_s2 = kLikeNeighbours * per_rotation * 2 / curvature_per_s2;
   const double by_ripple_s = ripple / (half_s * curvature_per_s2);
-  const double variance_s2 = by_turns_s2 + by_ripple_s * by_ripple_s + kFloor_s * kFloor_s;
+  const double variance_s2 = by_rotations_s2 + by_ripple_s * by_ripple_s + kFloor_s * kFloor_s;
   if (variance_s2 > TimeOffsetEstimator::kSure_s * TimeOffsetEstimator::kSure_s) return;
   estimate_.state = TimeOffsetState::kKnown;
   estimate_.sigma_s = std::sqrt(variance_s2);

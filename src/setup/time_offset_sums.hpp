@@ -19,13 +19,13 @@ constexpr std::size_t kOffsetCount = 2 * kMiddleOffset + 1;
 using AttitudesAtOffsets = std::array<Eigen::Quaterniond, kOffsetCount>;
 
 /// The turn between two images, by their tracks and by the odometry.
-struct ComparedTurn {
+struct ComparedRotation {
   std::int64_t stamp_ns;  ///< of the later image
   double span_s;
   const AttitudesAtOffsets& then;
   const AttitudesAtOffsets& now;
   const ImageRotation& by_tracks;
-  double way_sigma_m;  ///< sigma of the camera's way between them
+  double displacement_sigma_m;  ///< sigma of the camera's way between them
 };
 
 /// The squares of the differences between the two turns, for each offset, and where they are
@@ -35,7 +35,7 @@ class TimeOffsetSums {
   /// @param centre_ns  the offset that the others lie about
   explicit TimeOffsetSums(std::int64_t centre_ns);
 
-  void add(const ComparedTurn& turn);
+  void add(const ComparedRotation& rotation);
   /// The next turn is of other images: no time has passed before it.
   void breakOff() { added_ns_ = 0; }
   const TimeOffset& estimate() const { return estimate_; }
@@ -54,8 +54,8 @@ class TimeOffsetSums {
   Matrix6d constants_;  // information of the constant differences, the same for all offsets
   Eigen::LDLT<Matrix6d> solver_;                // of it
   std::int64_t added_ns_ = 0;                   // stamp of the newest image in the sums; 0: none
-  double turns_ = 0;                            // so many are in the sums
-  double turned_ = 0;                           // squares of the turns themselves
+  double rotations_ = 0;                        // so many are in the sums
+  double rotated_ = 0;                          // squares of the turns themselves
   std::array<double, kOffsetCount> squares_{};  // with the constant differences fitted away
   std::size_t best_ = kMiddleOffset;            // where they are fewest
   TimeOffset estimate_;

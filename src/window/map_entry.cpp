@@ -15,9 +15,9 @@ void MapEntrance::move(const MapEntry& entry) {
   const auto move = [&](Clone& pose, int at) {
     pose.position_map = entry.T_loaded_flight * pose.position_map;
     pose.R_map_rig = R * pose.R_map_rig;
-    for (const int turned : {at, at + 3}) {
-      P.middleRows<3>(turned) = (R * P.middleRows<3>(turned)).eval();
-      P.middleCols<3>(turned) = (P.middleCols<3>(turned) * R.transpose()).eval();
+    for (const int rotated : {at, at + 3}) {
+      P.middleRows<3>(rotated) = (R * P.middleRows<3>(rotated)).eval();
+      P.middleCols<3>(rotated) = (P.middleCols<3>(rotated) * R.transpose()).eval();
     }
   };
   P.middleRows<3>(WindowState::kAttitude) = (R * P.middleRows<3>(WindowState::kAttitude)).eval();

@@ -11,7 +11,7 @@
 namespace ardrone_vslam {
 
 double walkVariance_m2(const OdometryNoiseConfig& config, const OdometryState& from,
-                       const OdometryState& to, double displacement_m, double way_m) {
+                       const OdometryState& to, double displacement_m, double travelled_m) {
   const double dt_s = std::max(static_cast<double>(to.stamp_ns - from.stamp_ns) * 1e-9, 0.0);
   const double configured_m2 =
       squared(config.walk_m_per_sqrt_m) * displacement_m + squared(config.walk_m_per_sqrt_s) * dt_s;
@@ -24,7 +24,7 @@ double walkVariance_m2(const OdometryNoiseConfig& config, const OdometryState& f
   const double by_bias_m2 =
       2 * squared(config.velocity_bias_m_s) * config.velocity_bias_time_s * dt_s;
   const double by_scale_m2 =
-      squared(config.scale_sigma) * (squared(way_m + displacement_m) - squared(way_m));
+      squared(config.scale_sigma) * (squared(travelled_m + displacement_m) - squared(travelled_m));
   const double rest_m2 = *now - *then - by_bias_m2 - by_scale_m2;
   return std::max(rest_m2, std::min(configured_m2, *now - *then));
 }

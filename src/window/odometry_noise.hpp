@@ -12,9 +12,9 @@ namespace ardrone_vslam {
 /// Growth of the position's variance between two states, per axis, by white noise of the odometry:
 /// what it says itself, else as configured.
 /// @param displacement_m  between the two
-/// @param way_m  since the odometry began, up to the first of them
+/// @param travelled_m  since the odometry began, up to the first of them
 double walkVariance_m2(const OdometryNoiseConfig& config, const OdometryState& from,
-                       const OdometryState& to, double displacement_m, double way_m);
+                       const OdometryState& to, double displacement_m, double travelled_m);
 
 /// What is known of a run's first frame: the covariance of a window of this frame alone.
 /// @param P  zero on entry

@@ -34,7 +34,7 @@ void Propagator::start(const OdometryState& odometry, WindowState& state) {
   inflation_ = inflation_of_state_ = 1;
   learned_.reset();
   state.velocity_bias_m_s_.setZero();
-  odometry_way_m_ = odometry.T_odom_base.translation().norm();  // at least
+  odometry_travelled_m_ = odometry.T_odom_base.translation().norm();  // at least
   state.scale_error_ = 0;
   state.floor_map_m_ = 0;
   state.anchors_.clear();
@@ -64,9 +64,9 @@ void Propagator::returnTo(const Eigen::Isometry3d& T_map_odom, WindowState& stat
   P.middleCols<3>(kBias).setZero();
   P.diagonal().segment<3>(kBias).setConstant(learned_.bias.variance());
   P.block<3, 3>(to, to) += jump_m * jump_m.transpose();
-  const Eigen::Matrix3d turn_variance = rotation_rad * rotation_rad.transpose();
+  const Eigen::Matrix3d rotation_variance = rotation_rad * rotation_rad.transpose();
   for (const int a : {kAttitude, to + 3})
-    for (const int b : {kAttitude, to + 3}) P.block<3, 3>(a, b) += turn_variance;
+    for (const int b : {kAttitude, to + 3}) P.block<3, 3>(a, b) += rotation_variance;
 }
 
 Eigen::Isometry3d Propagator::T_map_odom(const WindowState& state) const {
@@ -101,18 +101,18 @@ void Propagator::propagate(const OdometryState& odometry, const std::optional<Od
   Increment increment;
   increment.duration_s =
       std::max(static_cast<double>(odometry.stamp_ns - odometry_.stamp_ns) * 1e-9, 0.0);
-  increment.way_odom_m =
+  increment.displacement_odom_m =
       step ? step->motion_odom_m
            : odometry.T_odom_base.translation() - odometry_.T_odom_base.translation();
-  increment.displacement_m = increment.way_odom_m.norm();
+  increment.displacement_m = increment.displacement_odom_m.norm();
 
   Clone next;
   next.id = next_id_++;
   next.stamp_ns = odometry.stamp_ns;
   next.height_m = odometry.height_m;
   addPosition(odometry, increment, next, state);
-  odometry_way_m_ += increment.displacement_m;
-  position_odom_m_ += increment.way_odom_m;
+  odometry_travelled_m_ += increment.displacement_m;
+  position_odom_m_ += increment.displacement_odom_m;
   if (step) {
     // Nothing but where the drone is now is in doubt: odometry that had stood still may catch up.
     const int to = state.frameCoordinate(state.frames_.size());
@@ -134,7 +134,7 @@ void Propagator::addPosition(const OdometryState& odometry, const Increment& inc
   next.stretch_by_bias_s_m =
       velocity_base_m_s / (velocity_base_m_s.squaredNorm() + squared(kSlowSpeed_m_s));
   const Eigen::Vector3d step =
-      state.R_map_odom_ * increment.way_odom_m *
+      state.R_map_odom_ * increment.displacement_odom_m *
       (1 - state.scale_error_ - next.stretch_by_bias_s_m.dot(state.velocity_bias_m_s_));
   const Eigen::Matrix3d bias_to_step =
       state.R_map_odom_ * odometry_.T_odom_base.linear() * increment.duration_s *
@@ -155,8 +155,8 @@ void Propagator::addPosition(const OdometryState& odometry, const Increment& inc
   position.noalias() += P.leftCols<kGlobals>() * F.transpose();
   position.middleRows<3>(to) = position.middleRows<3>(from) + F * position.topRows<kGlobals>();
   P.middleRows<3>(to) = position.transpose();
-  P.diagonal().segment<3>(to).array() +=
-      walkVariance_m2(config_, odometry_, odometry, increment.displacement_m, odometry_way_m_);
+  P.diagonal().segment<3>(to).array() += walkVariance_m2(
+      config_, odometry_, odometry, increment.displacement_m, odometry_travelled_m_);
 }
 
 void Propagator::addAttitude(const OdometryState& odometry, Clone& next, WindowState& state) const {

@@ -57,7 +57,7 @@ class Propagator {
   /// What the odometry reports between two frames.
   struct Increment {
     double duration_s = 0;
-    Eigen::Vector3d way_odom_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d displacement_odom_m = Eigen::Vector3d::Zero();
     double displacement_m = 0;  // length of the way
   };
 
@@ -73,7 +73,7 @@ class Propagator {
   double inflation_ = 1;
   double inflation_of_state_ = 1;  // follows it: at once when it rises, as the bias fades when not
   LearnedNoise learned_;
-  double odometry_way_m_ = 0;                                  // since it began
+  double odometry_travelled_m_ = 0;                            // since it began
   Eigen::Vector3d position_odom_m_ = Eigen::Vector3d::Zero();  // jumps left out
 };
 

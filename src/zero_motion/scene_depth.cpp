@@ -29,7 +29,7 @@ constexpr double kFarthest = 0.05;  // way over depth: it tells enough
 constexpr std::size_t kMostPairs = 120;
 constexpr std::size_t kFewestPairs = 15;
 constexpr double kCornerSigma_px = 0.7;
-constexpr double kTurnSigma_rad = 0.003;
+constexpr double kRotationSigma_rad = 0.003;
 
 // The odometry: twice as bad as a drone's usually is.
 constexpr double kBias_m_s = 0.06;
@@ -74,14 +74,14 @@ void SceneDepth::see(const ImageFeatures& features, const Eigen::Isometry3d& T_o
   const Eigen::Matrix3d R_then_now = R_odom_then.transpose() * T_odom_cam.linear();
   std::optional<SeenMotion> seen;
   if (pairs_.size() >= kFewestPairs)
-    seen =
-        seenMotion(pairs_, R_then_now, kTurnSigma_rad, kCornerSigma_px / features.focal_length_px);
+    seen = seenMotion(pairs_, R_then_now, kRotationSigma_rad,
+                      kCornerSigma_px / features.focal_length_px);
   const bool is_fading = 2 * pairs_.size() < std::min(kMostPairs, reference_.rays.rays.size());
   const bool is_long =
-      is_fading || motion.passed_s > kLongest_s || (seen && seen->way.norm() > kFarthest);
+      is_fading || motion.passed_s > kLongest_s || (seen && seen->displacement.norm() > kFarthest);
   if (seen && !is_long) return;  // the longer, the more it tells
   if (seen) {
-    motion.seen.way = R_odom_then * seen->way;
+    motion.seen.displacement = R_odom_then * seen->displacement;
     motion.seen.covariance = R_odom_then * seen->covariance * R_odom_then.transpose();
     judge(motion);
     spread(motion.passed_s, Eigen::AngleAxisd(R_then_now).angle());
@@ -128,16 +128,19 @@ double SceneDepth::explain(const Motion& motion, Hypothesis& hypothesis) {
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
   for (const double speed_m_s : kSpeeds_m_s) {
     // The true way given what is seen: its mean and, with the odometry's errors, its covariance.
-    const double way_m = speed_m_s * passed_s;
+    const double displacement_m = speed_m_s * passed_s;
     Eigen::Matrix3d S_seen = R;
-    S_seen.diagonal().array() += squared(way_m / hypothesis.depth_m);
+    S_seen.diagonal().array() += squared(displacement_m / hypothesis.depth_m);
     const Eigen::Matrix3d S_seen_inverse = S_seen.inverse();
-    const Eigen::Matrix3d way_of_seen = squared(way_m) / hypothesis.depth_m * S_seen_inverse;
-    const Eigen::Matrix3d S = of_odometry + hypothesis.depth_m * way_of_seen * R;
+    const Eigen::Matrix3d displacement_of_seen =
+        squared(displacement_m) / hypothesis.depth_m * S_seen_inverse;
+    const Eigen::Matrix3d S = of_odometry + hypothesis.depth_m * displacement_of_seen * R;
     const Eigen::Matrix3d S_inverse = S.inverse();
-    const Eigen::Vector3d off = motion.odometry_m - way_of_seen * motion.seen.way - passed_s * bias;
+    const Eigen::Vector3d off =
+        motion.odometry_m - displacement_of_seen * motion.seen.displacement - passed_s * bias;
     const double off_squares = off.dot(S_inverse * off);
-    const double seen_squares = motion.seen.way.dot(S_seen_inverse * motion.seen.way);
+    const double seen_squares =
+        motion.seen.displacement.dot(S_seen_inverse * motion.seen.displacement);
     const double squares = std::min(off_squares, kMostOff) + std::min(seen_squares, kMostSeen);
     const double density =
         std::exp(-0.5 * squares) / std::sqrt(S.determinant() * S_seen.determinant());
@@ -156,9 +159,9 @@ double SceneDepth::explain(const Motion& motion, Hypothesis& hypothesis) {
   return sum;
 }
 
-void SceneDepth::spread(double passed_s, double turn_rad) {
+void SceneDepth::spread(double passed_s, double rotation_rad) {
   const double variance =
-      squared(kWalk_per_sqrt_s) * passed_s + squared(kWalk_per_sqrt_rad) * turn_rad;
+      squared(kWalk_per_sqrt_s) * passed_s + squared(kWalk_per_sqrt_rad) * rotation_rad;
   const double to_each_side = std::min(0.25, variance / (2 * squared(std::log(kDepthRatio))));
   double moved_on = 0;  // from the next nearer depth
   for (std::size_t i = 0; i < kDepths; ++i) {

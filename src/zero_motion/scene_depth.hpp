@@ -51,7 +51,7 @@ class SceneDepth {
 
   static double explain(const Motion& motion, Hypothesis& hypothesis);
   void judge(const Motion& motion);
-  void spread(double passed_s, double turn_rad);
+  void spread(double passed_s, double rotation_rad);
 
   std::vector<Hypothesis> hypotheses_;  // from near to far
   Reference reference_, now_;

@@ -35,14 +35,14 @@ void limitDisplacement(std::size_t frame, const SeenMotion& seen, const SceneDep
   const Clone& newest = state.newest();
   const double near_m = depth.quantile_m(kNear);
   const double far_m = depth.quantile_m(kFar);
-  const Eigen::Vector3d way_map = then.R_map_rig * seen.way;
+  const Eigen::Vector3d displacement_map = then.R_map_rig * seen.displacement;
   const Eigen::Vector3d off_m = newest.position_map - then.position_map +
                                 (newest.R_map_rig - then.R_map_rig) * camera_rig -
-                                0.5 * (near_m + far_m) * way_map;
+                                0.5 * (near_m + far_m) * displacement_map;
   Eigen::Matrix3d variance_m2 =
       squared(far_m) * then.R_map_rig * seen.covariance * then.R_map_rig.transpose() +
-      squared(0.5 * (far_m - near_m)) * way_map * way_map.transpose();
-  variance_m2.diagonal().array() += squared(kUneven * far_m) * way_map.squaredNorm();
+      squared(0.5 * (far_m - near_m)) * displacement_map * displacement_map.transpose();
+  variance_m2.diagonal().array() += squared(kUneven * far_m) * displacement_map.squaredNorm();
   const Eigen::Matrix3d weight = variance_m2.inverse();
   if (!mayBeDrift(off_m.norm(), secondsBetween(then, newest))) return;
   if (off_m.dot(weight * off_m) < 1) return;  // it need not be drift
@@ -70,7 +70,7 @@ void limitByScene(const ImageFeatures& features, const TrackOrder& order,
         seenMotion(common.pairs, then.R_map_rig.transpose() * state.newest().R_map_rig,
                    rotationSigma_rad(state, frame) + kAttitudeNoise_rad,
                    kCornerSigma_px / features.focal_length_px);
-    if (seen && seen->way.norm() < kFarthest)
+    if (seen && seen->displacement.norm() < kFarthest)
       limitDisplacement(frame, *seen, depth, camera_rig, state);
     return;
   }

@@ -24,7 +24,7 @@ constexpr double kDepthSpread = 0.5;   // of points, over the typical depth
 constexpr double kTypicalError = 0.2;  // of the typical depth, as few points tell it
 constexpr double kWeakest = 1e-3;      // keeps what no pair shows solvable
 
-struct WayFit {
+struct DisplacementFit {
   Matrix6d A = Matrix6d::Zero();  // way, turn
   Vector6d g = Vector6d::Zero();
   int inliers = 0;
@@ -32,17 +32,18 @@ struct WayFit {
 };
 
 // Weights of Geman and McClure: they fall with what the last round's solution leaves.
-WayFit fitAround(const std::vector<BearingPair>& pairs, const Eigen::Matrix3d& R_then_now,
-                 double corner_sigma_rad, const Vector6d& last, bool is_first) {
-  WayFit fit;
+DisplacementFit fitAround(const std::vector<BearingPair>& pairs, const Eigen::Matrix3d& R_then_now,
+                          double corner_sigma_rad, const Vector6d& last, bool is_first) {
+  DisplacementFit fit;
   const std::size_t every = 1 + (pairs.size() - 1) / kMostPairs;
   for (std::size_t i = 0; i < pairs.size(); i += every) {
     const Eigen::Vector3d& then = pairs[i].then;
     const Eigen::Vector3d shift = R_then_now * pairs[i].now - then;
     Eigen::Matrix<double, 3, 6> J;
     J << then * then.transpose() - Eigen::Matrix3d::Identity(), -skew(then);
-    const double by_way = (J.leftCols<3>() * last.head<3>()).norm();
-    const double scale = kInlierSigmas * std::hypot(corner_sigma_rad, kDepthSpread * by_way);
+    const double by_displacement = (J.leftCols<3>() * last.head<3>()).norm();
+    const double scale =
+        kInlierSigmas * std::hypot(corner_sigma_rad, kDepthSpread * by_displacement);
     const double off = (J * last - shift).squaredNorm() / squared(scale);
     const double weight = is_first ? 1 : 1 / squared(1 + off);
     fit.A += weight * J.transpose() * J;
@@ -56,25 +57,25 @@ WayFit fitAround(const std::vector<BearingPair>& pairs, const Eigen::Matrix3d& R
 }  // namespace
 
 std::optional<SeenMotion> seenMotion(const std::vector<BearingPair>& pairs,
-                                     const Eigen::Matrix3d& R_then_now, double turn_sigma_rad,
+                                     const Eigen::Matrix3d& R_then_now, double rotation_sigma_rad,
                                      double corner_sigma_rad) {
   if (pairs.empty()) return std::nullopt;
   Vector6d solution = Vector6d::Zero();
-  WayFit fit;
+  DisplacementFit fit;
   for (int round = 0; round < kRounds; ++round) {
     fit = fitAround(pairs, R_then_now, corner_sigma_rad, solution, round == 0);
     const double weight =
         std::min(1.0, kIndependentTracks / std::max(fit.inliers, 1)) / squared(corner_sigma_rad);
     fit.A *= weight;
     fit.A.diagonal().array() += kWeakest;
-    fit.A.diagonal().tail<3>().array() += 1 / squared(turn_sigma_rad);
+    fit.A.diagonal().tail<3>().array() += 1 / squared(rotation_sigma_rad);
     solution = fit.A.ldlt().solve(weight * fit.g);
   }
   if (!solution.allFinite() || fit.inliers < kInlierShare * fit.pairs) return std::nullopt;
   SeenMotion seen;
-  seen.way = solution.head<3>();
+  seen.displacement = solution.head<3>();
   seen.covariance = fit.A.inverse().topLeftCorner<3, 3>();
-  seen.covariance.diagonal().array() += squared(kTypicalError) * seen.way.squaredNorm();
+  seen.covariance.diagonal().array() += squared(kTypicalError) * seen.displacement.squaredNorm();
   return seen;
 }
 

@@ -11,17 +11,17 @@ namespace ardrone_vslam {
 
 /// The camera's way between two images over the scene's typical depth, axes of the image then.
 struct SeenMotion {
-  Eigen::Vector3d way = Eigen::Vector3d::Zero();         ///< [1]
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< [1], large along the view
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< [1]
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();    ///< [1], large along the view
 };
 
 /// Fits a way and a small turn to how the tracks shift, robustly. Points may be half the typical
 /// depth nearer or further. For ways short beside the depth. O(pairs, of which at most 120 count).
-/// @param R_then_now  the camera's turn, known to turn_sigma_rad per axis
+/// @param R_then_now  the camera's turn, known to rotation_sigma_rad per axis
 /// @param corner_sigma_rad  of a corner between two images, per axis
 /// @return nothing when fewer than two fifths of the pairs agree
 std::optional<SeenMotion> seenMotion(const std::vector<BearingPair>& pairs,
-                                     const Eigen::Matrix3d& R_then_now, double turn_sigma_rad,
+                                     const Eigen::Matrix3d& R_then_now, double rotation_sigma_rad,
                                      double corner_sigma_rad);
 
 }  // namespace ardrone_vslam

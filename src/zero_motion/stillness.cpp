@@ -36,8 +36,8 @@ double median(std::vector<double> values) {
 
 // The turn that most tracks agree on: weights fall with what is left (Geman and McClure), and what
 // counts as much left shrinks to the corners' own noise.
-Eigen::Matrix3d agreedTurn(const std::vector<BearingPair>& pairs, Eigen::Matrix3d R,
-                           double jump_rad) {
+Eigen::Matrix3d agreedRotation(const std::vector<BearingPair>& pairs, Eigen::Matrix3d R,
+                               double jump_rad) {
   constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<double> left = left_rad(pairs, R);
@@ -57,12 +57,13 @@ Eigen::Matrix3d agreedTurn(const std::vector<BearingPair>& pairs, Eigen::Matrix3
 }
 
 /// What the pairs that one turn explains say of another small turn and of a shift over depth.
-struct TurnAndShift {
+struct RotationAndShift {
   Matrix6d A = Matrix6d::Zero();  // turn, shift
   Vector6d g = Vector6d::Zero();
   int inliers = 0;
 
-  TurnAndShift(const std::vector<BearingPair>& pairs, const Eigen::Matrix3d& R, double jump_rad) {
+  RotationAndShift(const std::vector<BearingPair>& pairs, const Eigen::Matrix3d& R,
+                   double jump_rad) {
     for (const BearingPair& pair : pairs) {
       const Eigen::Vector3d now = R * pair.now;
       const Eigen::Vector3d left = now - pair.then;
@@ -78,20 +79,20 @@ struct TurnAndShift {
     g *= share / (jump_rad * jump_rad);
   }
 
-  Eigen::Matrix3d turn() const { return A.topLeftCorner<3, 3>(); }
+  Eigen::Matrix3d rotation() const { return A.topLeftCorner<3, 3>(); }
   Eigen::Matrix3d mixed() const { return A.topRightCorner<3, 3>(); }
 
   /// Information of the shift, the turn being known as well as this.
-  Eigen::Matrix3d shiftGiven(const Eigen::Matrix3d& turn) const {
-    return A.bottomRightCorner<3, 3>() - mixed().transpose() * turn.ldlt().solve(mixed());
+  Eigen::Matrix3d shiftGiven(const Eigen::Matrix3d& rotation) const {
+    return A.bottomRightCorner<3, 3>() - mixed().transpose() * rotation.ldlt().solve(mixed());
   }
 
   /// Squared Mahalanobis length of the shift, the turn being free to make up for it.
   double squaredShift() const {
     // Keeps the shifts that a turn makes up for wholly from counting as seen.
-    const Eigen::Matrix3d seen = shiftGiven(turn()) + Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d seen = shiftGiven(rotation()) + Eigen::Matrix3d::Identity();
     const Eigen::Vector3d g_shift =
-        g.tail<3>() - mixed().transpose() * turn().ldlt().solve(g.head<3>());
+        g.tail<3>() - mixed().transpose() * rotation().ldlt().solve(g.head<3>());
     return g_shift.dot(seen.ldlt().solve(g_shift));
   }
 };
@@ -103,28 +104,28 @@ double medianLeft_rad(const std::vector<BearingPair>& pairs,
   return median(left_rad(pairs, R_reference_now));
 }
 
-Stillness stillnessOf(const std::vector<BearingPair>& pairs, const OdometryTurn& odometry,
+Stillness stillnessOf(const std::vector<BearingPair>& pairs, const OdometryRotation& odometry,
                       const Eigen::Matrix3d& R_guess, double focal_length_px) {
   Stillness s;
   s.common = static_cast<int>(pairs.size());
   s.enough_tracks = pairs.size() >= kFewestPairs;
   if (!s.enough_tracks) return s;
   const double jump_rad = kCornerJump_px / focal_length_px;
-  const Eigen::Matrix3d R = agreedTurn(pairs, R_guess, jump_rad);
+  const Eigen::Matrix3d R = agreedRotation(pairs, R_guess, jump_rad);
   if (!R.allFinite()) return s;
   s.R_reference_now = R;
 
-  const TurnAndShift rest(pairs, R, jump_rad);
+  const RotationAndShift rest(pairs, R, jump_rad);
   s.inlier_share = static_cast<double>(rest.inliers) / static_cast<double>(pairs.size());
   s.median_px = medianLeft_rad(pairs, R) * focal_length_px;
   if (s.inlier_share < kInlierShare) return s;
   const double off_rad = Eigen::AngleAxisd(R * odometry.R_reference_now.transpose()).angle();
-  s.is_still = rest.squaredShift() < kShiftGate && off_rad < kTurnSigmas * odometry.sigma_rad;
+  s.is_still = rest.squaredShift() < kShiftGate && off_rad < kRotationSigmas * odometry.sigma_rad;
 
   // A turn may stand for a shift by as much as it turned, or as little as the attitude is known.
   const double rotation_rad = std::min(Eigen::AngleAxisd(R).angle(), odometry.sigma_rad) + 1e-6;
   s.hidden =
-      rest.shiftGiven(rest.turn() + Eigen::Matrix3d::Identity() / (rotation_rad * rotation_rad))
+      rest.shiftGiven(rest.rotation() + Eigen::Matrix3d::Identity() / (rotation_rad * rotation_rad))
           .inverse();
   return s;
 }

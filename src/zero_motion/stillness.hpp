@@ -13,7 +13,7 @@ constexpr double kCornerJump_px = 0.8;
 /// Of so many corners at rest, in sigmas, nearly all jump by less: 99 % in the plane.
 constexpr double kInlierSigmas = 3;
 /// By so many sigmas a turn may differ from the odometry's.
-constexpr double kTurnSigmas = 3.5;
+constexpr double kRotationSigmas = 3.5;
 /// From fewer tracks nothing is told.
 constexpr std::size_t kFewestPairs = 15;
 
@@ -31,7 +31,7 @@ struct Stillness {
 };
 
 /// The camera's turn since the reference, as the odometry has it.
-struct OdometryTurn {
+struct OdometryRotation {
   Eigen::Matrix3d R_reference_now = Eigen::Matrix3d::Identity();
   double sigma_rad = 0;  ///< per axis
 };
@@ -42,7 +42,7 @@ double medianLeft_rad(const std::vector<BearingPair>& pairs,
 
 /// Finds the turn that most pairs agree on, and whether a shift is left beside it. O(pairs).
 /// @param R_guess  of the turn: where the search begins
-Stillness stillnessOf(const std::vector<BearingPair>& pairs, const OdometryTurn& odometry,
+Stillness stillnessOf(const std::vector<BearingPair>& pairs, const OdometryRotation& odometry,
                       const Eigen::Matrix3d& R_guess, double focal_length_px);
 
 }  // namespace ardrone_vslam

@@ -12,7 +12,7 @@ constexpr double kRounding_rad = 1e-6;  // of bearings in single precision
 // A drone that turns round in its path is still for less than this.
 constexpr double kAfter_s = 1;
 constexpr double kRotating_deg_per_s = 3;  // a resting camera turns slower
-constexpr double kTurnWindow_s = 0.5;
+constexpr double kRotationWindow_s = 0.5;
 constexpr double kPatience_s = 0.2;  // single images are bad: a compressed stream's key frames
 
 double seconds(std::int64_t duration_ns) {
@@ -21,15 +21,17 @@ double seconds(std::int64_t duration_ns) {
 
 // Half of the tracks are further off than a turn that is the odometry's within its sigma, and a
 // corner's jump, could bring them: whatever turn they agree on, the camera moves.
-bool isBeyondAnyTurn(double left_rad, const OdometryTurn& odometry, double focal_length_px) {
+bool isBeyondAnyRotation(double left_rad, const OdometryRotation& odometry,
+                         double focal_length_px) {
   const double farthest_rad =
-      kInlierSigmas * kCornerJump_px / focal_length_px + kTurnSigmas * odometry.sigma_rad;
+      kInlierSigmas * kCornerJump_px / focal_length_px + kRotationSigmas * odometry.sigma_rad;
   return left_rad > farthest_rad + kRounding_rad;
 }
 
 }  // namespace
 
-CameraMotion ZeroMotionDetector::see(const ImageFeatures& features, const OdometryTurn& odometry) {
+CameraMotion ZeroMotionDetector::see(const ImageFeatures& features,
+                                     const OdometryRotation& odometry) {
   is_reference_ = false;
   compare(features, odometry);
   if (!stillness_.is_still) {
@@ -39,20 +41,20 @@ CameraMotion ZeroMotionDetector::see(const ImageFeatures& features, const Odomet
   }
   seen_still_ns_ = features.stamp_ns;
   still_s_ = seconds(features.stamp_ns - still_since_ns_);
-  followTurn(features.stamp_ns);
+  followRotation(features.stamp_ns);
   if (isFading(features.size())) {
     R_rest_reference_ = R_rest_reference_ * stillness_.R_reference_now;
     refer(features);
   }
   if (still_s_ < kAfter_s) return CameraMotion::kUnknown;
-  return is_turning_ ? CameraMotion::kRotating : CameraMotion::kResting;
+  return is_rotating_ ? CameraMotion::kRotating : CameraMotion::kResting;
 }
 
-void ZeroMotionDetector::compare(const ImageFeatures& features, const OdometryTurn& odometry) {
+void ZeroMotionDetector::compare(const ImageFeatures& features, const OdometryRotation& odometry) {
   std::vector<BearingPair> pairs = reference_.pairsWith(features);
   const double left_rad = medianLeft_rad(pairs, odometry.R_reference_now);
   if (still_s_ == 0 && pairs.size() >= kFewestPairs &&
-      isBeyondAnyTurn(left_rad, odometry, features.focal_length_px)) {
+      isBeyondAnyRotation(left_rad, odometry, features.focal_length_px)) {
     stillness_ = {};
     stillness_.enough_tracks = true;
     stillness_.common = static_cast<int>(pairs.size());
@@ -79,7 +81,7 @@ CameraMotion ZeroMotionDetector::beginAnew(const ImageFeatures& features) {
   R_rest_reference_.setIdentity();
   R_rest_before_.setIdentity();
   before_ns_ = features.stamp_ns;
-  is_turning_ = false;
+  is_rotating_ = false;
   return was_seen ? CameraMotion::kMoving : CameraMotion::kUnknown;
 }
 
@@ -96,12 +98,12 @@ void ZeroMotionDetector::refer(const ImageFeatures& features) {
   reference_.take(features);
 }
 
-void ZeroMotionDetector::followTurn(std::int64_t stamp_ns) {
+void ZeroMotionDetector::followRotation(std::int64_t stamp_ns) {
   const double passed_s = seconds(stamp_ns - before_ns_);
-  if (passed_s < kTurnWindow_s) return;
+  if (passed_s < kRotationWindow_s) return;
   const Eigen::Matrix3d R_rest_now = R_rest_reference_ * stillness_.R_reference_now;
-  const double turned_rad = Eigen::AngleAxisd(R_rest_before_.transpose() * R_rest_now).angle();
-  is_turning_ = turned_rad > kRotating_deg_per_s * M_PI / 180 * passed_s;
+  const double rotation_rad = Eigen::AngleAxisd(R_rest_before_.transpose() * R_rest_now).angle();
+  is_rotating_ = rotation_rad > kRotating_deg_per_s * M_PI / 180 * passed_s;
   R_rest_before_ = R_rest_now;
   before_ns_ = stamp_ns;
 }

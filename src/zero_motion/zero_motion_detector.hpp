@@ -24,7 +24,7 @@ enum class CameraMotion {
 class ZeroMotionDetector {
  public:
   /// Compares an image, later than all before, with the reference. O(features log features).
-  CameraMotion see(const ImageFeatures& features, const OdometryTurn& odometry);
+  CameraMotion see(const ImageFeatures& features, const OdometryRotation& odometry);
 
   /// Whether the image seen last became the reference: there was none, it moved, or the old one has
   /// too little in common with it (the motion then goes on).
@@ -35,11 +35,11 @@ class ZeroMotionDetector {
   const Stillness& stillness() const { return stillness_; }
 
  private:
-  void compare(const ImageFeatures& features, const OdometryTurn& odometry);
+  void compare(const ImageFeatures& features, const OdometryRotation& odometry);
   CameraMotion beginAnew(const ImageFeatures& features);
   bool isFading(std::size_t features) const;
   void refer(const ImageFeatures& features);
-  void followTurn(std::int64_t stamp_ns);
+  void followRotation(std::int64_t stamp_ns);
 
   ReferenceImage reference_;
   Stillness stillness_;
@@ -51,7 +51,7 @@ class ZeroMotionDetector {
   Eigen::Matrix3d R_rest_reference_ = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d R_rest_before_ = Eigen::Matrix3d::Identity();
   std::int64_t before_ns_ = 0;
-  bool is_turning_ = false;
+  bool is_rotating_ = false;
 };
 
 }  // namespace ardrone_vslam

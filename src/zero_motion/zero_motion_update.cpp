@@ -23,15 +23,15 @@ void ZeroMotionUpdate::apply(const ImageFeatures& features, const Eigen::Isometr
                              WindowState& state) {
   scene_depth_.see(features, T_odom_base * T_rig_cam);
   const auto reference = indexOf(state.frames(), reference_id_);
-  OdometryTurn turn;
+  OdometryRotation rotation;
   if (!reference) detector_ = ZeroMotionDetector();
   if (reference && reference_id_ != state.newest().id) {
     const Eigen::Matrix3d R_rig_cam = T_rig_cam.linear();
-    turn.sigma_rad = rotationSigma_rad(state, *reference);
-    turn.R_reference_now = (state.frames()[*reference].R_map_rig * R_rig_cam).transpose() *
-                           state.newest().R_map_rig * R_rig_cam;
+    rotation.sigma_rad = rotationSigma_rad(state, *reference);
+    rotation.R_reference_now = (state.frames()[*reference].R_map_rig * R_rig_cam).transpose() *
+                               state.newest().R_map_rig * R_rig_cam;
   }
-  motion_ = detector_.see(features, turn);
+  motion_ = detector_.see(features, rotation);
   const bool is_still = motion_ == CameraMotion::kResting || motion_ == CameraMotion::kRotating;
   if (is_still && reference && !is_located && !holdStill(*reference, T_rig_cam, state))
     motion_ = CameraMotion::kMoving;

@@ -26,9 +26,9 @@ test::TestImage dullImage(const test::TestImage& rich) {
 }
 
 /// Lets a tracker see a dull scene a few times, then counts what a rich one allocates.
-/// @param turnOf  the scene's turn in frame i
-template <class TurnOf>
-void expectNoneAfterDullFrames(const TrackerConfig& config, const TurnOf& turnOf) {
+/// @param rotationOf  the scene's turn in frame i
+template <class RotationOf>
+void expectNoneAfterDullFrames(const TrackerConfig& config, const RotationOf& rotationOf) {
   static const test::TestImage rich = test::generatedImage(760, 420);
   static const test::TestImage dull = dullImage(rich);
   const test::TestImage* scene = &dull;
@@ -45,7 +45,7 @@ void expectNoneAfterDullFrames(const TrackerConfig& config, const TurnOf& turnOf
   ImageFeatures features;
   int frame = 0;
   const auto process = [&] {
-    tracker.process(frameAt(frame), frame + 1, features, {}, turnOf(frame));
+    tracker.process(frameAt(frame), frame + 1, features, {}, rotationOf(frame));
     ++frame;
   };
   while (frame < 3) process();
@@ -62,12 +62,12 @@ void expectNoneAfterDullFrames(const TrackerConfig& config, const TurnOf& turnOf
   EXPECT_GT(found, 100U * kCycle_frames) << "there was hardly anything to do";
 }
 
-std::optional<float> unknownTurn(int) {
+std::optional<float> unknownRotation(int) {
   return std::nullopt;
 }
 
 TEST(TrackerAllocation, NoneAfterDullFrames) {
-  expectNoneAfterDullFrames({}, unknownTurn);
+  expectNoneAfterDullFrames({}, unknownRotation);
 }
 
 TEST(TrackerAllocation, NoneWithAttitudeThatComesAndGoes) {
@@ -86,7 +86,7 @@ TEST(TrackerAllocation, NoneWithFewerPassesOrStrictSuppression) {
       TrackerConfig config;
       config.corners.sampling_passes = passes;
       config.corners.suppression = suppression;
-      expectNoneAfterDullFrames(config, unknownTurn);
+      expectNoneAfterDullFrames(config, unknownRotation);
     }
   }
 }

@@ -130,7 +130,7 @@ TEST_F(DoctorBag, FindsATurnedCameraAndPrintsTheRightTransform) {
   for (const Eigen::Vector3d& turn :
        {Eigen::Vector3d(0, 0, M_PI), Eigen::Vector3d(0, M_PI, 0), Eigen::Vector3d(M_PI / 2, 0, 0),
         Eigen::Vector3d(0, 0, -M_PI / 2)}) {
-    turnCameras(path(), path("turned.bag"), rotationOf(turn));
+    rotateCameras(path(), path("turned.bag"), rotationOf(turn));
     const DoctorReport report = examineBag(path("turned.bag"));
     EXPECT_EQ(found(report.findings).count("camera_direction"), 1U) << turn.transpose();
     EXPECT_FALSE(report.canWork());

@@ -74,8 +74,8 @@ inline void dropOdometry(const std::string& from, const std::string& to) {
 }
 
 /// A bag's copy with the cameras turned by `turn` in tf.
-inline void turnCameras(const std::string& from, const std::string& to,
-                        const Eigen::Matrix3d& turn) {
+inline void rotateCameras(const std::string& from, const std::string& to,
+                          const Eigen::Matrix3d& turn) {
   const rosbag::Bag source(from, rosbag::bagmode::Read);
   rosbag::Bag copy(to, rosbag::bagmode::Write);
   rosbag::View view(source);

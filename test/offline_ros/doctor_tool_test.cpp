@@ -93,7 +93,7 @@ TEST_F(DoctorTool, AllFaultsOfTheDriverAreUsableAndTheReplayLineRuns) {
 
 TEST_F(DoctorTool, ReplayOfATurnedCameraNamesDoctorAndThatOfASoundOneDoesNot) {
   longLaps().write(driverFaultsNamed({"released"}), path());
-  turnCameras(path(), path("turned.bag"), rotationOf(Eigen::Vector3d(0, 0, M_PI)));
+  rotateCameras(path(), path("turned.bag"), rotationOf(Eigen::Vector3d(0, 0, M_PI)));
   const auto replay = [this](const std::string& name) {
     const std::string command = ARDRONE_VSLAM_REPLAY " " + path(name) + " --out " + path("run") +
                                 " --config " ARDRONE_VSLAM_SOURCE_DIR "/config/ardrone.yaml > " +

@@ -29,7 +29,7 @@ DronePacket packetAt(double yaw_rad, const Eigen::Vector3d& velocity_base_m_s) {
   packet.altitude_m = 1.8;
   packet.pose_variances.setConstant(0.25);
   packet.twist_variances.setConstant(0.04);
-  packet.turn_rate_base_rad_s << 0.1, 0.2, 0.3;
+  packet.angular_rate_base_rad_s << 0.1, 0.2, 0.3;
   return packet;
 }
 

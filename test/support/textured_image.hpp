@@ -39,10 +39,10 @@ class Texture {
   }
 
   /// The image without a shift, turned (from x to y) and grown about its middle.
-  GreyImage turnedImage(int width_px, int height_px, double turn_rad, double growth, int noise,
-                        unsigned seed) const {
-    const double c = std::cos(turn_rad) / growth;
-    const double s = std::sin(turn_rad) / growth;
+  GreyImage rotatedImage(int width_px, int height_px, double rotation_rad, double growth, int noise,
+                         unsigned seed) const {
+    const double c = std::cos(rotation_rad) / growth;
+    const double s = std::sin(rotation_rad) / growth;
     return noisyImage(width_px, height_px, noise, seed, [&](int x_px, int y_px) {
       const double x = x_px - width_px / 2.0;
       const double y = y_px - height_px / 2.0;

@@ -19,20 +19,21 @@ class Swaying {
   explicit Swaying(std::uint64_t seed, double rotation_rad = 0.15, double displacement_m = 0.4) {
     RandomSource random(seed, 5);
     for (int axis = 0; axis < 3; ++axis) {
-      turns_.push_back({rotation_rad * (axis == 2 ? 3 : 1), random.uniform(0.3, 0.8),
-                        random.uniform(0, 2 * M_PI)});
-      ways_.push_back({displacement_m, random.uniform(0.1, 0.3), random.uniform(0, 2 * M_PI)});
+      rotations_.push_back({rotation_rad * (axis == 2 ? 3 : 1), random.uniform(0.3, 0.8),
+                            random.uniform(0, 2 * M_PI)});
+      displacements_.push_back(
+          {displacement_m, random.uniform(0.1, 0.3), random.uniform(0, 2 * M_PI)});
     }
   }
 
   Eigen::Isometry3d T_map_base(double t_s) const {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-    T.linear() = (Eigen::AngleAxisd(at(turns_[2], t_s), Eigen::Vector3d::UnitZ()) *
-                  Eigen::AngleAxisd(at(turns_[1], t_s), Eigen::Vector3d::UnitY()) *
-                  Eigen::AngleAxisd(at(turns_[0], t_s), Eigen::Vector3d::UnitX()))
+    T.linear() = (Eigen::AngleAxisd(at(rotations_[2], t_s), Eigen::Vector3d::UnitZ()) *
+                  Eigen::AngleAxisd(at(rotations_[1], t_s), Eigen::Vector3d::UnitY()) *
+                  Eigen::AngleAxisd(at(rotations_[0], t_s), Eigen::Vector3d::UnitX()))
                      .toRotationMatrix();
     for (int axis = 0; axis < 3; ++axis)
-      T.translation()[axis] = at(ways_[static_cast<std::size_t>(axis)], t_s);
+      T.translation()[axis] = at(displacements_[static_cast<std::size_t>(axis)], t_s);
     return T;
   }
 
@@ -46,8 +47,8 @@ class Swaying {
     return wave.amplitude * std::sin(2 * M_PI * wave.frequency_hz * t_s + wave.phase_rad);
   }
 
-  std::vector<Wave> turns_;
-  std::vector<Wave> ways_;
+  std::vector<Wave> rotations_;
+  std::vector<Wave> displacements_;
 };
 
 constexpr std::int64_t kSwayBegin_ns = 10'000'000'000;

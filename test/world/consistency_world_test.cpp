@@ -21,8 +21,8 @@ std::vector<OdometryState> observeAs(const OdometryNoiseConfig& config, const Fl
   RandomSource random(seed, 78);
   const double scale_error = config.scale_sigma * random.normal();
   Eigen::Vector3d bias_m_s = config.velocity_bias_m_s * random.normal3();
-  Eigen::Vector3d odom_turn_rad = radians(config.tilt_sigma_deg) * random.normal3();
-  odom_turn_rad.z() = 0;
+  Eigen::Vector3d odom_rotation_rad = radians(config.tilt_sigma_deg) * random.normal3();
+  odom_rotation_rad.z() = 0;
   std::vector<OdometryState> states;
   for (std::size_t i = 0; i < flight.size(); ++i) {
     const Eigen::Isometry3d& T_map_base = flight[i].T_map_base;
@@ -32,7 +32,7 @@ std::vector<OdometryState> observeAs(const OdometryNoiseConfig& config, const Fl
       state.T_odom_base.translation() = T_map_base.translation();
     } else {
       const double dt_s = static_cast<double>(state.stamp_ns - flight[i - 1].stamp_ns) * 1e-9;
-      const Eigen::Matrix3d R_odom_map = rotationOf(-odom_turn_rad);
+      const Eigen::Matrix3d R_odom_map = rotationOf(-odom_rotation_rad);
       const Eigen::Vector3d step_odom =
           R_odom_map * (T_map_base.translation() - flight[i - 1].T_map_base.translation() +
                         flight[i - 1].T_map_base.linear() * bias_m_s * dt_s);
@@ -50,11 +50,11 @@ std::vector<OdometryState> observeAs(const OdometryNoiseConfig& config, const Fl
           radians(config.yaw_walk_deg_per_sqrt_s) * radians(config.yaw_walk_deg_per_sqrt_s) * dt_s +
           radians(config.yaw_walk_deg_per_sqrt_m) * radians(config.yaw_walk_deg_per_sqrt_m) *
               step_odom.norm();
-      const double yaw_rad = odom_turn_rad.z() + std::sqrt(yaw_variance) * random.normal();
-      fade(config.tilt_time_s, radians(config.tilt_sigma_deg), odom_turn_rad);
-      odom_turn_rad.z() = yaw_rad;
+      const double yaw_rad = odom_rotation_rad.z() + std::sqrt(yaw_variance) * random.normal();
+      fade(config.tilt_time_s, radians(config.tilt_sigma_deg), odom_rotation_rad);
+      odom_rotation_rad.z() = yaw_rad;
     }
-    state.T_odom_base.linear() = rotationOf(-odom_turn_rad) *
+    state.T_odom_base.linear() = rotationOf(-odom_rotation_rad) *
                                  rotationOf(radians(config.attitude_noise_deg) * random.normal3()) *
                                  T_map_base.linear();
     states.push_back(state);

@@ -64,10 +64,10 @@ double yawFactorOverDrawn(double factor, std::uint64_t seed) {
   RandomSource random(seed, 78);
   double yaw_rad = 0;
   for (std::size_t i = 1; i < odometry.size(); ++i) {
-    const double way_m =
+    const double travelled_m =
         (flight[i].T_map_base.translation() - flight[i - 1].T_map_base.translation()).norm();
     const double walk_deg = std::hypot(config.yaw_walk_deg_per_sqrt_s * std::sqrt(0.1),
-                                       config.yaw_walk_deg_per_sqrt_m * std::sqrt(way_m));
+                                       config.yaw_walk_deg_per_sqrt_m * std::sqrt(travelled_m));
     yaw_rad += factor * radians(walk_deg) * random.normal();
     const Eigen::Vector3d white_rad = radians(config.attitude_noise_deg) * random.normal3();
     odometry[i].T_odom_base.linear() =

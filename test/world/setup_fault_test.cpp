@@ -56,9 +56,10 @@ TEST_P(SetupFaultWorld, ThePoseFollowsTheOdometryAndItsStateSaysSo) {
   const FrameResult last = fly(101, 200, mirrored());
   EXPECT_EQ(last.state, SlamState::kDistrusted);
   EXPECT_EQ(last.new_landmarks, 0);
-  const Eigen::Vector3d way = last.T_map_base.translation() - first.T_map_base.translation();
+  const Eigen::Vector3d displacement =
+      last.T_map_base.translation() - first.T_map_base.translation();
   const Eigen::Vector3d told = last.T_odom_base.translation() - first.T_odom_base.translation();
-  EXPECT_LT((way - told).norm(), 0.02);
+  EXPECT_LT((displacement - told).norm(), 0.02);
   EXPECT_GT(last.covariance(0, 0), first.covariance(0, 0));
 }
 
@@ -95,9 +96,10 @@ TEST_P(MsckfSetupFaultWorld, ForgottenImagesLeaveAnUncertainPoseAndNoLandmark) {
   const FrameResult after = fly(100, 101, forgetful);
   EXPECT_EQ(after.state, SlamState::kDistrusted);
   EXPECT_TRUE(slam_->landmarks().empty());
-  const Eigen::Vector3d way = after.T_map_base.translation() - before.T_map_base.translation();
+  const Eigen::Vector3d displacement =
+      after.T_map_base.translation() - before.T_map_base.translation();
   const Eigen::Vector3d told = after.T_odom_base.translation() - before.T_odom_base.translation();
-  EXPECT_LT((way - told).norm(), 0.02) << "the pose goes on where it was";
+  EXPECT_LT((displacement - told).norm(), 0.02) << "the pose goes on where it was";
   const Eigen::Vector3d axis = corrected.normalized();
   const double variance_m2 = axis.dot(after.covariance.topLeftCorner<3, 3>() * axis);
   EXPECT_GT(variance_m2, corrected.squaredNorm());

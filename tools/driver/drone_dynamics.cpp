@@ -34,7 +34,7 @@ DroneDynamics::DroneDynamics(const FlightStart& start, const DroneLimits& limits
 /// On the floor, below where it is.
 void DroneDynamics::standDown() {
   phase_ = Phase::kLanded;
-  turn_rad_s_ = 0;
+  yaw_rate_rad_s_ = 0;
   tilt_forward_ = tilt_left_ = climb_ = Follower();
   Eigen::Vector3d place = state_.T_world_body.translation();
   place.z() = limits_.stands_m;
@@ -120,9 +120,10 @@ void DroneDynamics::step(double dt_s, const DroneCommand& command) {
   const Eigen::Matrix3d R_before = state_.T_world_body.linear();
   Eigen::Vector3d push = Eigen::Vector3d::Zero();
   if (phase_ != Phase::kFalling) {
-    const double turn_share = 1 - std::exp(-dt_s / limits_.turn_time_s);
-    turn_rad_s_ += turn_share * (limits_.turn_rad_s * cut(obeyed.turn_left) - turn_rad_s_);
-    yaw_rad_ += turn_rad_s_ * dt_s;
+    const double yaw_share = 1 - std::exp(-dt_s / limits_.yaw_time_s);
+    yaw_rate_rad_s_ +=
+        yaw_share * (limits_.yaw_rate_rad_s * cut(obeyed.turn_left) - yaw_rate_rad_s_);
+    yaw_rad_ += yaw_rate_rad_s_ * dt_s;
     push = thrust(dt_s, obeyed);
     state_.T_world_body.linear() = attitudeOf(push, yaw_rad_);
   }
@@ -131,8 +132,8 @@ void DroneDynamics::step(double dt_s, const DroneCommand& command) {
   state_.T_world_body.translation() += before * dt_s + 0.5 * acceleration * dt_s * dt_s;
   state_.velocity_world_m_s = before + acceleration * dt_s;
   state_.acceleration_world_m_s2 = acceleration;
-  const Eigen::AngleAxisd turn(R_before.transpose() * state_.T_world_body.linear());
-  state_.turn_rate_body_rad_s = turn.axis() * (turn.angle() / dt_s);
+  const Eigen::AngleAxisd rotation(R_before.transpose() * state_.T_world_body.linear());
+  state_.angular_rate_body_rad_s = rotation.axis() * (rotation.angle() / dt_s);
   stopAtWalls();
 
   const double height_m = state_.T_world_body.translation().z();

@@ -19,12 +19,12 @@ struct DroneCommand {
 
 /// How the AR.Drone's own controller answers; the defaults are its usual limits.
 struct DroneLimits {
-  double tilt_rad = 0.21;      ///< at a command of 1
-  double climb_m_s = 0.7;      ///< likewise
-  double turn_rad_s = 1.75;    ///< likewise
-  double tilt_time_s = 0.12;   ///< time constant of roll and pitch, twice over
-  double climb_time_s = 0.25;  ///< of the vertical speed, twice over
-  double turn_time_s = 0.15;   ///< of the turn rate
+  double tilt_rad = 0.21;        ///< at a command of 1
+  double climb_m_s = 0.7;        ///< likewise
+  double yaw_rate_rad_s = 1.75;  ///< likewise
+  double tilt_time_s = 0.12;     ///< time constant of roll and pitch, twice over
+  double climb_time_s = 0.25;    ///< of the vertical speed, twice over
+  double yaw_time_s = 0.15;      ///< of the turn rate
   double brake_per_s =
       1.2;  ///< without a command it tilts against its speed: deceleration per speed
   double take_off_m = 1.0;  ///< height at which it hovers after take-off
@@ -77,7 +77,7 @@ class DroneDynamics {
   Phase phase_ = Phase::kLanded;
   FlightState state_;
   double yaw_rad_;
-  double turn_rad_s_ = 0;
+  double yaw_rate_rad_s_ = 0;
   Follower tilt_forward_;  // tangents of the angles by which thrust leans, in the heading's frame
   Follower tilt_left_;
   Follower climb_;

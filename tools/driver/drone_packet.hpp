@@ -30,7 +30,7 @@ struct DronePacket {
   Eigen::Vector3d velocity_base_m_s = Eigen::Vector3d::Zero();
   double altitude_m = 0;  ///< above what is below, smoothed
   Eigen::Vector3d specific_force_base_m_s2 = Eigen::Vector3d::Zero();
-  Eigen::Vector3d turn_rate_base_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_rate_base_rad_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d magnetic_field_base = Eigen::Vector3d::Zero();  ///< raw
   /// Of the integrated velocities with the attitude, and of velocity and turn rate: what the drone
   /// does not send and a driver without fault would tell.

@@ -26,7 +26,7 @@ double square(double x) {
 }
 
 /// What the profile's first part says about its errors; never zero, which would mean "unknown".
-void setVariances(const OdometryProfile& profile, double t_s, double displacement_m,
+void setVariances(const OdometryProfile& profile, double t_s, double travelled_m,
                   DronePacket& packet) {
   constexpr double kLeast_m2 = 1e-6, kLeast_rad2 = 1e-6;
   constexpr double kNoiseRate_hz = 15;  // at which velocity_noise_m_s is meant
@@ -35,10 +35,10 @@ void setVariances(const OdometryProfile& profile, double t_s, double displacemen
   const double position =
       integratedVariance(profile.velocity_bias_m_s, profile.velocity_bias_time_s, t_s) +
       square(profile.velocity_noise_m_s) * t_s / kNoiseRate_hz +
-      square(profile.scale_sigma * displacement_m);
+      square(profile.scale_sigma * travelled_m);
   const double noise = square(profile.attitude_noise_rad);
   const double yaw = noise + square(profile.yaw_walk_rad_per_sqrt_s) * t_s +
-                     square(profile.yaw_walk_rad_per_sqrt_m) * displacement_m;
+                     square(profile.yaw_walk_rad_per_sqrt_m) * travelled_m;
   packet.pose_variances.head<3>().setConstant(kLeast_m2 + position);
   packet.pose_variances.segment<2>(3).setConstant(kLeast_rad2 + noise +
                                                   square(profile.attitude_bias_rad));
@@ -94,16 +94,16 @@ DronePacket DroneSensors::measure(const FlightState& state, const std::optional<
   if (count_ > 0) {
     const Eigen::Vector3d step_odom = T_odom_base.translation() - last_odom_m_;
     packet.velocity_base_m_s = packet.R_odom_base.transpose() * step_odom * kPacketRate_hz;
-    way_m_ += step_odom.norm();
+    travelled_m_ += step_odom.norm();
   }
   packet.altitude_m = fuseAltitude(range_m, packet);
   const double noise_share = profile_.isTruth() ? 0 : 1;
   packet.specific_force_base_m_s2 =
       state.specificForce_body_m_s2() + noise_share * kForceNoise_m_s2 * noise_.normal3();
-  packet.turn_rate_base_rad_s =
-      state.turn_rate_body_rad_s + noise_share * kGyroNoise_rad_s * noise_.normal3();
+  packet.angular_rate_base_rad_s =
+      state.angular_rate_body_rad_s + noise_share * kGyroNoise_rad_s * noise_.normal3();
   packet.magnetic_field_base = magneticField(state.T_world_body.linear());
-  setVariances(profile_, t_s, way_m_, packet);
+  setVariances(profile_, t_s, travelled_m_, packet);
   last_odom_m_ = T_odom_base.translation();
   ++count_;
   return packet;

@@ -33,7 +33,7 @@ class DroneSensors {
   RandomSource noise_;
   std::int64_t count_ = 0;
   Eigen::Vector3d last_odom_m_ = Eigen::Vector3d::Zero();
-  double way_m_ = 0;
+  double travelled_m_ = 0;
   double altitude_m_ = 0;
   bool has_altitude_ = false;
 };

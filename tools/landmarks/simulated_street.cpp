@@ -41,14 +41,14 @@ FirstLook lookInto(const std::string& path) {
 void addStreet(PointWorld& world, const Trajectory& path, const StreetConfig& config,
                std::uint64_t seed) {
   assert(path.size() >= 2 && "a street needs a path");
-  const std::vector<double> displacement_m = displacements_m(path);
+  const std::vector<double> travelled_m = distancesAlong_m(path);
   const auto& poses = path.poses();
   RandomSource random(seed);
   for (int k = 0; k < config.landmarks; ++k) {
-    const double along_m = random.uniform(0, displacement_m.back());
-    const auto after = std::upper_bound(displacement_m.begin(), displacement_m.end() - 1, along_m);
+    const double along_m = random.uniform(0, travelled_m.back());
+    const auto after = std::upper_bound(travelled_m.begin(), travelled_m.end() - 1, along_m);
     const Eigen::Isometry3d& near =
-        poses[static_cast<std::size_t>(after - displacement_m.begin())].T_frame_body;
+        poses[static_cast<std::size_t>(after - travelled_m.begin())].T_frame_body;
     const double side = random.chance(0.5) ? 1 : -1;
     const double away_m = random.uniform(config.nearest_m, config.farthest_m);
     const double up_m = random.uniform(config.lowest_m, config.highest_m);

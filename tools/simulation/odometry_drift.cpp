@@ -36,7 +36,7 @@ Eigen::Quaterniond fromRotationVector(const Eigen::Vector3d& v) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, v / angle));
 }
 
-double turnAboutZ(const Eigen::Matrix3d& R_then_now) {
+double rotationAboutZ(const Eigen::Matrix3d& R_then_now) {
   const Eigen::AngleAxisd turn(R_then_now);
   return turn.angle() * turn.axis().z();
 }
@@ -165,7 +165,7 @@ Eigen::Isometry3d OdometryDrift::report(const Eigen::Isometry3d& T_map_base, dou
         R_last_map * (T_map_base.translation() - T_map_last_.translation());
     position =
         T_odom_last_.translation() + T_odom_last_.linear() * noise_->steps.corrupt(step_base);
-    noise_->attitude.advance(step_base.norm(), turnAboutZ(R_last_map * T_map_base.linear()),
+    noise_->attitude.advance(step_base.norm(), rotationAboutZ(R_last_map * T_map_base.linear()),
                              q_map_base);
   }
   has_last_ = true;

@@ -62,30 +62,29 @@ Trajectory scaled(const Trajectory& truth, double scale_error) {
   return Trajectory(std::move(poses));
 }
 
-std::vector<double> displacements_m(const Trajectory& path) {
-  std::vector<double> displacement_m{0};
+std::vector<double> distancesAlong_m(const Trajectory& path) {
+  std::vector<double> travelled_m{0};
   for (std::size_t i = 1; i < path.size(); ++i) {
-    displacement_m.push_back(displacement_m.back() +
-                             (path.poses()[i].T_frame_body.translation() -
-                              path.poses()[i - 1].T_frame_body.translation())
-                                 .norm());
+    travelled_m.push_back(travelled_m.back() + (path.poses()[i].T_frame_body.translation() -
+                                                path.poses()[i - 1].T_frame_body.translation())
+                                                   .norm());
   }
-  return displacement_m;
+  return travelled_m;
 }
 
 std::optional<double> translationError_percent(const Trajectory& estimate,
                                                const Trajectory& truth) {
   assert(estimate.size() == truth.size() && "trajectories must have equal stamps");
-  const std::vector<double> displacement_m = displacements_m(truth);
+  const std::vector<double> travelled_m = distancesAlong_m(truth);
   constexpr std::size_t kStartStep = 10;
   double sum = 0;
   int count = 0;
   for (std::size_t first = 0; first < truth.size(); first += kStartStep) {
     for (double length_m = 100; length_m <= 800; length_m += 100) {
-      const auto end = std::upper_bound(displacement_m.begin() + static_cast<std::ptrdiff_t>(first),
-                                        displacement_m.end(), displacement_m[first] + length_m);
-      if (end == displacement_m.end()) break;
-      const auto last = static_cast<std::size_t>(end - displacement_m.begin());
+      const auto end = std::upper_bound(travelled_m.begin() + static_cast<std::ptrdiff_t>(first),
+                                        travelled_m.end(), travelled_m[first] + length_m);
+      if (end == travelled_m.end()) break;
+      const auto last = static_cast<std::size_t>(end - travelled_m.begin());
       const Eigen::Isometry3d true_motion =
           truth.poses()[first].T_frame_body.inverse() * truth.poses()[last].T_frame_body;
       const Eigen::Isometry3d motion =

@@ -19,7 +19,7 @@ struct ErrorSummary {
 /// @pre both have the same stamps
 std::vector<double> positionErrors_m(const Trajectory& estimate, const Trajectory& truth);
 /// Way to each pose along the path; 0 for the first. @pre not empty
-std::vector<double> displacements_m(const Trajectory& path);
+std::vector<double> distancesAlong_m(const Trajectory& path);
 ErrorSummary summarise(const std::vector<double>& errors_m);
 
 /// RMSE after the estimate was moved and turned (never scaled) so that it is least. 0 for no poses.

@@ -11,9 +11,9 @@
 namespace ardrone_vslam {
 CameraPath pathThrough(const FlightState& state, const Eigen::Isometry3d& T_body_cam) {
   return [state, T_body_cam](double since_stamp_s) {
-    const double rate_rad_s = state.turn_rate_body_rad_s.norm();
+    const double rate_rad_s = state.angular_rate_body_rad_s.norm();
     const Eigen::Vector3d axis = rate_rad_s > 0
-                                     ? Eigen::Vector3d(state.turn_rate_body_rad_s / rate_rad_s)
+                                     ? Eigen::Vector3d(state.angular_rate_body_rad_s / rate_rad_s)
                                      : Eigen::Vector3d::UnitX();
     Eigen::Isometry3d T_world_cam =
         state.T_world_body * Eigen::AngleAxisd(rate_rad_s * since_stamp_s, axis) * T_body_cam;

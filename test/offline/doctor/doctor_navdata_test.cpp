@@ -150,7 +150,7 @@ TEST(DoctorNavdata, FindsZeros) {
             (Names{"navdata_values", "navdata_height", "navdata_velocity", "imu_turn_rate"}));
   EXPECT_FALSE(examine(zero, {}).canWork());
   const auto imu = withImu([](std::size_t, DroneImu& reading) {
-    reading.turn_rate_base_rad_s.setZero();
+    reading.angular_rate_base_rad_s.setZero();
     reading.force_base_m_s2.setZero();
   });
   EXPECT_EQ(found(imu), (Names{"imu_values", "imu_turn_rate"}));
@@ -176,11 +176,11 @@ TEST(DoctorNavdata, FindsOtherUnits) {
   EXPECT_EQ(found(newton), Names{"navdata_values"});
   const auto g = withImu([](std::size_t, DroneImu& reading) { reading.force_base_m_s2 /= 9.81; });
   EXPECT_EQ(found(g), Names{"imu_values"});
-  const auto degrees =
-      withImu([](std::size_t, DroneImu& reading) { reading.turn_rate_base_rad_s *= 180 / M_PI; });
+  const auto degrees = withImu(
+      [](std::size_t, DroneImu& reading) { reading.angular_rate_base_rad_s *= 180 / M_PI; });
   EXPECT_EQ(found(degrees), Names{"imu_turn_rate"});
   const auto mirrored =
-      withImu([](std::size_t, DroneImu& reading) { reading.turn_rate_base_rad_s *= -1; });
+      withImu([](std::size_t, DroneImu& reading) { reading.angular_rate_base_rad_s *= -1; });
   EXPECT_EQ(found(mirrored), Names{"imu_turn_rate"});
 }
 

@@ -61,7 +61,7 @@ TEST(DroneDynamics, ClimbsAndTurnsAtItsLimitsAndNoFaster) {
   drone.advance(3, {0, 0, 5, 0});
   EXPECT_NEAR(drone.state().velocity_world_m_s.z(), 0.7, 0.01);
   drone.advance(3, {0, 0, 0, -7});
-  EXPECT_NEAR(drone.state().turn_rate_body_rad_s.z(), -1.75, 0.01);
+  EXPECT_NEAR(drone.state().angular_rate_body_rad_s.z(), -1.75, 0.01);
   drone.advance(5, {9, 0, 0, 0});
   EXPECT_NEAR(tiltOf(drone), 0.21, 0.01);
 }
@@ -140,16 +140,17 @@ TEST(DroneDynamics, ItsStateKeepsTheLawsOfMotion) {
     drone.advance(kStep_s,
                   {std::sin(3 * t), std::cos(2 * t), 0.5 * std::sin(t), std::sin(1.3 * t)});
     const FlightState& now = drone.state();
-    const Eigen::Vector3d way = now.T_world_body.translation() - before.T_world_body.translation();
+    const Eigen::Vector3d displacement_m =
+        now.T_world_body.translation() - before.T_world_body.translation();
     const Eigen::Vector3d mean_speed = 0.5 * (before.velocity_world_m_s + now.velocity_world_m_s);
-    EXPECT_LT((way / kStep_s - mean_speed).norm(), 1e-9);
+    EXPECT_LT((displacement_m / kStep_s - mean_speed).norm(), 1e-9);
     const Eigen::Vector3d gained = now.velocity_world_m_s - before.velocity_world_m_s;
     EXPECT_LT((gained / kStep_s - now.acceleration_world_m_s2).norm(), 1e-9);
     const Eigen::Vector3d force =
         now.specificForce_body_m_s2() +
         kDrag_per_s * now.T_world_body.linear().transpose() * before.velocity_world_m_s;
     EXPECT_LT(force.head<2>().norm(), 1e-9) << "the rotors push along z alone";
-    EXPECT_LT((now.turn_rate_body_rad_s - before.turn_rate_body_rad_s).norm(), 0.2);
+    EXPECT_LT((now.angular_rate_body_rad_s - before.angular_rate_body_rad_s).norm(), 0.2);
   }
 }
 

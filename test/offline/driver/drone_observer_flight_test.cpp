@@ -165,7 +165,7 @@ TEST_F(DroneObserverFlight, TheOrderOfNavdataAndImuDoesNotMatter) {
       if (i < readings.size()) observer.push(readings[i], states);
       if (i < late) continue;
       const DronePacket& packet = flight.packets[i - late];
-      observer.push(DroneImu{readings[i - late].stamp_ns, packet.turn_rate_base_rad_s,
+      observer.push(DroneImu{readings[i - late].stamp_ns, packet.angular_rate_base_rad_s,
                              packet.specific_force_base_m_s2},
                     states);
     }
@@ -181,7 +181,7 @@ TEST_F(DroneObserverFlight, TheOrderOfNavdataAndImuDoesNotMatter) {
     }
   }
   const Eigen::Vector3d turn = runs[0][500].twist_base.tail<3>();
-  EXPECT_EQ(turn, flight.packets[500].turn_rate_base_rad_s);
+  EXPECT_EQ(turn, flight.packets[500].angular_rate_base_rad_s);
 }
 
 TEST_F(DroneObserverFlight, ATurnedWorldGivesATurnedFlight) {

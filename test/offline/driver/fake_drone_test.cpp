@@ -50,9 +50,10 @@ TEST(FakeDrone, TakesOffFliesAndLandsAndItsPacketsSayIt) {
   drone.command({});
   moment = after(drone, 3);
   EXPECT_EQ(moment.packet.state, State::kHovering);
-  const Eigen::Vector3d way = (before.inverse() * moment.state.T_world_body).translation();
-  EXPECT_GT(way.x(), 0.5);
-  EXPECT_NEAR(way.y(), 0, 1e-3);
+  const Eigen::Vector3d displacement_m =
+      (before.inverse() * moment.state.T_world_body).translation();
+  EXPECT_GT(displacement_m.x(), 0.5);
+  EXPECT_NEAR(displacement_m.y(), 0, 1e-3);
   EXPECT_EQ(drone.land(), "");
   EXPECT_EQ(after(drone, 0.2).packet.state, State::kLanding);
   EXPECT_EQ(after(drone, 5).packet.state, State::kLanded);

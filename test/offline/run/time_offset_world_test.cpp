@@ -70,7 +70,7 @@ TEST(TimeOffsetWorld, TurningEvenlyOnTheSpotIsNotEnoughForANoisyAttitude) {
   options.rate_hz = 20;
   WorldSequence sequence(options);
   const std::vector<ImageFeatures> images = featuresOf(sequence);
-  EXPECT_EQ(find(sequence, images, "drone", 1, 0.04).state, TimeOffsetState::kTooLittleTurn);
+  EXPECT_EQ(find(sequence, images, "drone", 1, 0.04).state, TimeOffsetState::kTooLittleRotation);
 }
 
 }  // namespace

@@ -266,14 +266,14 @@ TEST(OdometryModel, TurnsAreReportedTooLargeOrTooSmallByOneShare) {
   yaw_scale.name = "only_yaw_scale";
   yaw_scale.yaw_scale_sigma = 0.02;
   const Trajectory truth = circle();
-  const double turned_rad = 0.03 * 200 * std::cos(0.1);  // about the axis of the banked body
+  const double rotation_rad = 0.03 * 200 * std::cos(0.1);  // about the axis of the banked body
   const double error_rad = rms(truth, yaw_scale, [&truth](const OdometryRun& run) {
                              const Eigen::Matrix3d R_true_odom =
                                  truth.poses().back().T_frame_body.linear().transpose() *
                                  run.states.back().T_odom_base.linear();
                              return Eigen::Vector3d(Eigen::AngleAxisd(R_true_odom).angle(), 0, 0);
                            }).x();
-  EXPECT_NEAR(error_rad / (0.02 * turned_rad), 1, kTolerance);
+  EXPECT_NEAR(error_rad / (0.02 * rotation_rad), 1, kTolerance);
   const auto straight = simulateOdometry(straightLine(5, 4), yaw_scale, 1).states;
   EXPECT_NEAR(yawOf(straight.back().T_odom_base), 0, 1e-12) << "where nothing turns";
 }

@@ -37,7 +37,7 @@ TEST_P(EachFlight, BeginsAtRestAndLevel) {
   const FlightState first = flight()->state(0);
   EXPECT_LT(first.velocity_world_m_s.norm(), 1e-6);
   EXPECT_LT(first.acceleration_world_m_s2.norm(), 1e-4);
-  EXPECT_LT(first.turn_rate_body_rad_s.norm(), 1e-3);  // the tilt sees 10 ms ahead
+  EXPECT_LT(first.angular_rate_body_rad_s.norm(), 1e-3);  // the tilt sees 10 ms ahead
   EXPECT_LT((first.specificForce_body_m_s2() - Eigen::Vector3d(0, 0, kGravity_m_s2)).norm(), 1e-4);
 }
 
@@ -54,7 +54,8 @@ TEST_P(EachFlight, DerivativesAreThoseOfThePose) {
         3e-4)
         << t;
     const Eigen::AngleAxisd turn(before.linear().transpose() * after.linear());
-    EXPECT_LT((turn.axis() * turn.angle() / (2 * kStep_s) - now.turn_rate_body_rad_s).norm(), 2e-3)
+    EXPECT_LT((turn.axis() * turn.angle() / (2 * kStep_s) - now.angular_rate_body_rad_s).norm(),
+              2e-3)
         << t;
   }
 }
@@ -83,7 +84,7 @@ TEST_P(EachFlight, InertialQuantitiesIntegrateToTheTruth) {
                     position = state.T_world_body.translation();
     for (int i = 0; i < 10000; ++i) {
       const FlightState middle = drone->state(begin_s + (i + 0.5) * kStep_s);
-      const Eigen::Vector3d turn = middle.turn_rate_body_rad_s * kStep_s;
+      const Eigen::Vector3d turn = middle.angular_rate_body_rad_s * kStep_s;
       const Eigen::AngleAxisd half(turn.norm() / 2, turn.normalized());
       if (turn.norm() > 0) R_world_body = R_world_body * half;
       const Eigen::Vector3d acceleration =
@@ -139,7 +140,7 @@ TEST(Flights, PureYawTurnsWithoutMoving) {
   for (double t = 0; t < 46; t += 0.1) {
     EXPECT_EQ((flight->pose(t).translation() - flight->pose(0).translation()).norm(), 0);
     EXPECT_NEAR(flight->pose(t).linear()(2, 2), 1, 1e-12);
-    fastest = std::max(fastest, std::abs(flight->state(t).turn_rate_body_rad_s.z()));
+    fastest = std::max(fastest, std::abs(flight->state(t).angular_rate_body_rad_s.z()));
   }
   EXPECT_NEAR(fastest, M_PI / 2.2, 0.01);
 }
@@ -165,7 +166,7 @@ TEST(Flights, FastBlurIsFast) {
       EXPECT_LT(now.velocity_world_m_s.norm(), 1.2);
     }
     fastest = std::max(fastest, now.velocity_world_m_s.norm());
-    quickest = std::max(quickest, now.turn_rate_body_rad_s.norm());
+    quickest = std::max(quickest, now.angular_rate_body_rad_s.norm());
   }
   EXPECT_GT(fastest, 1.8);
   EXPECT_GT(quickest, 2);

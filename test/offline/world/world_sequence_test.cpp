@@ -44,8 +44,8 @@ TEST(Flight, StartsAtRestWhereItIsTold) {
 /// Largest values along a flight, by differences of 10 ms.
 struct Extremes {
   double speed_m_s = 0;
-  double turn_rate_rad_s = 0;
-  double turn_acceleration_rad_s2 = 0;
+  double angular_rate_rad_s = 0;
+  double angular_acceleration_rad_s2 = 0;
   double tilt_rad = 0;
   double least_wall_distance_m = 1e9;
 };
@@ -53,21 +53,21 @@ struct Extremes {
 Extremes fly(const Flight& flight, double seconds) {
   constexpr double kStep_s = 0.01;
   Extremes e;
-  Eigen::Vector3d last_turn = Eigen::Vector3d::Zero();
+  Eigen::Vector3d last_rotation = Eigen::Vector3d::Zero();
   for (double t = 0; t < seconds; t += kStep_s) {
     const Eigen::Isometry3d a = flight.pose(t), b = flight.pose(t + kStep_s);
     const Eigen::AngleAxisd turn(a.linear().transpose() * b.linear());
     const Eigen::Vector3d rate = turn.axis() * turn.angle() / kStep_s;
     const Eigen::Vector3d p = a.translation();
     e.speed_m_s = std::max(e.speed_m_s, (b.translation() - p).norm() / kStep_s);
-    e.turn_rate_rad_s = std::max(e.turn_rate_rad_s, rate.norm());
-    e.turn_acceleration_rad_s2 =
-        std::max(e.turn_acceleration_rad_s2, (rate - last_turn).norm() / kStep_s);
+    e.angular_rate_rad_s = std::max(e.angular_rate_rad_s, rate.norm());
+    e.angular_acceleration_rad_s2 =
+        std::max(e.angular_acceleration_rad_s2, (rate - last_rotation).norm() / kStep_s);
     e.tilt_rad = std::max(e.tilt_rad, std::acos(std::min(1.0, a.linear()(2, 2))));
     e.least_wall_distance_m =
         std::min({e.least_wall_distance_m, kRoomLength_m / 2 - std::abs(p.x()),
                   kRoomWidth_m / 2 - std::abs(p.y()), p.z(), kRoomHeight_m - p.z()});
-    last_turn = rate;
+    last_rotation = rate;
   }
   return e;
 }
@@ -76,14 +76,14 @@ TEST(Flight, IsSmoothAndStaysInTheRoom) {
   const Extremes usual = fly(*makeFlight("laps", std::nullopt), 200);
   EXPECT_LT(usual.speed_m_s, 1.2);
   EXPECT_GT(usual.speed_m_s, 0.5);
-  EXPECT_LT(usual.turn_rate_rad_s, 1.0);
-  EXPECT_LT(usual.turn_acceleration_rad_s2, 3.0);
+  EXPECT_LT(usual.angular_rate_rad_s, 1.0);
+  EXPECT_LT(usual.angular_acceleration_rad_s2, 3.0);
   EXPECT_LT(usual.tilt_rad, 0.1);
   EXPECT_GT(usual.tilt_rad, 0.02);
   EXPECT_GT(usual.least_wall_distance_m, 0.9);
   const Extremes from_corner = fly(*makeFlight("laps", FlightStart{3.4, -2.4, 0.3}), 20);
   EXPECT_LT(from_corner.speed_m_s, 2);
-  EXPECT_LT(from_corner.turn_rate_rad_s, 2);
+  EXPECT_LT(from_corner.angular_rate_rad_s, 2);
   EXPECT_GT(from_corner.least_wall_distance_m, 0.5);
 }
 
@@ -128,7 +128,7 @@ TEST(Flight, HoversWhereTheLapBegan) {
   EXPECT_LT(widest_rad, 0.1);
   const Extremes extremes = fly(*flight, begin_s + 60);
   EXPECT_LT(extremes.speed_m_s, 1.2);
-  EXPECT_LT(extremes.turn_acceleration_rad_s2, 3.0);
+  EXPECT_LT(extremes.angular_acceleration_rad_s2, 3.0);
 }
 
 TEST(Flight, NamesWhatIsWrong) {

@@ -65,9 +65,9 @@ TEST(WorldShutter, AnOpenShutterBlursByTheWayOfTheImage) {
   const cv::Rect window = outline->window + cv::Size(16, 0) - cv::Point(8, 0);
   const cv::Mat sharp = renderer.render(scene, middle, 0);
   const cv::Mat blurred = renderer.render(scene, exposure, 0);
-  const double way_px = camera.fx_px * kRate_rad_s * exposure.shutter_s;
-  EXPECT_NEAR(spreadAlongX(blurred, window) - spreadAlongX(sharp, window), way_px * way_px / 12,
-              0.05 * way_px * way_px / 12);
+  const double blur_px = camera.fx_px * kRate_rad_s * exposure.shutter_s;
+  EXPECT_NEAR(spreadAlongX(blurred, window) - spreadAlongX(sharp, window), blur_px * blur_px / 12,
+              0.05 * blur_px * blur_px / 12);
   EXPECT_LT((centroidIn(blurred, window) - centroidIn(sharp, window)).norm(), 0.05);
 }
 

@@ -232,13 +232,13 @@ TestImage turned(const TestImage& image) {
   return result;
 }
 
-struct TurnResult {
+struct RotationResult {
   double share_turned_alike, oriented_bits, upright_bits;  ///< means over all keypoints
 };
 
 /// Turns image and keypoints by quarter turns and compares angles and descriptors with those
 /// before.
-TurnResult turnImage(int quarter_turns, double tolerance_deg) {
+RotationResult rotateImage(int quarter_turns, double tolerance_deg) {
   TestImage image = generatedImage(180, 150, 3);
   auto keypoints = gridOfKeypoints(180, 150, 5, 7);
   const Described before = describe(image.view(), keypoints, true);
@@ -249,11 +249,11 @@ TurnResult turnImage(int quarter_turns, double tolerance_deg) {
   }
   const Described after = describe(image.view(), keypoints, true);
   const Described upright_after = describe(image.view(), keypoints, false);
-  TurnResult result{};
+  RotationResult result{};
   const auto count = static_cast<double>(keypoints.size());
   for (std::size_t k = 0; k < keypoints.size(); ++k) {
-    const double turn_deg = after.angles_deg[k] - before.angles_deg[k] - 90.0 * quarter_turns;
-    if (std::abs(std::remainder(turn_deg, 360.0)) < tolerance_deg)
+    const double rotation_deg = after.angles_deg[k] - before.angles_deg[k] - 90.0 * quarter_turns;
+    if (std::abs(std::remainder(rotation_deg, 360.0)) < tolerance_deg)
       result.share_turned_alike += 1 / count;
     const auto distance = [k](const Described& a, const Described& b) {
       return hammingDistance(a.descriptors[k], b.descriptors[k]);
@@ -268,7 +268,7 @@ TurnResult turnImage(int quarter_turns, double tolerance_deg) {
 // are the descriptors. An upright descriptor must change as if the patches were strangers.
 TEST(FreakProperty, QuarterTurnTurnsTheAngleAndKeepsTheOrientedDescriptor) {
   for (const int quarter_turns : {1, 3}) {
-    const TurnResult result = turnImage(quarter_turns, 10.0);
+    const RotationResult result = rotateImage(quarter_turns, 10.0);
     EXPECT_GT(result.share_turned_alike, 0.75);
     EXPECT_LT(result.oriented_bits, 60.0);
     EXPECT_GT(result.upright_bits, 180.0);
@@ -277,14 +277,14 @@ TEST(FreakProperty, QuarterTurnTurnsTheAngleAndKeepsTheOrientedDescriptor) {
 
 // A half turn maps the pattern on itself but for the rounding of borders.
 TEST(FreakProperty, HalfTurnTurnsTheAngleAndHardlyTouchesTheOrientedDescriptor) {
-  const TurnResult result = turnImage(2, 3.0);
+  const RotationResult result = rotateImage(2, 3.0);
   EXPECT_GT(result.share_turned_alike, 0.98);
   EXPECT_LT(result.oriented_bits, 5.0);
   EXPECT_GT(result.upright_bits, 180.0);
 }
 
 /// A smooth scene as it appears turned clockwise by `angle_rad` about the image's centre.
-TestImage turnedScene(double angle_rad) {
+TestImage rotatedScene(double angle_rad) {
   TestImage image(241, 241);
   for (int y = 0; y < 241; ++y) {
     for (int x = 0; x < 241; ++x) {
@@ -299,7 +299,7 @@ TestImage turnedScene(double angle_rad) {
 }
 
 /// Where the points of a grid about the centre appear when the scene is turned so.
-std::vector<FreakKeypoint> turnedGrid(double angle_rad) {
+std::vector<FreakKeypoint> rotatedGrid(double angle_rad) {
   std::vector<FreakKeypoint> keypoints;
   for (int v = -48; v <= 48; v += 8) {
     for (int u = -48; u <= 48; u += 8) {
@@ -319,10 +319,10 @@ double meanDistance_bits(const Described& a, const Described& b) {
 }
 
 TEST(FreakProperty, KnownOrientationUndoesATurnOfTheScene) {
-  const Described level = describe(turnedScene(0.0).view(), turnedGrid(0.0), false);
+  const Described level = describe(rotatedScene(0.0).view(), rotatedGrid(0.0), false);
   for (const double angle_rad : {0.4, -0.9, 1.7, 3.0, -2.5}) {
-    const TestImage image = turnedScene(angle_rad);
-    const auto keypoints = turnedGrid(angle_rad);
+    const TestImage image = rotatedScene(angle_rad);
+    const auto keypoints = rotatedGrid(angle_rad);
     const auto known = describe(image.view(), keypoints, false, static_cast<float>(angle_rad));
     const auto unturned = describe(image.view(), keypoints, false);
     const auto wrong = describe(image.view(), keypoints, false, static_cast<float>(-angle_rad));
@@ -336,12 +336,12 @@ TEST(FreakProperty, KnownOrientationUndoesATurnOfTheScene) {
 }
 
 TEST(FreakProperty, KnownOrientationReplacesTheEstimateAndIsRoundedToTheNearest) {
-  constexpr double kTurn_rad = 2.0 * 3.14159265358979323846;
+  constexpr double kRotation_rad = 2.0 * 3.14159265358979323846;
   const TestImage image = generatedImage(120, 110);
   const auto keypoints = gridOfKeypoints(120, 110, 9, 7);
   const auto at = [&](double orientation, bool oriented) {
     return describe(image.view(), keypoints, oriented,
-                    static_cast<float>(orientation * kTurn_rad / 256.0));
+                    static_cast<float>(orientation * kRotation_rad / 256.0));
   };
   const Described third = at(3.0, true);
   EXPECT_EQ(at(3.0, false).descriptors, third.descriptors);

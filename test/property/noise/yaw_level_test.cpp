@@ -31,7 +31,7 @@ SetupFinding pairAt(double time_s, double off_rad) {
   SetupFinding finding;
   finding.yaw.stamp_ns = std::llround(time_s * 1e9);
   finding.yaw.span_s = kSpan_s;
-  finding.yaw.way_m = 8 * kSpan_s;
+  finding.yaw.displacement_m = 8 * kSpan_s;
   finding.yaw.off_rad = off_rad;
   finding.yaw.variance_rad2 = squared(kImage_rad);
   return finding;

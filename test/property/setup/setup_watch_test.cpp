@@ -32,7 +32,7 @@ struct Fault {
   double focal_factor = 1;
 };
 
-Fault turnedBy(double angle_deg, int axis) {
+Fault rotatedBy(double angle_deg, int axis) {
   Fault fault;
   fault.turn = rotationOf(angle_deg * kDegree * Eigen::Vector3d::Unit(axis));
   return fault;
@@ -82,7 +82,7 @@ TEST(SetupWatch, FindsACameraThatIsTurnedAndHow) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     for (int axis = 0; axis < 3; ++axis) {
       for (const double angle_deg : {90.0, -90.0, 180.0}) {
-        const SetupFinding found = findOf(turnedBy(angle_deg, axis), seed);
+        const SetupFinding found = findOf(rotatedBy(angle_deg, axis), seed);
         ASSERT_EQ(found.fault, SetupFault::kMounting) << angle_deg << " about " << axis;
         EXPECT_EQ(found.rival, SetupFault::kNone) << angle_deg << " about " << axis;
         EXPECT_TRUE(found.T_base_cam.isApprox(test::forwardExtrinsics(), 1e-9));

@@ -79,7 +79,7 @@ TEST(TimeOffset, IsNotKnownWithoutTurningToAndFro) {
       film(estimator, flight, odometry, 0.04, 30, seed, [&](double t_s) {
         ASSERT_NE(estimator.estimate().state, TimeOffsetState::kKnown) << seed << " at " << t_s;
       });
-      EXPECT_EQ(estimator.estimate().state, TimeOffsetState::kTooLittleTurn);
+      EXPECT_EQ(estimator.estimate().state, TimeOffsetState::kTooLittleRotation);
     }
   }
 }
@@ -96,8 +96,8 @@ struct Jumping {
 };
 
 TEST(TimeOffset, IsNotToldByAHeadingThatJumps) {
-  for (const double turns_rad : {0.0, 0.02, 0.15}) {
-    const Swaying flight(3, turns_rad);
+  for (const double rotations_rad : {0.0, 0.02, 0.15}) {
+    const Swaying flight(3, rotations_rad);
     for (const double jumps_s : {0.5, 1.0, 2.0, 5.0, 10.0}) {
       for (const double by_rad : {0.1, 0.3, 2.0}) {
         const Jumping jumping{flight, jumps_s, by_rad};
@@ -106,8 +106,9 @@ TEST(TimeOffset, IsNotToldByAHeadingThatJumps) {
         film(estimator, flight, odometry, 0, 20, 3, [&](double t_s) {
           const TimeOffset& found = estimator.estimate();
           if (found.state != TimeOffsetState::kKnown) return;
-          ASSERT_NEAR(found.offset_s, 0, 0.015) << "turns " << turns_rad << ", jump of " << by_rad
-                                                << " at " << jumps_s << " s, at " << t_s << " s";
+          ASSERT_NEAR(found.offset_s, 0, 0.015)
+              << "turns " << rotations_rad << ", jump of " << by_rad << " at " << jumps_s
+              << " s, at " << t_s << " s";
         });
       }
     }
@@ -158,7 +159,7 @@ TEST(TimeOffset, AdviceNeedsAClearDifference) {
   EXPECT_NE(adviceOn(found, 0.0, 0).find("set image_time_offset_s: -0.080"), std::string::npos);
   EXPECT_EQ(adviceOn(found, -0.07, -0.07), "");  // less than 15 ms
   EXPECT_EQ(adviceOn({TimeOffsetState::kKnown, -0.08, 0.03}, 0.0, 0), "");
-  EXPECT_EQ(adviceOn({TimeOffsetState::kTooLittleTurn, 0, 0}, 1.0, 1), "");
+  EXPECT_EQ(adviceOn({TimeOffsetState::kTooLittleRotation, 0, 0}, 1.0, 1), "");
 }
 
 TEST(TimeOffset, WhatIsUsedByItselfIsSaid) {

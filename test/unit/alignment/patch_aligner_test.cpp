@@ -112,18 +112,18 @@ class TurningViewTest : public PatchAlignerTest {
                              std::round(kMiddle_px.y() + radius_px * std::sin(angle)));
       previous_of_.push_back(i);
     }
-    begin(texture_.turnedImage(kWidth_px, kHeight_px, 0, 1, kNoise, 7));
+    begin(texture_.rotatedImage(kWidth_px, kHeight_px, 0, 1, kNoise, 7));
   }
 
   /// @return median error of the aligned features [px]
-  double errorAfter(int images, double turn_rad, double growth) {
+  double errorAfter(int images, double rotation_rad, double growth) {
     double error_px = 0;
     for (int i = 1; i <= images; ++i) {
       const Eigen::Matrix2d change =
-          std::pow(growth, i) * Eigen::Rotation2Dd(i * turn_rad).toRotationMatrix();
+          std::pow(growth, i) * Eigen::Rotation2Dd(i * rotation_rad).toRotationMatrix();
       const GreyImage image =
-          texture_.turnedImage(kWidth_px, kHeight_px, i * turn_rad, std::pow(growth, i), kNoise,
-                               static_cast<unsigned>(i));
+          texture_.rotatedImage(kWidth_px, kHeight_px, i * rotation_rad, std::pow(growth, i),
+                                kNoise, static_cast<unsigned>(i));
       ImageFeatures features;
       std::vector<Eigen::Vector2d> true_px;
       for (const Eigen::Vector2d& begin_px : begin_px_) {

@@ -12,9 +12,9 @@ namespace ardrone_vslam {
 namespace {
 
 /// Tracks all over an image that turns and grows, on whole pixels.
-std::vector<TrackMove> movesOf(float turn_rad, float growth, int tracks, int wrong) {
+std::vector<TrackMove> movesOf(float rotation_rad, float growth, int tracks, int wrong) {
   std::mt19937 random(5);
-  const Eigen::Matrix2f change = growth * Eigen::Rotation2Df(turn_rad).toRotationMatrix();
+  const Eigen::Matrix2f change = growth * Eigen::Rotation2Df(rotation_rad).toRotationMatrix();
   const auto anywhere_px = [&random] {
     return Eigen::Vector2f(static_cast<float>(test::uniformInt(random, 24, 615)),
                            static_cast<float>(test::uniformInt(random, 24, 335)));
@@ -30,15 +30,16 @@ std::vector<TrackMove> movesOf(float turn_rad, float growth, int tracks, int wro
   return moves;
 }
 
-void expectChange(const ViewChange& change, float turn_rad, float growth, float error) {
-  EXPECT_NEAR(change.real(), growth * std::cos(turn_rad), error);
-  EXPECT_NEAR(change.imag(), growth * std::sin(turn_rad), error);
+void expectChange(const ViewChange& change, float rotation_rad, float growth, float error) {
+  EXPECT_NEAR(change.real(), growth * std::cos(rotation_rad), error);
+  EXPECT_NEAR(change.imag(), growth * std::sin(rotation_rad), error);
 }
 
 TEST(CommonViewChange, IsTheSimilarityThatMovedTheTracks) {
-  for (const float turn_rad : {-0.3F, 0.F, 0.05F})
+  for (const float rotation_rad : {-0.3F, 0.F, 0.05F})
     for (const float growth : {0.8F, 1.F, 1.2F})
-      expectChange(commonViewChange(movesOf(turn_rad, growth, 300, 0)), turn_rad, growth, 4e-4F);
+      expectChange(commonViewChange(movesOf(rotation_rad, growth, 300, 0)), rotation_rad, growth,
+                   4e-4F);
 }
 
 TEST(CommonViewChange, WrongMatchesHardlyCount) {

@@ -20,27 +20,27 @@ struct Scene {
   /// @param is_floor  the points lie in a plane across the view
   Scene(std::uint64_t seed, bool is_floor) {
     RandomSource random(seed, 1);
-    const Eigen::Vector3d way_m(0.15, 0.12, 0.05);
+    const Eigen::Vector3d displacement_m(0.15, 0.12, 0.05);
     known.R_then_now = rotationOf(Eigen::Vector3d(0.01, -0.02, 0.03));
-    known.turn_sigma_rad = 0.005;
-    known.displacement = {way_m, 0.1 * way_m.norm()};
+    known.rotation_sigma_rad = 0.005;
+    known.displacement = {displacement_m, 0.1 * displacement_m.norm()};
     for (int i = 0; i < kTracks; ++i) {
       Eigen::Vector3d point(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), 1);
       point *= is_floor ? 2 : random.uniform(1, 4);
-      const Eigen::Vector3d now = known.R_then_now.transpose() * (point - way_m);
+      const Eigen::Vector3d now = known.R_then_now.transpose() * (point - displacement_m);
       pairs.push_back({(point.normalized() + kCorner_rad * random.normal3()).normalized(),
                        (now.normalized() + kCorner_rad * random.normal3()).normalized()});
     }
   }
 
-  double squares(const Eigen::Vector3d& turned_rad) const {
+  double squares(const Eigen::Vector3d& rotation_rad) const {
     const auto fitted = fitMotion(pairs, kCorner_rad, known.displacement);
     if (!fitted) {
       ADD_FAILURE();
       return 0;
     }
     KnownMotion told = known;
-    told.R_then_now = rotationOf(turned_rad) * told.R_then_now;
+    told.R_then_now = rotationOf(rotation_rad) * told.R_then_now;
     return squaresAgainst(told, *fitted, pairs, kCorner_rad);
   }
 };

@@ -20,8 +20,8 @@ constexpr double kStart_s = 100;
 /// Circles at 1 m/s, the nose along the way, in 1.5 m with the height going up and down.
 OdometryState truthAt(double time_s) {
   constexpr double kRadius_m = 2;
-  constexpr double kTurn_rad_s = 0.5;
-  const double yaw_rad = kTurn_rad_s * time_s;
+  constexpr double kRotation_rad_s = 0.5;
+  const double yaw_rad = kRotation_rad_s * time_s;
   OdometryState state;
   state.stamp_ns = std::llround((kStart_s + time_s) * 1e9);
   state.T_odom_base.linear() = (Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
@@ -29,8 +29,8 @@ OdometryState truthAt(double time_s) {
                                    .toRotationMatrix();
   state.T_odom_base.translation() << kRadius_m * std::sin(yaw_rad),
       kRadius_m * (1 - std::cos(yaw_rad)), 1.5 + 0.8 * std::sin(0.4 * time_s);
-  const Eigen::Vector3d velocity_odom_m_s(kRadius_m * kTurn_rad_s * std::cos(yaw_rad),
-                                          kRadius_m * kTurn_rad_s * std::sin(yaw_rad),
+  const Eigen::Vector3d velocity_odom_m_s(kRadius_m * kRotation_rad_s * std::cos(yaw_rad),
+                                          kRadius_m * kRotation_rad_s * std::sin(yaw_rad),
                                           0.32 * std::cos(0.4 * time_s));
   state.twist_base.head<3>() = state.T_odom_base.linear().transpose() * velocity_odom_m_s;
   return state;

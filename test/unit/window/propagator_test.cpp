@@ -42,13 +42,13 @@ void moveMean(WindowState& state, const Eigen::VectorXd& change) {
 
 /// A window whose odom and mounting were found to be turned. Neither bias nor scale have been
 /// corrected: else F stands by the corrected step for the reported one.
-OdometryWindow window(const OdometryNoiseConfig& config, const Eigen::Vector3d& odom_turn_rad) {
+OdometryWindow window(const OdometryNoiseConfig& config, const Eigen::Vector3d& odom_rotation_rad) {
   OdometryWindow state(config);
   state.add(climbingTurnAt(0));
   for (int i = 1; i < kFrames; ++i) state.add(climbingTurnAt(i));
   Eigen::VectorXd change =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(uncertainCoordinates(state).size()));
-  change.segment<3>(WindowState::kAttitude) = odom_turn_rad;
+  change.segment<3>(WindowState::kAttitude) = odom_rotation_rad;
   change.segment<3>(WindowState::kExtrinsics) << 0.05, -0.1, 0.15;
   moveMean(state, change);
   return state;

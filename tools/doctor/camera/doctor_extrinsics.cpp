@@ -19,9 +19,9 @@ constexpr double kLargestOffset_s = 0.3;
 constexpr double kOffsetStep_s = 0.04;
 constexpr double kAgrees = 0.6;  // share of what it is without any motion
 
-/// Turns that take axes to axes.
+/// Rotations that take axes to axes.
 std::vector<Eigen::Matrix3d> quarterTurns() {
-  std::vector<Eigen::Matrix3d> turns;
+  std::vector<Eigen::Matrix3d> rotations;
   for (int x = 0; x < 6; ++x) {
     for (int y = 0; y < 6; ++y) {
       if (x % 3 == y % 3) continue;
@@ -29,10 +29,10 @@ std::vector<Eigen::Matrix3d> quarterTurns() {
       R.col(0) = Eigen::Vector3d::Unit(x % 3) * (x < 3 ? 1 : -1);
       R.col(1) = Eigen::Vector3d::Unit(y % 3) * (y < 3 ? 1 : -1);
       R.col(2) = R.col(0).cross(R.col(1));
-      turns.push_back(R);
+      rotations.push_back(R);
     }
   }
-  return turns;
+  return rotations;
 }
 
 double angleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
@@ -46,11 +46,12 @@ Eigen::Matrix3d refined(const std::vector<SeenMotion>& motions, Eigen::Matrix3d 
   for (double step_rad = kFirst_rad; step_rad > kLast_rad;) {
     bool is_better = false;
     for (int i = 0; i < 6; ++i) {
-      const Eigen::Vector3d turn = Eigen::Vector3d::Unit(i % 3) * (i < 3 ? step_rad : -step_rad);
-      const Eigen::Matrix3d turned = R * rotationOf(turn);
-      const double turned_px = misfit_px(motions, turned, cut_px);
-      if (turned_px >= best_px) continue;
-      best_px = turned_px;
+      const Eigen::Vector3d rotation =
+          Eigen::Vector3d::Unit(i % 3) * (i < 3 ? step_rad : -step_rad);
+      const Eigen::Matrix3d turned = R * rotationOf(rotation);
+      const double rotated_px = misfit_px(motions, turned, cut_px);
+      if (rotated_px >= best_px) continue;
+      best_px = rotated_px;
       R = turned;
       is_better = true;
     }
@@ -110,11 +111,11 @@ Candidate refined(const std::vector<ImagePair>& pairs, const OdometryWitness& od
 std::vector<Candidate> coarseCandidates(const std::vector<ImagePair>& pairs,
                                         const OdometryWitness& odometry,
                                         const Eigen::Matrix3d& R_base_cam_told) {
-  const std::vector<Eigen::Matrix3d> turns = quarterTurns();
+  const std::vector<Eigen::Matrix3d> rotations = quarterTurns();
   std::vector<Candidate> candidates;
-  candidates.reserve(turns.size());
-  for (const Eigen::Matrix3d& turn : turns)
-    candidates.push_back({2 * kCoarse_px, R_base_cam_told * turn, 0});
+  candidates.reserve(rotations.size());
+  for (const Eigen::Matrix3d& rotation : rotations)
+    candidates.push_back({2 * kCoarse_px, R_base_cam_told * rotation, 0});
   const auto steps = static_cast<int>(std::lround(kLargestOffset_s / kOffsetStep_s));
   for (int i = -steps; i <= steps; ++i) {
     const double offset_s = i * kOffsetStep_s;

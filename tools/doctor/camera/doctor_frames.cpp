@@ -15,8 +15,8 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kFar_m = 5;          // from base, for a camera of a drone or car
-constexpr double kNoTurn_rad = 0.05;  // of a transform whose turn was left out
+constexpr double kFar_m = 5;              // from base, for a camera of a drone or car
+constexpr double kNoRotation_rad = 0.05;  // of a transform whose turn was left out
 
 /// A frame of the tree that is `frame` with a prefix; empty: none, or several.
 std::string prefixed(const DoctorRecording& recording, const std::string& frame) {
@@ -148,7 +148,7 @@ Findings checkCameraTf(const DoctorRecording& recording, std::string& static_tra
       finding.verdict = Verdict::kWarning;
       finding.text += text(": ", t.norm(), " m from base");
       finding.remedy = "check the transform; metres are asked for";
-    } else if (Eigen::AngleAxisd(T_base_cam->linear()).angle() < kNoTurn_rad) {
+    } else if (Eigen::AngleAxisd(T_base_cam->linear()).angle() < kNoRotation_rad) {
       finding.verdict = Verdict::kWarning;
       finding.text +=
           " and no turn, so that the camera would look up: its axes must be the optical "

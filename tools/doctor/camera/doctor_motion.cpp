@@ -98,9 +98,9 @@ Finding judge(const std::string& camera, const ExtrinsicsEstimate& estimate) {
 Eigen::Matrix3d tidied(const ExtrinsicsEstimate& estimate, const Eigen::Matrix3d& R_told) {
   const Eigen::Matrix3d turn = R_told.transpose() * estimate.R_base_cam;
   const Eigen::Matrix3d whole = turn.array().round().matrix();
-  const bool is_turn = std::abs(whole.determinant() - 1) < 1e-9 &&
-                       (whole * whole.transpose()).isApprox(Eigen::Matrix3d::Identity());
-  if (!is_turn) return estimate.R_base_cam;
+  const bool is_rotation = std::abs(whole.determinant() - 1) < 1e-9 &&
+                           (whole * whole.transpose()).isApprox(Eigen::Matrix3d::Identity());
+  if (!is_rotation) return estimate.R_base_cam;
   const double off_rad = Eigen::AngleAxisd(whole.transpose() * turn).angle();
   return off_rad < std::max(kOff_rad, kSure * estimate.unsure_rad) ? Eigen::Matrix3d(R_told * whole)
                                                                    : estimate.R_base_cam;

@@ -57,10 +57,10 @@ std::vector<ImagePair::Track> common(const std::vector<Ray>& before, const std::
 }
 
 double medianMotion_px(const ImagePair& pair) {
-  std::vector<double> ways;
-  for (const auto& track : pair.tracks) ways.push_back((track.now - track.before).norm());
-  const auto middle = ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2);
-  std::nth_element(ways.begin(), middle, ways.end());
+  std::vector<double> moved;
+  for (const auto& track : pair.tracks) moved.push_back((track.now - track.before).norm());
+  const auto middle = moved.begin() + static_cast<std::ptrdiff_t>(moved.size() / 2);
+  std::nth_element(moved.begin(), middle, moved.end());
   return *middle * pair.focal_length_px;
 }
 
@@ -123,7 +123,7 @@ double misfit_px(const std::vector<SeenMotion>& motions, const Eigen::Matrix3d& 
   for (const SeenMotion& motion : motions) {
     const Eigen::Matrix3d R_cam_before = R_base_cam.transpose() * motion.R_before_now.transpose();
     const Eigen::Matrix3d R_now_before = R_cam_before * R_base_cam;
-    const Eigen::Vector3d nearing = -(R_cam_before * motion.way_before_m);
+    const Eigen::Vector3d nearing = -(R_cam_before * motion.displacement_before_m);
     double tracks_px = 0;
     for (const auto& track : motion.images->tracks) {
       const double off_rad = residual_rad(R_now_before * track.before, nearing, track.now);

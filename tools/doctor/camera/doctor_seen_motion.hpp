@@ -29,8 +29,8 @@ std::vector<ImagePair> movingPairs(const std::vector<ImageFeatures>& images);
 /// A pair of images, and how base moved between them by the odometry.
 struct SeenMotion {
   const ImagePair* images = nullptr;
-  Eigen::Matrix3d R_before_now = Eigen::Matrix3d::Identity();  ///< of base
-  Eigen::Vector3d way_before_m = Eigen::Vector3d::Zero();      ///< of the camera, axes of base
+  Eigen::Matrix3d R_before_now = Eigen::Matrix3d::Identity();       ///< of base
+  Eigen::Vector3d displacement_before_m = Eigen::Vector3d::Zero();  ///< of the camera, axes of base
 };
 
 /// The odometry that the images are compared with.

@@ -12,10 +12,10 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr double kOtherUnit = 1.5;  // by which the median force differs from gravity
-constexpr double kTurnWindow_s = 1;
-constexpr double kLongestStep_s = 0.1;  // that turn rates are integrated across
-constexpr double kTelling_rad = 0.5;    // of turning, before rate and attitude are compared
-constexpr double kTurnDisagrees = 0.5;  // of that turning
+constexpr double kRotationWindow_s = 1;
+constexpr double kLongestStep_s = 0.1;      // that turn rates are integrated across
+constexpr double kTelling_rad = 0.5;        // of turning, before rate and attitude are compared
+constexpr double kRotationDisagrees = 0.5;  // of that turning
 
 std::vector<const DroneImu*> imuOf(const DoctorRecording& recording) {
   std::vector<const DroneImu*> readings;
@@ -33,21 +33,21 @@ std::vector<const NavdataReading*> navdataOf(const DoctorRecording& recording) {
   return readings;
 }
 
-/// Turns by the attitude and by the turn rates, summed over windows.
-struct Turns {
+/// Rotations by the attitude and by the turn rates, summed over windows.
+struct Rotations {
   double told_rad = 0;
   double felt_rad = 0;
   double apart_rad = 0;
 };
 
 void add(const NavdataReading& begin, const NavdataReading& end, const Eigen::Matrix3d& felt,
-         Turns& turns) {
+         Rotations& rotations) {
   const Eigen::Vector3d told_rad =
       rotationVectorOf(begin.measured.R_odom_base.transpose() * end.measured.R_odom_base);
   const Eigen::Vector3d felt_rad = rotationVectorOf(felt);
-  turns.told_rad += told_rad.norm();
-  turns.felt_rad += felt_rad.norm();
-  turns.apart_rad += (told_rad - felt_rad).norm();
+  rotations.told_rad += told_rad.norm();
+  rotations.felt_rad += felt_rad.norm();
+  rotations.apart_rad += (told_rad - felt_rad).norm();
 }
 
 bool isSound(double dt_s, const Eigen::Vector3d& rate_rad_s, const NavdataReading& navdata) {
@@ -62,9 +62,9 @@ std::size_t firstFrom(std::int64_t stamp_ns, const std::vector<const NavdataRead
   return begin;
 }
 
-Turns turnsOf(const std::vector<const NavdataReading*>& navdata,
-              const std::vector<const DroneImu*>& imu) {
-  Turns turns;
+Rotations rotationsOf(const std::vector<const NavdataReading*>& navdata,
+                      const std::vector<const DroneImu*>& imu) {
+  Rotations rotations;
   const NavdataReading* begin = nullptr;
   Eigen::Matrix3d felt = Eigen::Matrix3d::Identity();
   std::size_t next = 0;
@@ -74,18 +74,19 @@ Turns turnsOf(const std::vector<const NavdataReading*>& navdata,
     if (dt_s == 0) continue;  // of a burst one stands for all
     next = firstFrom(stamp_ns, navdata, next);
     if (next == navdata.size()) break;
-    const Eigen::Vector3d& rate_rad_s = imu[i]->turn_rate_base_rad_s;
+    const Eigen::Vector3d& rate_rad_s = imu[i]->angular_rate_base_rad_s;
     const NavdataReading* here = navdata[next];
     const bool is_sound = isSound(dt_s, rate_rad_s, *here);
     if (is_sound && begin) {
       felt = felt * rotationOf(dt_s * rate_rad_s);
-      if (static_cast<double>(here->stamp_ns - begin->stamp_ns) * 1e-9 < kTurnWindow_s) continue;
-      add(*begin, *here, felt, turns);
+      if (static_cast<double>(here->stamp_ns - begin->stamp_ns) * 1e-9 < kRotationWindow_s)
+        continue;
+      add(*begin, *here, felt, rotations);
     }
     begin = is_sound ? here : nullptr;
     felt.setIdentity();
   }
-  return turns;
+  return rotations;
 }
 
 }  // namespace
@@ -109,7 +110,7 @@ Finding checkImuValues(const DoctorRecording& recording, std::size_t refused) {
   bool is_zero = true;
   for (const DroneImu* imu : imuOf(recording)) {
     forces_m_s2.push_back(imu->force_base_m_s2.norm());
-    is_zero = is_zero && imu->force_base_m_s2.isZero(0) && imu->turn_rate_base_rad_s.isZero(0);
+    is_zero = is_zero && imu->force_base_m_s2.isZero(0) && imu->angular_rate_base_rad_s.isZero(0);
   }
   const std::string force = forceFault(forces_m_s2, 1, "m/s^2");
   if (is_zero) {
@@ -132,16 +133,16 @@ Finding checkImuValues(const DoctorRecording& recording, std::size_t refused) {
 }
 
 Finding checkImuTurnRate(const DoctorRecording& recording) {
-  const Turns turns = turnsOf(navdataOf(recording), imuOf(recording));
-  const double turned_rad = std::max(turns.told_rad, turns.felt_rad);
-  if (turned_rad < kTelling_rad) {
+  const Rotations rotations = rotationsOf(navdataOf(recording), imuOf(recording));
+  const double rotation_rad = std::max(rotations.told_rad, rotations.felt_rad);
+  if (rotation_rad < kTelling_rad) {
     return {"imu_turn_rate", Verdict::kNotChecked, "because it hardly turns", {}};
   }
   Finding finding{"imu_turn_rate", Verdict::kOk, {}, {}};
-  finding.text = text("turn rates add up to ", rounded(turns.felt_rad, 1),
-                      " rad, navdata's attitude turns by ", rounded(turns.told_rad, 1), ", ",
-                      rounded(turns.apart_rad, 1), " apart");
-  if (turns.apart_rad > kTurnDisagrees * turned_rad) {
+  finding.text = text("turn rates add up to ", rounded(rotations.felt_rad, 1),
+                      " rad, navdata's attitude turns by ", rounded(rotations.told_rad, 1), ", ",
+                      rounded(rotations.apart_rad, 1), " apart");
+  if (rotations.apart_rad > kRotationDisagrees * rotation_rad) {
     finding.verdict = Verdict::kWarning;
     finding.remedy =
         "rad/s about base's axes (x forward, y left, z up) are asked for, in navdata degrees: "

@@ -13,13 +13,13 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kJump_m = 0.5;      // between two messages,
-constexpr double kJump_m_s = 100;    // faster than any drone or car
-constexpr double kTurned_rad = 0.1;  // by then a turn rate is not zero
-constexpr double kWindow_s = 1;      // noise of the twist averages out
-constexpr double kTelling_m = 0.5;   // way by which hypotheses must differ to be told apart
-constexpr double kAgrees = 0.3;      // of that way
-constexpr double kDisagrees = 0.5;   // of the way flown
+constexpr double kJump_m = 0.5;       // between two messages,
+constexpr double kJump_m_s = 100;     // faster than any drone or car
+constexpr double kRotated_rad = 0.1;  // by then a turn rate is not zero
+constexpr double kWindow_s = 1;       // noise of the twist averages out
+constexpr double kTelling_m = 0.5;    // way by which hypotheses must differ to be told apart
+constexpr double kAgrees = 0.3;       // of that way
+constexpr double kDisagrees = 0.5;    // of the way flown
 
 double secondsBetween(const OdometryState& a, const OdometryState& b) {
   return static_cast<double>(b.stamp_ns - a.stamp_ns) * 1e-9;
@@ -46,16 +46,16 @@ Eigen::Matrix3d mirroredYaw(const Eigen::Matrix3d& R) {
 }
 
 /// The way in x and y of a window, by the positions and by three readings of the twist.
-struct Ways {
+struct Displacements {
   Eigen::Vector2d told_m = Eigen::Vector2d::Zero();
-  Eigen::Vector2d turned_m = Eigen::Vector2d::Zero();    // by the orientation, as it should be
-  Eigen::Vector2d mirrored_m = Eigen::Vector2d::Zero();  // with the yaw mirrored
-  Eigen::Vector2d unturned_m = Eigen::Vector2d::Zero();  // the twist is in odom's axes
+  Eigen::Vector2d rotated_m = Eigen::Vector2d::Zero();    // by the orientation, as it should be
+  Eigen::Vector2d mirrored_m = Eigen::Vector2d::Zero();   // with the yaw mirrored
+  Eigen::Vector2d unrotated_m = Eigen::Vector2d::Zero();  // the twist is in odom's axes
 };
 
-std::vector<Ways> waysOf(const std::vector<const OdometryState*>& states) {
-  std::vector<Ways> windows;
-  Ways window;
+std::vector<Displacements> displacementsOf(const std::vector<const OdometryState*>& states) {
+  std::vector<Displacements> windows;
+  Displacements window;
   double window_s = 0;
   for (std::size_t i = 1; i < states.size(); ++i) {
     const OdometryState &a = *states[i - 1], &b = *states[i];
@@ -69,9 +69,9 @@ std::vector<Ways> waysOf(const std::vector<const OdometryState*>& states) {
     const Eigen::Vector3d displacement_m = dt_s * b.twist_base.head<3>();
     const Eigen::Matrix3d& R = b.T_odom_base.linear();
     window.told_m += told_m.head<2>();
-    window.turned_m += (R * displacement_m).head<2>();
+    window.rotated_m += (R * displacement_m).head<2>();
     window.mirrored_m += (mirroredYaw(R) * displacement_m).head<2>();
-    window.unturned_m += displacement_m.head<2>();
+    window.unrotated_m += displacement_m.head<2>();
     window_s += dt_s;
     if (window_s < kWindow_s) continue;
     windows.push_back(window);
@@ -83,9 +83,10 @@ std::vector<Ways> waysOf(const std::vector<const OdometryState*>& states) {
 
 /// Sum over the windows of how far two ways are apart.
 template <class A, class B>
-double apart_m(const std::vector<Ways>& windows, A a, B b) {
+double apart_m(const std::vector<Displacements>& windows, A a, B b) {
   double sum_m = 0;
-  for (const Ways& ways : windows) sum_m += (ways.*a - ways.*b).norm();
+  for (const Displacements& displacements : windows)
+    sum_m += (displacements.*a - displacements.*b).norm();
   return sum_m;
 }
 
@@ -170,7 +171,7 @@ Findings checkOdometryFields(const DoctorRecording& recording,
   const auto states = usableStates(recording);
   if (states.empty()) return {};
   Finding covariance{"odometry_covariance", Verdict::kOk, "given", {}};
-  Finding turn_rate{"odometry_turn_rate", Verdict::kOk, "given", {}};
+  Finding angular_rate{"odometry_turn_rate", Verdict::kOk, "given", {}};
   const bool has_none = std::all_of(states.begin(), states.end(), [](const OdometryState* state) {
     return state->covariance.diagonal().head<3>().isZero(0);
   });
@@ -189,23 +190,23 @@ Findings checkOdometryFields(const DoctorRecording& recording,
                           "the odometry gives no covariance; a drone's"});
     parameters.push_back({"mapper", "walk_m_per_sqrt_s", text(noise.walk_m_per_sqrt_s), "so, too"});
   }
-  double turned_rad = 0;
+  double rotation_rad = 0;
   for (std::size_t i = 1; i < states.size(); ++i) {
     const Eigen::Quaterniond a(states[i - 1]->T_odom_base.linear());
-    turned_rad = std::max(turned_rad,
-                          Eigen::Quaterniond(states[0]->T_odom_base.linear()).angularDistance(a));
+    rotation_rad = std::max(rotation_rad,
+                            Eigen::Quaterniond(states[0]->T_odom_base.linear()).angularDistance(a));
   }
   const bool has_rate = std::any_of(states.begin(), states.end(), [](const OdometryState* state) {
     return !state->twist_base.tail<3>().isZero(0);
   });
-  if (!has_rate && turned_rad > kTurned_rad) {
-    turn_rate.verdict = Verdict::kWarning;
-    turn_rate.text = "twist.angular is zero although the orientation turns";
-    turn_rate.remedy = "nothing here needs it; a controller that does must take another source";
+  if (!has_rate && rotation_rad > kRotated_rad) {
+    angular_rate.verdict = Verdict::kWarning;
+    angular_rate.text = "twist.angular is zero although the orientation turns";
+    angular_rate.remedy = "nothing here needs it; a controller that does must take another source";
   } else if (!has_rate) {
-    turn_rate = {"odometry_turn_rate", Verdict::kNotChecked, "because it does not turn", {}};
+    angular_rate = {"odometry_turn_rate", Verdict::kNotChecked, "because it does not turn", {}};
   }
-  return {covariance, turn_rate};
+  return {covariance, angular_rate};
 }
 
 Finding checkOdometryYaw(const DoctorRecording& recording,
@@ -220,13 +221,13 @@ Finding checkOdometryYaw(const DoctorRecording& recording,
     parameters.push_back({"mapper", "odometry_mode", "pose", "there is no twist"});
     return {"odometry_yaw", Verdict::kNotChecked, "because there is no twist", {}};
   }
-  const std::vector<Ways> windows = waysOf(states);
+  const std::vector<Displacements> windows = displacementsOf(states);
   double flown_m = 0;
-  for (const Ways& ways : windows) flown_m += ways.turned_m.norm();
-  const double wrong_m = apart_m(windows, &Ways::told_m, &Ways::turned_m);
-  const double telling_m = apart_m(windows, &Ways::turned_m, &Ways::mirrored_m);
-  const double mirrored_m = apart_m(windows, &Ways::told_m, &Ways::mirrored_m);
-  const double unturned_m = apart_m(windows, &Ways::told_m, &Ways::unturned_m);
+  for (const Displacements& displacements : windows) flown_m += displacements.rotated_m.norm();
+  const double wrong_m = apart_m(windows, &Displacements::told_m, &Displacements::rotated_m);
+  const double telling_m = apart_m(windows, &Displacements::rotated_m, &Displacements::mirrored_m);
+  const double mirrored_m = apart_m(windows, &Displacements::told_m, &Displacements::mirrored_m);
+  const double unrotated_m = apart_m(windows, &Displacements::told_m, &Displacements::unrotated_m);
   if (flown_m < kTelling_m) {
     return {"odometry_yaw",
             Verdict::kNotChecked,
@@ -245,7 +246,7 @@ Finding checkOdometryYaw(const DoctorRecording& recording,
     finding.verdict = Verdict::kWarning;
     finding.text = text("pose and twist disagree: ", metres(wrong_m), " apart in ", metres(flown_m),
                         " of way");
-    if (unturned_m < kAgrees * wrong_m) finding.text += ", as the twist is in the axes of odom";
+    if (unrotated_m < kAgrees * wrong_m) finding.text += ", as the twist is in the axes of odom";
     finding.remedy = "keep odometry_mode at pose; the twist must be in axes of base";
     parameters.push_back({"mapper", "odometry_mode", "pose", "the twist is not the pose's"});
   } else if (telling_m < kTelling_m) {

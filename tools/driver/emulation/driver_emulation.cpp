@@ -66,7 +66,7 @@ sensor_msgs::Imu toImu(const DronePacket& packet, const Navdata& navdata) {
   sensor_msgs::Imu imu;
   imu.linear_acceleration = toVector(
       Eigen::Vector3f(navdata.ax, navdata.ay, navdata.az).cast<double>() * kDriverGravity_m_s2);
-  imu.angular_velocity = toVector(packet.turn_rate_base_rad_s);
+  imu.angular_velocity = toVector(packet.angular_rate_base_rad_s);
   Eigen::Isometry3d attitude = Eigen::Isometry3d::Identity();
   attitude.linear() = packet.R_odom_base;
   imu.orientation = toPoseMessage(attitude).orientation;
@@ -135,7 +135,7 @@ DriverMessages DriverEmulation::receive(const DronePacket& packet, std::int64_t 
   odometry.pose.pose = toPoseMessage(T_odom_base);
   odometry.twist.twist.linear = toVector(packet.velocity_base_m_s);
   if (!has(DriverFault::kZeroCovariance)) {
-    odometry.twist.twist.angular = toVector(packet.turn_rate_base_rad_s);
+    odometry.twist.twist.angular = toVector(packet.angular_rate_base_rad_s);
     setDiagonal(packet.pose_variances, odometry.pose.covariance);
     setDiagonal(packet.twist_variances, odometry.twist.covariance);
   }

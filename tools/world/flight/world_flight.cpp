@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kWallMargin_m = 0.5;
 
-Eigen::Vector3d turnFrom(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+Eigen::Vector3d rotationFrom(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   const Eigen::AngleAxisd turn(a.transpose() * b);
   return turn.axis() * turn.angle();
 }
@@ -70,9 +70,9 @@ FlightState Flight::state(double t_s) const {
     state.acceleration_world_m_s2 += kSecond[i] / (kStep_s * kStep_s) * (after - 2 * now + before);
     // In the body of now, so that opposite turns about it add up without a common rotation.
     const Eigen::Matrix3d& R_world_body = state.T_world_body.linear();
-    state.turn_rate_body_rad_s += kFirst[i] / kStep_s *
-                                  (turnFrom(R_world_body, pose(t_s + step_s).linear()) -
-                                   turnFrom(R_world_body, pose(t_s - step_s).linear()));
+    state.angular_rate_body_rad_s += kFirst[i] / kStep_s *
+                                     (rotationFrom(R_world_body, pose(t_s + step_s).linear()) -
+                                      rotationFrom(R_world_body, pose(t_s - step_s).linear()));
   }
   return state;
 }

@@ -27,7 +27,7 @@ struct FlightState {
   Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
   Eigen::Vector3d velocity_world_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d acceleration_world_m_s2 = Eigen::Vector3d::Zero();
-  Eigen::Vector3d turn_rate_body_rad_s = Eigen::Vector3d::Zero();  ///< what a gyroscope measures
+  Eigen::Vector3d angular_rate_body_rad_s = Eigen::Vector3d::Zero();  ///< what a gyroscope measures
 
   /// What an accelerometer in the middle measures: kGravity_m_s2 along z at rest.
   Eigen::Vector3d specificForce_body_m_s2() const {

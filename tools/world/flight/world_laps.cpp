@@ -13,8 +13,8 @@ constexpr double kEntry_s = 5;  // from the start to the ellipse at full speed
 constexpr double kStartHeight_m = 1.2;
 constexpr double kLook_s = 11;
 constexpr double kLookOutwards_rad = 45 * M_PI / 180;
-constexpr double kBrake_s = 4;  // of LapsThenHover
-constexpr double kTurn_s = 22;  // of TurnThenLaps
+constexpr double kBrake_s = 4;      // of LapsThenHover
+constexpr double kRotation_s = 22;  // of TurnThenLaps
 constexpr double kTurnRamp_s = 2;
 constexpr double kFastFrom_s = 20;  // of FastLaps
 constexpr double kFastRamp_s = 4;
@@ -29,7 +29,7 @@ double wrapAngle(double angle_rad) {
 Laps::Laps(const std::optional<FlightStart>& start) {
   start_ = start.value_or(FlightStart{kRadiusX_m, 0, M_PI / 2});
   first_phase_ = std::atan2(start_.y_m / kRadiusY_m, start_.x_m / kRadiusX_m);
-  first_turn_ = wrapAngle(start_.yaw_rad - pathYaw(0));
+  first_rotation_ = wrapAngle(start_.yaw_rad - pathYaw(0));
 }
 
 Eigen::Vector3d Laps::position(double t_s) const {
@@ -41,7 +41,7 @@ Eigen::Vector3d Laps::position(double t_s) const {
 double Laps::yaw(double t_s) const {
   const double blend = smoothStep(t_s / kEntry_s);
   const double outwards = kLookOutwards_rad * (0.5 - 0.5 * std::cos(2 * M_PI * t_s / kLook_s));
-  return pathYaw(t_s) - blend * outwards + (1 - blend) * first_turn_;
+  return pathYaw(t_s) - blend * outwards + (1 - blend) * first_rotation_;
 }
 
 double Laps::phase(double t_s) const {
@@ -79,12 +79,12 @@ double LapsThenHover::lapTime(double t_s) {
 
 Eigen::Vector3d TurnThenLaps::position(double t_s) const {
   const double swaying =
-      smoothStep(t_s / kTurnRamp_s) - smoothStep((t_s - kTurn_s + kTurnRamp_s) / kTurnRamp_s);
-  return Laps::position(t_s - kTurn_s) + swaying * gusts(t_s);
+      smoothStep(t_s / kTurnRamp_s) - smoothStep((t_s - kRotation_s + kTurnRamp_s) / kTurnRamp_s);
+  return Laps::position(t_s - kRotation_s) + swaying * gusts(t_s);
 }
 
 double TurnThenLaps::yaw(double t_s) const {
-  return Laps::yaw(t_s - kTurn_s) + Legs(0).move(0, kTurn_s, 2 * M_PI, kTurnRamp_s).at(t_s);
+  return Laps::yaw(t_s - kRotation_s) + Legs(0).move(0, kRotation_s, 2 * M_PI, kTurnRamp_s).at(t_s);
 }
 
 Eigen::Vector3d FastLaps::position(double t_s) const {

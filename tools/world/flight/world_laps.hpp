@@ -26,7 +26,7 @@ class Laps : public Flight {
 
   FlightStart start_;
   double first_phase_ = 0;
-  double first_turn_ = 0;
+  double first_rotation_ = 0;
 };
 
 /// One lap, then hovering where it began: within a few centimetres and about a degree.

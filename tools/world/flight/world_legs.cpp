@@ -33,11 +33,11 @@ LegsFlight hoverFlight(const std::optional<FlightStart>& start) {
 }
 
 LegsFlight corridorFlight(bool turns) {
-  constexpr double kWay_m = 30, kRamp_s = 4, kOneWay_s = 32;
+  constexpr double kLength_m = 30, kRamp_s = 4, kOneWay_s = 32;
   const double out_s = 2, turn_s = out_s + kOneWay_s + 1.5, back_s = turn_s + (turns ? 7.5 : 1.5);
-  LegsFlight::Path path{Legs(kCorridorLength_m / 2 - kWay_m / 2), Legs(0), Legs(1.2), Legs(0)};
-  path.x.move(out_s, out_s + kOneWay_s, kWay_m, kRamp_s)
-      .move(back_s, back_s + kOneWay_s, -kWay_m, kRamp_s);
+  LegsFlight::Path path{Legs(kCorridorLength_m / 2 - kLength_m / 2), Legs(0), Legs(1.2), Legs(0)};
+  path.x.move(out_s, out_s + kOneWay_s, kLength_m, kRamp_s)
+      .move(back_s, back_s + kOneWay_s, -kLength_m, kRamp_s);
   if (turns) path.yaw.move(turn_s, back_s - 1.5, M_PI, 1.5);
   path.wander_m = 0.2;
   path.yaw_sway_rad = 0.05;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "odometry/common_turn.hpp"
+#include "odometry/common_rotation.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -13,8 +13,8 @@ constexpr int kCommonRounds = 4;
 
 }  // namespace
 
-Eigen::Matrix3d commonTurn(const std::vector<BearingPair>& pairs, double least_scale_rad,
-                           const Eigen::Vector3d& way_then) {
+Eigen::Matrix3d commonRotation(const std::vector<BearingPair>& pairs, double least_scale_rad,
+                               const Eigen::Vector3d& direction_then) {
   Eigen::Matrix3d R_then_now = Eigen::Matrix3d::Identity();
   double shift = 0;
   double scale_rad = 0;  // in the first round all count alike
@@ -24,16 +24,16 @@ Eigen::Matrix3d commonTurn(const std::vector<BearingPair>& pairs, double least_s
     double sum = 0, sum_left = 0;
     for (const BearingPair& pair : pairs) {
       const Eigen::Vector3d now = R_then_now * pair.now;
-      const Eigen::Vector3d turned = now - pair.then;
-      const Eigen::Vector3d across = way_then - now.dot(way_then) * now;
-      const double left = (turned + shift * across).norm();
+      const Eigen::Vector3d rotated = now - pair.then;
+      const Eigen::Vector3d across = direction_then - now.dot(direction_then) * now;
+      const double left = (rotated + shift * across).norm();
       const double weight = scale_rad > 0 ? weightOf(left, scale_rad) : 1;
       sum += weight;
       sum_left += weight * left;
       Eigen::Matrix<double, 3, 4> J;
       J << -skew(now), across;
       A += weight * J.transpose() * J;
-      g += weight * J.transpose() * turned;
+      g += weight * J.transpose() * rotated;
     }
     scale_rad = std::max(2 * sum_left / sum, least_scale_rad);
     const Eigen::Vector4d step = -A.ldlt().solve(g);

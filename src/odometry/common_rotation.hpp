@@ -18,7 +18,7 @@ inline double weightOf(double left, double scale) {
 /// agree on. What the shift leaves is parallax, so the weights are as wide as the mean of it.
 /// @param least_scale_rad  what is left within this counts
 /// @return R_then_now
-Eigen::Matrix3d commonTurn(const std::vector<BearingPair>& pairs, double least_scale_rad,
-                           const Eigen::Vector3d& way_then);
+Eigen::Matrix3d commonRotation(const std::vector<BearingPair>& pairs, double least_scale_rad,
+                               const Eigen::Vector3d& direction_then);
 
 }  // namespace ardrone_vslam
