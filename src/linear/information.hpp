@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,13 @@ struct Information {
       : coordinates(std::move(of_coordinates)),
         matrix(Eigen::MatrixXd::Zero(size(), size())),
         vector(Eigen::VectorXd::Zero(size())) {}
+
+  /// The same of consecutive coordinates: from the first up to, but not with, the end.
+  static Information between(int first, int end) {
+    std::vector<int> consecutive(static_cast<std::size_t>(end - first));
+    std::iota(consecutive.begin(), consecutive.end(), first);
+    return Information(std::move(consecutive));
+  }
 
   /// Number of coordinates.
   Eigen::Index size() const { return static_cast<Eigen::Index>(coordinates.size()); }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "linear/scalars.hpp"
 
@@ -36,13 +35,17 @@ void sum(const std::vector<Candidate>& candidates, Information& information) {
   information.matrix.triangularView<Eigen::StrictlyUpper>() = information.matrix.transpose();
 }
 
-/// What calibration, rolling shutter and the scene do to the tracks of a keyframe they do to all
-/// alike, so that it does not average out: together they have the variance of their rays' mean, and
-/// that of the error they share.
-void limitByCommonError(double ray_information_rad2, double common_rad2, Information& information) {
-  const double share = 1 / (1 + ray_information_rad2 * common_rad2);
-  information.matrix *= share;
-  information.vector *= share;
+/// From the oldest frame that saw one of these tracks to the newest one. The rest of the window
+/// they correct by its covariance with these.
+template <class Candidate>
+Information nothingYetOf(const std::vector<Candidate>& candidates) {
+  int first = candidates.front().residual.views.front().coordinate;
+  int last = first;
+  for (const Candidate& c : candidates) {
+    first = std::min(first, c.residual.views.front().coordinate);
+    last = std::max(last, c.residual.views.back().coordinate);
+  }
+  return Information::between(first, last + WindowState::kFrame);
 }
 
 /// Wrong tracks may pass a gate as wide as the prior, but they do not agree with the others: their
@@ -50,15 +53,13 @@ void limitByCommonError(double ray_information_rad2, double common_rad2, Informa
 /// @return whether the information is that of the tracks that agree
 template <class Candidate>
 bool agree(const WindowState& state, std::vector<Candidate>& candidates, Information& information) {
-  constexpr int kRounds = 2;
-  for (int round = 0; round < kRounds; ++round) {
+  for (const bool is_last : {false, true}) {
     sum(candidates, information);
     const auto error = state.preview(information);
     if (!error) return false;
     for (Candidate& c : candidates) {
       const double left = c.residual.squaredRest(*error, information.coordinates.front());
       const int dof = c.residual.degreesOfFreedom();
-      const bool is_last = round + 1 == kRounds;
       c.weight = is_last ? (left < chiSquare95(dof) ? 1 : 0) : 1 / squared(1 + left / dof);
     }
   }
@@ -136,7 +137,7 @@ void TrackUpdate::apply(const std::vector<FinishedTrack>& finished,
   skip();
   const Eigen::Vector3d seen_from_rig = earlier_camera_rig_.value_or(camera_rig);
   std::vector<Candidate> candidates = gate(finished, seen_from_rig, state);
-  if (correct(candidates, focal_length_px, state))
+  if (!candidates.empty() && correct(candidates, focal_length_px, state))
     collectUsed(candidates, seen_from_rig, anchor_id, tracks, state);
   if (earlier_camera_rig_) {  // all its tracks have ended, and this one sees something else
     earlier_camera_rig_.reset();
@@ -180,18 +181,17 @@ std::vector<TrackUpdate::Candidate> TrackUpdate::gate(const std::vector<Finished
 
 bool TrackUpdate::correct(std::vector<Candidate>& candidates, double focal_length_px,
                           WindowState& state) const {
-  if (candidates.empty()) return false;
-  const int first = state.frameCoordinate(0);
-  std::vector<int> coordinates(
-      static_cast<std::size_t>(state.frameCoordinate(state.frames().size()) - first));
-  std::iota(coordinates.begin(), coordinates.end(), first);
-  Information information(std::move(coordinates));
+  Information information = nothingYetOf(candidates);
   if (!agree(state, candidates, information)) return false;
   double ray_information_rad2 = 0;
-  for (const Candidate& c : candidates)
-    if (c.weight > 0) ray_information_rad2 += c.ray_information_rad2;
-  limitByCommonError(ray_information_rad2, squared(config_.track_common_px / focal_length_px),
-                     information);
+  for (const Candidate& c : candidates) ray_information_rad2 += c.weight * c.ray_information_rad2;
+  // What calibration, rolling shutter and the scene do to the tracks of a keyframe they do to all
+  // alike, so that it does not average out: together they have the variance of their rays' mean,
+  // and that of the error they share.
+  const double common_rad2 = squared(config_.track_common_px / focal_length_px);
+  const double share = 1 / (1 + ray_information_rad2 * common_rad2);
+  information.matrix *= share;
+  information.vector *= share;
   return state.update(information);
 }
 

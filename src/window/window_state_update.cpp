@@ -30,12 +30,14 @@ bool WindowState::update(const Information& information) {
   const std::vector<int>& w = information.coordinates;
   auto P = covariance_.all();
   const InformationRoot root(information, P.diagonal()(w));
-  if (root.measured.size() == 0) return true;
+  const Eigen::Index rank = root.measured.size();
+  if (rank == 0) return true;
   Eigen::MatrixXd P_w(P.rows(), information.vector.size());
   for (std::size_t k = 0; k < w.size(); ++k) P_w.col(static_cast<Eigen::Index>(k)) = P.col(w[k]);
   Eigen::MatrixXd G = tiledProduct(P_w, root.rows);
-  Eigen::MatrixXd M = tiledProduct(root.rows.transpose(), G(w, Eigen::all));
-  M.diagonal().array() += 1;
+  Eigen::MatrixXd M = Eigen::MatrixXd::Identity(rank, rank);
+  subtractSymmetricProduct(-root.rows.transpose(), G(w, Eigen::all).transpose(),
+                           M.topLeftCorner(rank, rank));
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
   if (inner.info() != Eigen::Success) return false;
   inner.matrixU().solveInPlace<Eigen::OnTheRight>(G);

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "linear/information.hpp"
 #include "support/seeds.hpp"
 
@@ -15,9 +13,7 @@ constexpr int kSize = 12;
 
 /// Of so many random measurements with unit noise, whose coordinates differ much in size.
 Information informationOf(int measurements) {
-  std::vector<int> coordinates(kSize);
-  std::iota(coordinates.begin(), coordinates.end(), 0);
-  Information information(coordinates);
+  Information information = Information::between(0, kSize);
   const Eigen::VectorXd scale = Eigen::pow(10.0, Eigen::ArrayXd::LinSpaced(kSize, -4, 4)).matrix();
   const Eigen::MatrixXd H = Eigen::MatrixXd::Random(measurements, kSize) * scale.asDiagonal();
   information.matrix = H.transpose() * H;

@@ -81,9 +81,7 @@ TEST(TrackResidual, DistanceAndInformationAreThoseOfTheProjectedRows) {
   const double distance = r.dot(S.llt().solve(r));
   EXPECT_NEAR(track->distance(state), distance, 1e-9 * distance);
 
-  std::vector<int> coordinates;
-  for (int k = 0; k < size; ++k) coordinates.push_back(first + k);
-  Information information(coordinates);
+  Information information = Information::between(first, first + size);
   track->addTo(information, 0.5);
   const Eigen::MatrixXd expected = 0.5 * H.transpose() * H;
   const Eigen::MatrixXd whole = information.matrix.selfadjointView<Eigen::Lower>();
@@ -141,17 +139,13 @@ TEST(TrackResidual, AHeightAddsOneRowThatSeesTheScale) {
   EXPECT_EQ(floor->degreesOfFreedom(), bare->degreesOfFreedom() + 1);
 
   const int first = state.frameCoordinate(0);
-  std::vector<int> coordinates;
-  for (int k = 0; k < 6 * 5; ++k) coordinates.push_back(first + k);
   Eigen::VectorXd dilation = Eigen::VectorXd::Zero(6 * 5);  // about the first camera
   const Eigen::Vector3d camera = state.frames()[0].position_map + kCamera_rig;
   for (int i = 0; i < 5; ++i)
     dilation.segment<3>(6 * i) =
         state.frames()[static_cast<std::size_t>(i)].position_map + kCamera_rig - camera;
   const auto seen = [&](const TrackResidual& track) {
-    Information information(coordinates);
-    information.matrix.setZero();
-    information.vector.setZero();
+    Information information = Information::between(first, first + 6 * 5);
     track.addTo(information, 1);
     information.matrix.triangularView<Eigen::StrictlyUpper>() = information.matrix.transpose();
     return dilation.dot(information.matrix * dilation);
@@ -185,11 +179,7 @@ TEST(TrackResidual, WithAHeightItsThreeFormsAgree) {
   EXPECT_LT((U.transpose() * U - Eigen::Matrix3d::Identity()).norm(), 1e-12);
   EXPECT_LT((U.transpose() * r).norm(), 1e-9) << "the residual is projected";
   const Eigen::MatrixXd H = A - U * (U.transpose() * A);
-  std::vector<int> coordinates;
-  for (int k = 0; k < 6 * 5; ++k) coordinates.push_back(first + k);
-  Information information(coordinates);
-  information.matrix.setZero();
-  information.vector.setZero();
+  Information information = Information::between(first, first + 6 * 5);
   floor->addTo(information, 0.5);
   information.matrix.triangularView<Eigen::StrictlyUpper>() = information.matrix.transpose();
   const Eigen::MatrixXd HH = 0.5 * H.transpose() * H;

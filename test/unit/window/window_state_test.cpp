@@ -27,12 +27,6 @@ OdometryWindow circling(int frames) {
   return state;
 }
 
-std::vector<int> coordinatesFrom(int first, int end) {
-  std::vector<int> coordinates;
-  for (int k = first; k < end; ++k) coordinates.push_back(k);
-  return coordinates;
-}
-
 void expectHonest(const WindowState& state) {
   const Eigen::MatrixXd& P = state.covariance();
   EXPECT_LT((P - P.transpose()).cwiseAbs().maxCoeff(), 1e-12);
@@ -107,7 +101,7 @@ TEST(WindowState, AnUpdateIsTheKalmanUpdateInCoordinatesThatItDoesNotTurn) {
   OdometryWindow state = circling(1);
   const Eigen::MatrixXd P = state.covariance();
   const int at = state.frameCoordinate(0) + 3;
-  Information information(coordinatesFrom(at, at + 3));
+  Information information = Information::between(at, at + 3);
   constexpr double kVariance = 1e-6;
   const Eigen::Vector3d innovation(0.001, -0.002, 0.0005);
   information.matrix = Eigen::Matrix3d::Identity() / kVariance;
@@ -129,8 +123,8 @@ TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
   RandomSource random(4);
   OdometryWindow state = circling(12);
   for (int round = 0; round < 60; ++round) {
-    Information information(
-        coordinatesFrom(state.frameCoordinate(0), state.frameCoordinate(state.frames().size())));
+    Information information = Information::between(state.frameCoordinate(0),
+                                                   state.frameCoordinate(state.frames().size()));
     const auto size = information.vector.size();
     for (int row = 0; row < 5; ++row) {
       Eigen::VectorXd h(size);
@@ -154,7 +148,7 @@ TEST(WindowState, WhatIsLearnedOfTheNewestFrameCorrectsTheAnchorsThatShareItsErr
   state.makeAnchor(0);
   const Eigen::MatrixXd P = state.covariance();
   const int newest = state.frameCoordinate(state.frames().size() - 1);
-  Information information(coordinatesFrom(newest, newest + 3));
+  Information information = Information::between(newest, newest + 3);
   constexpr double kVariance = 1e-4;
   const Eigen::Vector3d innovation(0.01, -0.02, 0.005);
   information.matrix = Eigen::Matrix3d::Identity() / kVariance;
@@ -185,7 +179,7 @@ TEST(WindowState, ABiasLearnedInTheClimbDoesNotStretchTheWayForward) {
   state.add(odometryOfFrame(0, position));
   fly(1, 31, {0, 0, 0.02});
   const int at = state.frameCoordinate(0);
-  Information height(coordinatesFrom(at + 2, at + 3));
+  Information height = Information::between(at + 2, at + 3);
   height.matrix(0, 0) = 1e6;
   height.vector(0) = 1e6 * -0.1;  // the climb was shorter
   ASSERT_TRUE(state.update(height));
@@ -206,7 +200,7 @@ TEST(WindowState, TheScaleIsFoundByAPositionThatIsKnown) {
   }
   const double before = state.covariance()(WindowState::kScale, WindowState::kScale);
   const int at = state.frameCoordinate(state.frames().size() - 1);
-  Information information(coordinatesFrom(at, at + 3));
+  Information information = Information::between(at, at + 3);
   information.matrix = 1e4 * Eigen::Matrix3d::Identity();
   information.vector = 1e4 * (Eigen::Vector3d(10, 0, 0) - state.frames().back().position_map);
   ASSERT_TRUE(state.update(information));
@@ -236,7 +230,7 @@ TEST(WindowState, ReturnsToWhereTheOdometryAloneWouldBe) {
   while (state.frames().size() > 2) state.removeFrame(0);
   state.makeAnchor(0);
   // The bias is learned, and moves the frame.
-  Information information(coordinatesFrom(WindowState::kAttitude, WindowState::kScale));
+  Information information = Information::between(WindowState::kAttitude, WindowState::kScale);
   information.matrix.diagonal().setConstant(1e5);
   information.vector.setConstant(3e3);
   ASSERT_TRUE(state.update(information));
@@ -264,7 +258,8 @@ TEST(WindowState, ReturnsToWhereTheOdometryAloneWouldBe) {
 TEST(WindowState, NothingChangesWhenTheInformationIsNotFinite) {
   OdometryWindow state = circling(4);
   const Eigen::MatrixXd P = state.covariance();
-  Information information(coordinatesFrom(state.frameCoordinate(0), state.frameCoordinate(1)));
+  Information information =
+      Information::between(state.frameCoordinate(0), state.frameCoordinate(1));
   information.vector.setConstant(std::nan(""));
   EXPECT_FALSE(state.update(information));
   EXPECT_EQ(state.covariance(), P);
