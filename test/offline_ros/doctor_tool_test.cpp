@@ -118,5 +118,22 @@ TEST_F(DoctorTool, WithoutAMasterLiveSaysSo) {
   EXPECT_NE(errors().find("no ROS master"), std::string::npos) << errors();
 }
 
+TEST_F(DoctorTool, PrintsTheExampleOfItsPage) {
+  const std::string page = test::readFile(ARDRONE_VSLAM_SOURCE_DIR "/docs/doctor.md");
+  const auto example = page.find("## Example\n");
+  ASSERT_NE(example, std::string::npos);
+  const auto between = [&](const std::string& before, const std::string& after) {
+    const auto begin = page.find(before, example) + before.size();
+    return page.substr(begin, page.find(after, begin) - begin);
+  };
+  const std::string in_folder = "cd " + path("") + " && ";
+  const std::string make_world =
+      in_folder + ARDRONE_VSLAM_MAKE_WORLD " " + between("`make_world ", "`:") + " > output 2>&1";
+  ASSERT_EQ(std::system(make_world.c_str()), 0) << make_world << "\n" << output();
+  const std::string doctor = in_folder + ARDRONE_VSLAM_DOCTOR " FILE.bag > output 2> errors";
+  ASSERT_EQ(std::system(doctor.c_str()), 0) << errors();
+  EXPECT_EQ(output(), between("`:\n```\n", "```"));
+}
+
 }  // namespace
 }  // namespace ardrone_vslam
