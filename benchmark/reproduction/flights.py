@@ -89,7 +89,7 @@ def kitti(tools):
              ["landmarks in the end", f"{thesis.KITTI_LANDMARKS:,}", f"{column(tools, runs['thesis'], 'landmarks')[-1]:,.0f}", f"{column(tools, few, 'landmarks')[-1]:,.0f}"]]
     section.text(f"{what[0].upper() + what[1:]}, with the truth as the observer, as the thesis did it (`estimator: thesis`). What it plots is the error of its output; ours with a "
                  "perfect observer is nearly nothing. So the position by landmarks alone is shown beside it: the weighted mean (6.4), before the fusion. As printed it keeps a good part "
-                 "of the prediction's error ([appendix C](#appendix-c-the-deviation-of-the-weighted-mean)), and the prediction is perfect here. So these errors do not say how well "
+                 "of the prediction's error ([appendix C](#appendix-c-the-deviation-of-the-weighted-mean)). The prediction is perfect here. So these errors do not say how well "
                  "landmarks would find a place without it. The last column has as few matches as the thesis: "
                  f"{FEW_FEATURES} features an image and fixes from a single landmark on.")
     section.table(["", "thesis, KITTI 00", "here", f"here, {FEW_FEATURES} features"], table)
@@ -216,8 +216,8 @@ def hover(tools):
     section.picture("hover", figure, "Drift while hovering: medians, and 10 to 90 % of the seeds")
     section.table(["off after 15 s [m]", "median", "worst"], [[label, digits(np.median(errors)), digits(errors.max())] for label, errors in final.items()] +
                   [["thesis, one flight without vision", str(thesis.HOVER_DRIFT_M), "-"]])
-    section.text(f"A rendered flight that holds its place as well as a drone does, {seeds} seeds of the profile `hover` (velocity bias of 0.13 m/s per axis), whose drift is that of "
-                 "the thesis's flight in size. `msckf` is held by what the image shows ([how](msckf.md#hovering)).")
+    section.text(f"A rendered flight that holds its place as well as a drone does. {seeds} seeds of the profile `hover` (velocity bias of 0.13 m/s per axis) drift as far as "
+                 "the thesis's flight did. `msckf` is held by what the image shows ([how](msckf.md#hovering)).")
     section.claim("drift of the observer after 15 s, median [m]", float(np.median(final["observer alone"])), 1, 4)
     section.claim("`msckf` over the observer, medians", float(np.median(final["`msckf`"]) / np.median(final["observer alone"])), high=0.15)
     section.claim("`thesis` over the observer, medians", float(np.median(final["`thesis`"]) / np.median(final["observer alone"])), high=0.7)

@@ -16,7 +16,7 @@ namespace ardrone_vslam {
 /// What of the set-up is wrong, so that images and odometry contradict each other.
 enum class SetupFault {
   kNone,
-  kMounting,          ///< the camera is turned otherwise than told
+  kExtrinsics,        ///< the camera is turned otherwise than told
   kMirrored,          ///< the images are
   kTimeOffset,        ///< the images' stamps are late or early
   kFocalLength,       ///< the calibration's
@@ -43,7 +43,7 @@ struct SeenYaw {
 /// What the motion so far says of the set-up.
 struct SetupFinding {
   SetupFault fault = SetupFault::kNone;  ///< what is wrong, as far as seen
-  /// Another fault, or kMounting another mounting, that explains the images nearly as well.
+  /// Another fault, or kExtrinsics another mounting, that explains the images nearly as well.
   SetupFault rival = SetupFault::kNone;
   /// Without a fault: the motion since the last fault has shown that there is none.
   bool is_confirmed = false;
@@ -51,7 +51,7 @@ struct SetupFinding {
   bool forgets_images = false;
   /// Whether images may correct the pose.
   bool isCameraUsed() const { return fault == SetupFault::kNone && !forgets_images; }
-  Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();  ///< kMounting: that which fits
+  Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();  ///< kExtrinsics: that which fits
   double offset_s = 0;      ///< kTimeOffset: an image is exposed at its stamp plus this, roughly
   double focal_factor = 1;  ///< kFocalLength: the calibration's over the true one, roughly
   SeenYaw yaw;              ///< of the newest pair of images

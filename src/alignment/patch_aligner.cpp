@@ -53,7 +53,7 @@ void PatchAligner::align(const ImageView& image, const std::vector<int>& previou
   for (std::size_t i = 0; i < features.size(); ++i) {
     PatchReference& reference = references_[i];
     if (previous_of[i] >= 0) {
-      reference.rotateTo(change_ * reference.change);  // the view goes on as it did
+      reference.adaptTo(change_ * reference.change);  // the view goes on as it did
       goOn(image, i, features);
       continue;
     }

@@ -18,14 +18,14 @@ void PatchReference::begin(const ImageView& image, const Eigen::Vector2f& point_
   failures = 0;
 }
 
-void PatchReference::rotateTo(const ViewChange& change_since) {
-  constexpr float kRotateAgain = 0.05F;  // 3 degrees, or 5 %
-  constexpr float kMostGrowth = 1.6F;    // beyond it the surroundings have too little detail
+void PatchReference::adaptTo(const ViewChange& change_since) {
+  constexpr float kAdaptAgain = 0.05F;  // 3 degrees, or 5 %
+  constexpr float kMostGrowth = 1.6F;   // beyond it the surroundings have too little detail
   const float growth = std::abs(change_since);
-  const bool is_rotated = differenceOf(change_since, applied) >= kRotateAgain &&
+  const bool is_adapted = differenceOf(change_since, applied) >= kAdaptAgain &&
                           growth >= Surroundings::kLeastGrowth && growth <= kMostGrowth;
-  if (!std::exchange(is_to_be_made, false) && !(patch && is_rotated)) return;
-  const ViewChange wanted = is_rotated ? change_since : applied;
+  if (!std::exchange(is_to_be_made, false) && !(patch && is_adapted)) return;
+  const ViewChange wanted = is_adapted ? change_since : applied;
   const auto made = patchOf(surroundings, wanted);
   if (!made) return;
   patch = made;

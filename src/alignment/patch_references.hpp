@@ -28,7 +28,7 @@ struct PatchReference {
   /// From now on the track is compared with this image. The point's variance stays.
   void begin(const ImageView& image, const Eigen::Vector2f& point_px);
   /// Makes the patch, and anew where the view has turned or grown by more since.
-  void rotateTo(const ViewChange& change_since);
+  void adaptTo(const ViewChange& change_since);
 };
 
 /// One for each track of an image. They stay in place as tracks go on.

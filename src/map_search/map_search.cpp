@@ -14,7 +14,8 @@
 namespace ardrone_vslam {
 namespace {
 
-// Images of one moment show the same, right or wrong: a sight counts only so long after another.
+// Images of one moment show the same, right or wrong: an observation counts only so long after
+// another.
 constexpr double kBetweenLooks_s = 0.2;
 constexpr std::size_t kSightsRemembered = 10;
 constexpr std::size_t kSightsNeeded = 3;
@@ -24,11 +25,11 @@ constexpr double kAgreeDistance = 0.1;
 constexpr double kAgreeDrift = 0.1;  // of the way
 constexpr double kAgreeHeading_rad = 0.09;
 // A place is recognised nearly all over the image, what only looks like a part of it in that part.
-// Of true sights in rendered rooms nine in ten pass, in a real kitchen half.
+// Of true observations in rendered rooms nine in ten pass, in a real kitchen half.
 constexpr double kLeastCover = 0.6;
 constexpr double kMapBends = 0.01;  // landmarks beside each other, of their distance
-// The landmarks that gave the sight correct the pose at once: what is entered with must not say the
-// same again, so it is taken for three times worse than it is.
+// The landmarks that gave the observation correct the pose at once: what is entered with must not
+// say the same again, so it is taken for three times worse than it is.
 constexpr double kPriorVariance = 9;
 
 const Eigen::Vector3d kCamera = Eigen::Vector3d::Zero();  // in the rig, which here is the camera
@@ -78,13 +79,13 @@ std::optional<MapEntry> MapSearch::see(const ImageFeatures& features,
       static_cast<double>(features.stamp_ns - looked_ns_) * 1e-9 < kBetweenLooks_s)
     return std::nullopt;
   looked_ns_ = features.stamp_ns;
-  auto sight = look(features, T_flight_cam);
-  if (!sight) return std::nullopt;
-  const bool is_confirmed = isConfirmed(*sight);
-  sights_.push_back(*sight);
-  if (sights_.size() > kSightsRemembered) sights_.erase(sights_.begin());
+  auto observation = look(features, T_flight_cam);
+  if (!observation) return std::nullopt;
+  const bool is_confirmed = isConfirmed(*observation);
+  observations_.push_back(*observation);
+  if (observations_.size() > kSightsRemembered) observations_.erase(observations_.begin());
   if (!is_confirmed) return std::nullopt;
-  return sight->entry;
+  return observation->entry;
 }
 
 std::vector<MapObservation> MapSearch::observe(const ImageFeatures& features) {
@@ -108,8 +109,8 @@ std::vector<MapObservation> MapSearch::observe(const ImageFeatures& features) {
   return observations;
 }
 
-std::optional<MapSearch::Sight> MapSearch::look(const ImageFeatures& features,
-                                                const Eigen::Isometry3d& T_flight_cam) {
+std::optional<MapSearch::Observation> MapSearch::look(const ImageFeatures& features,
+                                                      const Eigen::Isometry3d& T_flight_cam) {
   Clone gravity;
   gravity.R_map_rig = T_flight_cam.linear();
   const double sigma_a = angle_sigma_px_ / features.focal_length_px;
@@ -118,15 +119,15 @@ std::optional<MapSearch::Sight> MapSearch::look(const ImageFeatures& features,
   if (!consensus || static_cast<int>(consensus->observations.size()) < kFewestFixLandmarks)
     return std::nullopt;
 
-  Sight sight;
-  sight.camera_flight = T_flight_cam.translation();
-  MapEntry& entry = sight.entry;
+  Observation observation;
+  observation.camera_flight = T_flight_cam.translation();
+  MapEntry& entry = observation.entry;
   entry.camera_loaded = consensus->position_map;
   const double heading_rad = headingOf(consensus->R_map_rig * T_flight_cam.linear().transpose());
   entry.T_loaded_flight.linear() =
       Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   entry.T_loaded_flight.translation() =
-      entry.camera_loaded - entry.T_loaded_flight.linear() * sight.camera_flight;
+      entry.camera_loaded - entry.T_loaded_flight.linear() * observation.camera_flight;
   entry.covariance = kPriorVariance * covarianceOf(*consensus, sigma_a);
   if (!entry.covariance.allFinite()) return std::nullopt;
   std::vector<double> distances_m;
@@ -139,9 +140,9 @@ std::optional<MapSearch::Sight> MapSearch::look(const ImageFeatures& features,
       std::max_element(seen_of_anchor.begin(), seen_of_anchor.end()) - seen_of_anchor.begin());
   const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
   std::nth_element(distances_m.begin(), middle, distances_m.end());
-  sight.distance_m = *middle;
-  if (cover(features, *consensus, sight.distance_m) < kLeastCover) return std::nullopt;
-  return sight;
+  observation.distance_m = *middle;
+  if (cover(features, *consensus, observation.distance_m) < kLeastCover) return std::nullopt;
+  return observation;
 }
 
 double MapSearch::cover(const ImageFeatures& features, const ObservationConsensus& consensus,
@@ -155,8 +156,8 @@ double MapSearch::cover(const ImageFeatures& features, const ObservationConsensu
   return cover_.of(view, landmarks_);
 }
 
-bool MapSearch::isConfirmed(const Sight& newest) const {
-  const auto agrees = [&newest](const Sight& earlier) {
+bool MapSearch::isConfirmed(const Observation& newest) const {
+  const auto agrees = [&newest](const Observation& earlier) {
     const Eigen::Isometry3d difference =
         newest.entry.T_loaded_flight * earlier.entry.T_loaded_flight.inverse();
     const Eigen::Vector3d position = earlier.entry.T_loaded_flight * newest.camera_flight;
@@ -165,7 +166,7 @@ bool MapSearch::isConfirmed(const Sight& newest) const {
     return off_m < kAgreeDistance * newest.distance_m + kAgreeDrift * displacement_m &&
            std::abs(headingOf(difference.linear())) < kAgreeHeading_rad;
   };
-  const auto agreeing = std::count_if(sights_.begin(), sights_.end(), agrees);
+  const auto agreeing = std::count_if(observations_.begin(), observations_.end(), agrees);
   return static_cast<std::size_t>(agreeing) + 1 >= kSightsNeeded;
 }
 

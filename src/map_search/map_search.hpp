@@ -19,8 +19,8 @@ namespace ardrone_vslam {
 
 /// Looks for a flight in the map of an earlier one, by images and gravity alone: position and
 /// heading are unknown. Features are matched with all landmarks; the pose that more of them agree
-/// on than chance explains is a sight of the place; the flight is found once several sights, by
-/// images apart in time, agree on where it began.
+/// on than chance explains is an observation of the place; the flight is found once several
+/// observations, by images apart in time, agree on where it began.
 class MapSearch {
  public:
   MapSearch(SavedMap map, const SlamConfig& config);
@@ -37,17 +37,18 @@ class MapSearch {
 
  private:
   /// The pose of one image in the map.
-  struct Sight {
+  struct Observation {
     MapEntry entry;
     double distance_m = 0;                                    // of the landmarks, median
     Eigen::Vector3d camera_flight = Eigen::Vector3d::Zero();  // its position
   };
 
   std::vector<MapObservation> observe(const ImageFeatures& features);
-  std::optional<Sight> look(const ImageFeatures& features, const Eigen::Isometry3d& T_flight_cam);
+  std::optional<Observation> look(const ImageFeatures& features,
+                                  const Eigen::Isometry3d& T_flight_cam);
   double cover(const ImageFeatures& features, const ObservationConsensus& consensus,
                double distance_m);
-  bool isConfirmed(const Sight& newest) const;
+  bool isConfirmed(const Observation& newest) const;
 
   SavedMap map_;
   double angle_sigma_px_;
@@ -57,7 +58,7 @@ class MapSearch {
   ImageCover cover_;
   LandmarkMap landmarks_;
   std::int64_t looked_ns_ = 0;
-  std::vector<Sight> sights_;  // the last few
+  std::vector<Observation> observations_;  // the last few
 };
 
 }  // namespace ardrone_vslam

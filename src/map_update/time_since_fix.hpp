@@ -30,13 +30,13 @@ class TimeSinceFix {
   /// Nothing was recognised in the frame seen last.
   void passFrame() { pass(uncounted_s_); }
   /// Nothing was recognised for so long.
-  void pass(double duration_s) { blind_s_ += duration_s; }
+  void pass(double duration_s) { since_fix_s_ += duration_s; }
   /// A fix by landmarks of these anchors. Anchors of their time and since are in place with them.
   void link(const std::vector<std::uint32_t>& anchor_ids) {
     double first_s = std::numeric_limits<double>::infinity();
     for (const std::uint32_t id : anchor_ids) first_s = std::min(first_s, linked(id));
     for (auto& [id, linked_s] : linked_s_) {
-      if (linked_s >= first_s) linked_s = blind_s_;
+      if (linked_s >= first_s) linked_s = since_fix_s_;
     }
   }
   /// Drifts take part from when they are first given.
@@ -47,7 +47,7 @@ class TimeSinceFix {
     for (AnchorDrift& drift : drifts) {
       const double linked_s = linked(drift.anchor_id);
       still_there[drift.anchor_id] = linked_s;
-      const double widening = 1 + (blind_s_ - linked_s) / widening_s;
+      const double widening = 1 + (since_fix_s_ - linked_s) / widening_s;
       drift.position_m2 *= widening * widening;
       drift.attitude_rad2 *= widening * widening;
     }
@@ -57,12 +57,12 @@ class TimeSinceFix {
  private:
   double linked(std::uint32_t anchor_id) const {
     const auto entry = linked_s_.find(anchor_id);
-    return entry == linked_s_.end() ? blind_s_ : entry->second;
+    return entry == linked_s_.end() ? since_fix_s_ : entry->second;
   }
 
-  double blind_s_ = 0;
+  double since_fix_s_ = 0;
   std::optional<std::int64_t> last_stamp_ns_;
-  double uncounted_s_ = 0;  // since the frame before, and not yet in blind_s_
+  double uncounted_s_ = 0;  // since the frame before, and not yet in since_fix_s_
   std::unordered_map<std::uint32_t, double> linked_s_;  // by anchor
 };
 

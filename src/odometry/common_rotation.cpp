@@ -24,16 +24,16 @@ Eigen::Matrix3d commonRotation(const std::vector<BearingPair>& pairs, double lea
     double sum = 0, sum_left = 0;
     for (const BearingPair& pair : pairs) {
       const Eigen::Vector3d now = R_then_now * pair.now;
-      const Eigen::Vector3d rotated = now - pair.then;
+      const Eigen::Vector3d moved = now - pair.then;
       const Eigen::Vector3d across = direction_then - now.dot(direction_then) * now;
-      const double left = (rotated + shift * across).norm();
+      const double left = (moved + shift * across).norm();
       const double weight = scale_rad > 0 ? weightOf(left, scale_rad) : 1;
       sum += weight;
       sum_left += weight * left;
       Eigen::Matrix<double, 3, 4> J;
       J << -skew(now), across;
       A += weight * J.transpose() * J;
-      g += weight * J.transpose() * rotated;
+      g += weight * J.transpose() * moved;
     }
     scale_rad = std::max(2 * sum_left / sum, least_scale_rad);
     const Eigen::Vector4d step = -A.ldlt().solve(g);

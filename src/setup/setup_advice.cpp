@@ -17,7 +17,7 @@ const char* causeOf(SetupFault fault) {
   switch (fault) {
     case SetupFault::kNone:
       break;
-    case SetupFault::kMounting:
+    case SetupFault::kExtrinsics:
       return "the camera is turned otherwise than tf says";
     case SetupFault::kMirrored:
       return "the images are mirrored";
@@ -42,7 +42,7 @@ std::string remedyOf(const SetupFinding& finding, const std::string& base,
   switch (finding.fault) {
     case SetupFault::kNone:
       break;
-    case SetupFault::kMounting:
+    case SetupFault::kExtrinsics:
       remedy << "correct it: " << staticTransformLine(finding.T_base_cam, base, camera);
       break;
     case SetupFault::kMirrored:

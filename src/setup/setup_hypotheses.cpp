@@ -62,7 +62,7 @@ SetupHypotheses::SetupHypotheses(const Eigen::Isometry3d& T_base_cam, double ima
     hypotheses_.push_back({is_same ? SetupFault::kNone : SetupFault::kTimeOffset, i});
   }
   for (const Eigen::Matrix3d& Q : quarterTurns())
-    hypotheses_.push_back({SetupFault::kMounting, 0, Q});
+    hypotheses_.push_back({SetupFault::kExtrinsics, 0, Q});
   for (const Eigen::Vector3d& mirror : {Eigen::Vector3d(-1, 1, 1), Eigen::Vector3d(1, -1, 1)})
     hypotheses_.push_back({SetupFault::kMirrored, 0, mirror.asDiagonal()});
   for (std::size_t i = 0; i < kFocalFactors.size(); ++i)
@@ -74,7 +74,7 @@ SetupHypotheses::SetupHypotheses(const Eigen::Isometry3d& T_base_cam, double ima
 double SetupHypotheses::squaresOf(const Hypothesis& h, const ComparedMotion& motion) {
   const ToldMotion& told = motion.told();
   switch (h.fault) {
-    case SetupFault::kMounting:
+    case SetupFault::kExtrinsics:
     case SetupFault::kMirrored:
       return squaresBetween(motion.seen, rotated(h.Q, told), motion.span_s);
     case SetupFault::kFocalLength: {
@@ -175,7 +175,7 @@ void SetupHypotheses::name(const Hypothesis& best) {
   double rival = best.squares + kClear;
   for (const Hypothesis& h : hypotheses_) {
     const bool is_other =
-        h.fault != best.fault || (h.fault == SetupFault::kMounting && &h != &best);
+        h.fault != best.fault || (h.fault == SetupFault::kExtrinsics && &h != &best);
     if (h.fault == SetupFault::kNone || !is_other || h.squares > rival) continue;
     rival = h.squares;
     finding_.rival = h.fault;

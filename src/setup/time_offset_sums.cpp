@@ -100,7 +100,8 @@ void TimeOffsetSums::add(const ComparedRotation& rotation) {
   constants_ = prior + kept * (constants_ - prior) + weight * J.transpose() * information * J;
   solver_.compute(constants_);
   rotations_ = kept * rotations_ + weight;
-  rotated_ = kept * rotated_ + weight * rotation_rad.dot(information * rotation_rad);
+  rotation_squares_ =
+      kept * rotation_squares_ + weight * rotation_rad.dot(information * rotation_rad);
   findMinimum();
 }
 
@@ -118,13 +119,14 @@ void TimeOffsetSums::findMinimum() {
   const double per_rotation = std::max(squares_[best_], 0.0) / (3 * rotations_);
   const double ripple = std::sqrt(6 * rotations_) * per_rotation;  // by white noise of the attitude
   const double contrast = *std::max_element(squares_.begin(), squares_.end()) - squares_[best_];
-  if (rotated_ > kClearRotation * 3 * rotations_ && per_rotation > kAlike) {
+  if (rotation_squares_ > kClearRotation * 3 * rotations_ && per_rotation > kAlike) {
     estimate_.state = TimeOffsetState::kDisagreement;
     return;
   }
   estimate_.state = TimeOffsetState::kTooLittleRotation;
   if (contrast < kSignificant * ripple) return;
-  if (contrast > kTwoRotations * rotated_) return;  // the odometry turned alone: its heading jumped
+  if (contrast > kTwoRotations * rotation_squares_)
+    return;  // the odometry turned alone: its heading jumped
   if (best_ < kParabola || best_ + kParabola >= kOffsetCount) {
     estimate_.state = TimeOffsetState::kOutOfReach;
     return;

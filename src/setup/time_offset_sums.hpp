@@ -55,7 +55,7 @@ class TimeOffsetSums {
   Eigen::LDLT<Matrix6d> solver_;                // of it
   std::int64_t added_ns_ = 0;                   // stamp of the newest image in the sums; 0: none
   double rotations_ = 0;                        // so many are in the sums
-  double rotated_ = 0;                          // squares of the turns themselves
+  double rotation_squares_ = 0;                 // of the rotations themselves
   std::array<double, kOffsetCount> squares_{};  // with the constant differences fitted away
   std::size_t best_ = kMiddleOffset;            // where they are fewest
   TimeOffset estimate_;

@@ -17,7 +17,7 @@ struct Fault {
   bool is_mirrored = false;
   std::int64_t late_ns = 0;
   double focal_factor = 1;
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
 };
 
 Fault parseFault(const std::string& text) {
@@ -30,7 +30,7 @@ Fault parseFault(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(number.c_str(), &end);
   const bool is_number = !number.empty() && *end == '\0' && std::isfinite(value);
-  const auto turned = [value](int axis) {
+  const auto about = [value](int axis) {
     return rotationOf(value * M_PI / 180 * Eigen::Vector3d::Unit(axis));
   };
   if (is_number && name == "late") {
@@ -38,11 +38,11 @@ Fault parseFault(const std::string& text) {
   } else if (is_number && name == "focal" && value > 0) {
     fault.focal_factor = value;
   } else if (is_number && name == "pitch") {
-    fault.turn = turned(0);
+    fault.rotation = about(0);
   } else if (is_number && name == "yaw") {
-    fault.turn = turned(1);
+    fault.rotation = about(1);
   } else if (is_number && name == "roll") {
-    fault.turn = turned(2);
+    fault.rotation = about(2);
   } else {
     throw std::invalid_argument("fault '" + text +
                                 "' must be mirrored, late=SECONDS, focal=FACTOR, or roll=, pitch= "
@@ -69,7 +69,7 @@ class FaultySequence : public SequenceView {
     SequenceCamera camera = sequence().cameraAt(which);
     camera.intrinsics.fx_px *= fault_.focal_factor;
     camera.intrinsics.fy_px *= fault_.focal_factor;
-    camera.T_base_cam.linear() = camera.T_base_cam.linear() * fault_.turn;
+    camera.T_base_cam.linear() = camera.T_base_cam.linear() * fault_.rotation;
     return camera;
   }
 

@@ -37,8 +37,8 @@ Eigen::Quaterniond fromRotationVector(const Eigen::Vector3d& v) {
 }
 
 double rotationAboutZ(const Eigen::Matrix3d& R_then_now) {
-  const Eigen::AngleAxisd turn(R_then_now);
-  return turn.angle() * turn.axis().z();
+  const Eigen::AngleAxisd angle_axis(R_then_now);
+  return angle_axis.angle() * angle_axis.axis().z();
 }
 
 /// True attitude -> reported attitude.
@@ -60,10 +60,10 @@ class AttitudeCorruption {
     const double variance =
         profile_.yaw_walk_rad_per_sqrt_m * profile_.yaw_walk_rad_per_sqrt_m * step_m +
         profile_.yaw_walk_rad_per_sqrt_s * profile_.yaw_walk_rad_per_sqrt_s * dt_s_;
-    const Eigen::Vector3d turn(
+    const Eigen::Vector3d rotation_rad(
         0, 0, std::sqrt(variance) * yaw_noise_.normal() + yaw_scale_error_ * yaw_rad);
-    walk_ =
-        (walk_ * true_map_base * fromRotationVector(turn) * true_map_base.conjugate()).normalized();
+    walk_ = (walk_ * true_map_base * fromRotationVector(rotation_rad) * true_map_base.conjugate())
+                .normalized();
     tilt_bias_.advance(noise_.normal3());
   }
 

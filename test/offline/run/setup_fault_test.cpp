@@ -53,8 +53,8 @@ Flown fly(const std::string& fault, const WorldOptions& options = laps(), std::u
 
 TEST(SetupFaults, AreNamedAndDoNoHarm) {
   const std::vector<std::pair<std::string, SetupFault>> faults{
-      {"yaw=180", SetupFault::kMounting},
-      {"roll=90", SetupFault::kMounting},
+      {"yaw=180", SetupFault::kExtrinsics},
+      {"roll=90", SetupFault::kExtrinsics},
       {"mirrored", SetupFault::kMirrored},
       {"late=0.3", SetupFault::kTimeOffset},
       {"late=-0.3", SetupFault::kTimeOffset}};

@@ -94,7 +94,7 @@ TEST(YawLevel, OnePairCountsOnceAndNotWithAWrongSetUp) {
   EXPECT_EQ(level.factor(), once.factor());
   for (int i = 0; i < 100; ++i) {
     SetupFinding wrong = pairAt(2 + i * kBetween_s, radians(5));
-    wrong.fault = SetupFault::kMounting;
+    wrong.fault = SetupFault::kExtrinsics;
     level.learn(wrong);
   }
   level.learn({});  // of another camera's first image

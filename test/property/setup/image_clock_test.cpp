@@ -87,7 +87,7 @@ TEST(ImageClock, WhatIsToldStays) {
 
 TEST(ImageClock, AFaultOfTheSetUpTeachesNothing) {
   ImageClock turned(kFound);
-  EXPECT_EQ(film(turned, 0.1, 3, SetupFault::kMounting).changes, 0);
+  EXPECT_EQ(film(turned, 0.1, 3, SetupFault::kExtrinsics).changes, 0);
   ImageClock late(kFound);
   EXPECT_GE(film(late, 0.1, 3, SetupFault::kTimeOffset).changes, 1);
 }

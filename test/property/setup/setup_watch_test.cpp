@@ -83,7 +83,7 @@ TEST(SetupWatch, FindsACameraThatIsTurnedAndHow) {
     for (int axis = 0; axis < 3; ++axis) {
       for (const double angle_deg : {90.0, -90.0, 180.0}) {
         const SetupFinding found = findOf(rotatedBy(angle_deg, axis), seed);
-        ASSERT_EQ(found.fault, SetupFault::kMounting) << angle_deg << " about " << axis;
+        ASSERT_EQ(found.fault, SetupFault::kExtrinsics) << angle_deg << " about " << axis;
         EXPECT_EQ(found.rival, SetupFault::kNone) << angle_deg << " about " << axis;
         EXPECT_TRUE(found.T_base_cam.isApprox(test::forwardExtrinsics(), 1e-9));
       }
@@ -203,7 +203,7 @@ TEST(SetupWatch, StampsThatGoBackBeginAnew) {
 TEST(SetupFindingText, NamesTheFaultAndWhatHelps) {
   SetupFinding finding;
   EXPECT_EQ(explain(finding, "base_link", "camera"), "");
-  finding.fault = SetupFault::kMounting;
+  finding.fault = SetupFault::kExtrinsics;
   finding.T_base_cam = test::forwardExtrinsics();
   finding.T_base_cam.translation() << 0.21, 0, 0;
   EXPECT_NE(explain(finding, "base_link", "camera")

@@ -28,10 +28,10 @@ bool isFinite(const geometry_msgs::TwistWithCovariance& message) {
 geometry_msgs::Twist twistBetween(const OdometryState& before, const OdometryState& after) {
   const double dt_s = static_cast<double>(after.stamp_ns - before.stamp_ns) * 1e-9;
   const Eigen::Isometry3d T_before_after = before.T_odom_base.inverse() * after.T_odom_base;
-  const Eigen::AngleAxisd turn(T_before_after.linear());
+  const Eigen::AngleAxisd angle_axis(T_before_after.linear());
   geometry_msgs::Twist twist;
   twist.linear = toVectorMessage(T_before_after.translation() / dt_s);
-  twist.angular = toVectorMessage(turn.axis() * turn.angle() / dt_s);
+  twist.angular = toVectorMessage(angle_axis.axis() * angle_axis.angle() / dt_s);
   return twist;
 }
 

@@ -49,9 +49,9 @@ Eigen::Matrix3d refined(const std::vector<SeenMotion>& motions, Eigen::Matrix3d 
       const Eigen::Vector3d rotation =
           Eigen::Vector3d::Unit(i % 3) * (i < 3 ? step_rad : -step_rad);
       const Eigen::Matrix3d turned = R * rotationOf(rotation);
-      const double rotated_px = misfit_px(motions, turned, cut_px);
-      if (rotated_px >= best_px) continue;
-      best_px = rotated_px;
+      const double turned_px = misfit_px(motions, turned, cut_px);
+      if (turned_px >= best_px) continue;
+      best_px = turned_px;
       R = turned;
       is_better = true;
     }

@@ -15,7 +15,7 @@ constexpr double kLook_s = 11;
 constexpr double kLookOutwards_rad = 45 * M_PI / 180;
 constexpr double kBrake_s = 4;      // of LapsThenHover
 constexpr double kRotation_s = 22;  // of TurnThenLaps
-constexpr double kTurnRamp_s = 2;
+constexpr double kRotationRamp_s = 2;
 constexpr double kFastFrom_s = 20;  // of FastLaps
 constexpr double kFastRamp_s = 4;
 constexpr double kFaster = 1.5;  // laps a lap's time more
@@ -78,13 +78,14 @@ double LapsThenHover::lapTime(double t_s) {
 }
 
 Eigen::Vector3d TurnThenLaps::position(double t_s) const {
-  const double swaying =
-      smoothStep(t_s / kTurnRamp_s) - smoothStep((t_s - kRotation_s + kTurnRamp_s) / kTurnRamp_s);
+  const double swaying = smoothStep(t_s / kRotationRamp_s) -
+                         smoothStep((t_s - kRotation_s + kRotationRamp_s) / kRotationRamp_s);
   return Laps::position(t_s - kRotation_s) + swaying * gusts(t_s);
 }
 
 double TurnThenLaps::yaw(double t_s) const {
-  return Laps::yaw(t_s - kRotation_s) + Legs(0).move(0, kRotation_s, 2 * M_PI, kTurnRamp_s).at(t_s);
+  return Laps::yaw(t_s - kRotation_s) +
+         Legs(0).move(0, kRotation_s, 2 * M_PI, kRotationRamp_s).at(t_s);
 }
 
 Eigen::Vector3d FastLaps::position(double t_s) const {

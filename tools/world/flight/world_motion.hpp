@@ -39,10 +39,10 @@ class Legs {
  public:
   explicit Legs(double first) : first_(first) {}
 
-  /// Moves by `way` between these times, speeding up and slowing down for `ramp_s` each: half the
-  /// way at most.
-  Legs& move(double begin_s, double end_s, double way, double ramp_s) {
-    legs_.push_back({begin_s, end_s, way, std::min(ramp_s, (end_s - begin_s) / 2)});
+  /// Moves by `distance` between these times, speeding up and slowing down for `ramp_s` each: half
+  /// the time at most.
+  Legs& move(double begin_s, double end_s, double distance, double ramp_s) {
+    legs_.push_back({begin_s, end_s, distance, std::min(ramp_s, (end_s - begin_s) / 2)});
     return *this;
   }
 
@@ -52,7 +52,7 @@ class Legs {
       const double cruise_s = leg.end_s - leg.begin_s - leg.ramp_s;
       const double run_s = smoothStepIntegral((t_s - leg.begin_s) / leg.ramp_s) -
                            smoothStepIntegral((t_s - leg.end_s + leg.ramp_s) / leg.ramp_s);
-      value += leg.way * run_s * leg.ramp_s / cruise_s;
+      value += leg.distance * run_s * leg.ramp_s / cruise_s;
     }
     return value;
   }
@@ -61,7 +61,7 @@ class Legs {
   struct Leg {
     double begin_s;
     double end_s;
-    double way;
+    double distance;
     double ramp_s;
   };
 
