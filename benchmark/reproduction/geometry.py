@@ -77,9 +77,9 @@ def mean_deviation(tools):
     section.table(["`mean`", "error left [m]", "deviation claimed [m]"], [[name, digits(wrong[name]["error_m"]), digits(wrong[name]["claimed_m"], 2)] for name in ("printed", "exact")])
     section.claim("error of (6.5) over that of (C.1)", mean["printed"] / mean["conventional"], 1.2, 2)
     section.claim("error of (6.5) with W = (sum w)^2 over that of (C.1)", mean["mended"] / mean["conventional"], 0.05, 0.2)
-    section.claim("error of the exact formula over that of (C.1)", mean["exact"] / mean["conventional"], high=0.05)
+    section.claim("error of the exact formula over that of (C.1)", mean["exact"] / mean["conventional"], high=0.02)
     section.claim("error that the printed mean leaves of 0.5 m", wrong["printed"]["error_m"], 0.37, 0.45)
-    section.claim("error that the exact mean leaves [m]", wrong["exact"]["error_m"], high=0.02)
+    section.claim("error that the exact mean leaves [m]", wrong["exact"]["error_m"], high=0.01)
     plt.close("all")
     return section
 
