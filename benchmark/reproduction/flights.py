@@ -149,7 +149,7 @@ def _whole_path(tools, section):
                                       settings=("mapper/min_landmarks=1", f"tracker/features_per_frame={FEW_FEATURES}"))
     run = os.path.join(folder, "thesis", "seed_1")
     errors = column(tools, run, "camera_error_m")
-    section.text("**The whole of KITTI 00** (3.7 km; its images are not at hand, so landmarks are simulated beside its path, seen with 0.8 px of noise and 3 % of wrong corners):")
+    section.text("**The whole of KITTI 00** (3.7 km; its images are not at hand). Landmarks are simulated beside its path, seen with 0.8 px of noise and 3 % of wrong corners:")
     rows = [["mean error by landmarks alone [m]", digits(thesis.KITTI_MEAN_M), digits(errors.mean())], ["largest [m]", str(thesis.KITTI_LARGEST_M), digits(errors.max())]]
     frames = tools.read(run).frames
     again = frames["camera_error_m"][3300:3900]
@@ -184,7 +184,7 @@ def ardrone_2d(tools):
     section.picture("planar_matches", draw_matches_over_time(rows), "Matches over time (figure 7.9)")
     section.text(f"Error by landmarks alone: {digits(errors.mean())} m in the mean, {digits(errors.max())} m at most (the thesis plots it; \"more or less the same as in the tests with "
                  "the KITTI dataset\", some 0.16 m). Matches grow from lap to lap as printed, from a higher level: the map is made in the first lap already. The thesis's large errors "
-                 "where the drone looked elsewhere are not there: once the map has begun every image shows landmarks. Leaving out z costs: most of the error is a steady bias, and the same images in 3-D "
+                 "where the drone looked elsewhere are not there: once the map has begun every image shows landmarks. Leaving out z costs: most of the error is a steady bias. The same images in 3-D "
                  f"(`planar: false`) are off by {digits(spatial.mean())} m in the mean.")
     section.claim("matches of the second lap over the first", parts[1] / parts[0], low=1.6)
     section.claim("mean error by landmarks alone [m]", errors.mean(), high=0.1)

@@ -80,7 +80,7 @@ def repeatability(tools):
     section.picture("repeatability", figure, "Repeatability against s")
     at = {(p["s"], p["noise_grey"], p["budget"]): p["repeatability"] for p in measured["points"]}
     noise = measured["noise_grey"]
-    section.text(f"Measured on {measured['what']}; a corner is repeated when the other picture has one within 2 px of where the truth puts it. The thesis "
+    section.text(f"Measured on {measured['what']}. A corner counts as repeated when the other picture has one within 2 px of where the truth puts it. The thesis "
                  "copies Rosten's curves (the smaller s, the better) and does not print numbers. Found again: at a noise of 12 the 500 strongest corners "
                  f"repeat to {percent(at[9, noise, 500])} with s = 9, {percent(at[12, noise, 500])} with 12 and {percent(at[16, noise, 500])} with 16. FAST-9 repeats better than the "
                  "thesis's FAST-12. That is the default all the same: it takes less time.")

@@ -31,7 +31,7 @@ def lens(tools):
     opencv = next(method for method in measured["methods"] if method["name"].startswith("cv::undistortPoints until"))
     own_closed = next(method for method in measured["methods"] if method["name"].startswith("`closed_form`"))
     section.text(f"The thesis: {thesis.LENS_MEAN_PX} px mean error on 640x360, {thesis.LENS_SPEED_UP} times as fast as the iterative inverse (Matlab). Here, with the AR.Drone's "
-                 f"camera of the data (f = {measured['f_px']:g} px, k1 = {measured['k1']:g}, k2 = {measured['k2']:g}): {digits(closed['mean_px'], 2)} px; "
+                 f"camera of the data (f = {measured['f_px']:g} px, k1 = {measured['k1']:g}, k2 = {measured['k2']:g}): {digits(closed['mean_px'], 2)} px. It is "
                  f"{digits(exact['time_ns'] / own_closed['time_ns'], 2)} times as fast as our Newton's method, {digits(opencv['time_ns'] / own_closed['time_ns'], 2)} times as fast as "
                  "OpenCV's iteration to the same accuracy. The thesis prints no calibration; its mean is reached where the sensor sees 4 degrees more of this lens. The "
                  "table is exact and no slower. More on this: [lens_correction.md](lens_correction.md).")

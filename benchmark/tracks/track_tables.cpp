@@ -23,8 +23,9 @@ void printHead() {
       "distance between two images [px], the bias its median with the sign. \"Truth\" takes the "
       "sequence's own poses. Recorded ones err by tenths of a pixel themselves, and rendered ones "
       "are of the middle row where the shutter rolls. \"Refined\" therefore fits the relative pose "
-      "to the same tracks, robustly, from the truth on: rotation, direction of travel and a turn "
-      "that grows with the row, as a shutter that rolls makes it. It does so where two images "
+      "to the same tracks, robustly, from the truth on. It fits rotation, direction of travel and "
+      "a "
+      "turn that grows with the row, as a shutter that rolls makes it. It does so where two images "
       "have 60 tracks or more.\n\n",
       kFeatures);
 }
@@ -109,9 +110,9 @@ void printClaims(const MeasuredSequence& sequence, std::size_t k) {
 
 void printClaimTable(const std::vector<MeasuredSequence>& sequences) {
   std::printf(
-      "\nWhat the tracker claims of a position (its information) beside what is measured: tracks "
-      "so many images old, across their epipolar lines in the new image, by thirds of the claimed "
-      "deviation. A ratio above 1: the tracker claims too much.\n\n"
+      "\nWhat the tracker claims of a position (its information) beside what is measured. "
+      "Tracks are so many images old, and measured across their epipolar lines in the new image, "
+      "by thirds of the claimed deviation. A ratio above 1: the tracker claims too much.\n\n"
       "| sequence | images | share aligned | images old | truth: measured / claimed, lowest third "
       "| middle | "
       "highest | refined: claimed, measured [px], ratio, lowest third | middle | highest |\n"

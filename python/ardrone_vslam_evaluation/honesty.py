@@ -37,7 +37,7 @@ Written by `scripts/evaluate_all --honesty --update --seeds {seeds}`, not by han
 """
 SIMILAR_NOTE = """
 ## Similar flights
-Each is as right as the flight it is made of. `--world-scale` makes scene and flight so many times as large at the same speed, and so lasts as many times as long;
+Each is as right as the flight it is made of. `--world-scale` makes scene and flight so many times as large at the same speed: it lasts as many times as long.
 `--mirror-world` mirrors images, camera and truth. How late images are is found in flight ([how](odometry.md#when-an-image-was-exposed)); until then they are taken as they are stamped.
 
 """
