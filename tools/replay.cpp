@@ -194,7 +194,7 @@ std::vector<RunOdometry> odometriesOf(const Sequence& sequence, const Options& o
 }
 
 RunMaps mapsOf(const Options& o, const Sequence& sequence, const PipelineConfig& config) {
-  const std::string fault = Slam::faultOfMaps(config.mapper);
+  const std::string fault = faultOfMaps(config.mapper);
   RunMaps maps{std::nullopt, !o.maps.saved.empty()};
   if (!fault.empty() && (maps.is_saved || !o.maps.loaded.empty())) throw UsageError(fault);
   if (!o.maps.loaded.empty()) maps.loaded = loadMap(o.maps.loaded, sequence.camera());

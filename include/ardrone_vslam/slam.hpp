@@ -51,8 +51,6 @@ class Slam {
   /// False with `extrinsics_sigma_deg`, which is the error of one camera's extrinsics.
   bool canChangeCamera() const;
 
-  /// Why a configuration can neither load nor save maps; empty when it can.
-  static std::string faultOfMaps(const SlamConfig& config);
   /// The flight takes place in this map, where it is looked for from the first frame on. Until it
   /// is found (FrameResult::state kSearchingMap) the pose is beside a map of its own, and its
   /// covariance says that the place is unknown.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "ardrone_vslam/msckf_config.hpp"
 #include "ardrone_vslam/odometry_config.hpp"
@@ -191,6 +192,9 @@ struct SlamConfig {
   FeatureMapConfig feature_map;  ///< has no parameters
   LandmarkMapConfig landmark_map;
 };
+
+/// Why a configuration can neither load nor save maps; empty when it can.
+std::string faultOfMaps(const SlamConfig& config);
 
 /// Of `image_time_offset_s`, also the tracker's.
 constexpr const char* kImageTimeOffset =

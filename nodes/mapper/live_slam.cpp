@@ -28,7 +28,7 @@ void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& 
 }
 
 void LiveSlam::useMap(std::shared_ptr<const SavedMap> loaded) {
-  std::string fault = Slam::faultOfMaps(config_);
+  std::string fault = faultOfMaps(config_);
   if (fault.empty() && loaded && slam_) fault = differenceOf(*loaded, camera_);
   if (loaded && !fault.empty()) throw MapFileError(fault);
   loaded_ = std::move(loaded);

@@ -20,6 +20,11 @@ std::vector<Setting> heightsOf(const HeightInputConfig& config) {
 
 }  // namespace
 
+std::string faultOfMaps(const SlamConfig& config) {
+  if (config.estimator == EstimatorKind::kMsckf) return {};
+  return "maps are loaded and saved with estimator msckf alone: set estimator to msckf";
+}
+
 std::vector<std::string> faultsBetween(const SlamConfig& config) {
   std::vector<std::string> faults;
   std::vector<Setting> heights = heightsOf(config.height_input);

@@ -62,11 +62,15 @@ struct CornerDetector::State {
   CornerClimb climb;
   CornersByCell by_cell;
 
-  std::vector<std::uint16_t> row_groups;  ///< of one row
-  std::vector<std::uint16_t> row_columns;
-  std::vector<std::uint8_t> row_scores;  ///< 0 between two rows
-  std::vector<Corner> hits;              ///< all tested pixels that are corners, in raster order
-  std::vector<Corner> thinned;           ///< what suppression leaves of them
+  struct Row {
+    std::vector<std::uint16_t> groups;
+    std::vector<std::uint16_t> columns;
+    std::vector<std::uint8_t> scores;  ///< 0 between two rows
+  } one_row;                           ///< kept for its memory, as the lists
+  struct Lists {
+    std::vector<Corner> hits;     ///< all tested pixels that are corners, in raster order
+    std::vector<Corner> thinned;  ///< what suppression leaves of them
+  } lists;
 
   void reset(const ImageView& image);
   void reserve(const ImageView& image);
@@ -103,7 +107,7 @@ void CornerDetector::detect(const ImageView& image, std::vector<Corner>& corners
     s.dropBelowThreshold();
   }
   corners.reserve(static_cast<std::size_t>(s.config.features_per_frame) + 1);
-  s.by_cell.group(s.thinned, s.cells);
+  s.by_cell.group(s.lists.thinned, s.cells);
   s.by_cell.select(s.config.features_per_frame, corners);
   s.thresholds.adapt(s.by_cell);
 }
@@ -114,9 +118,9 @@ void CornerDetector::State::reset(const ImageView& image) {
   width_px = 0;  // without memory for this size it stays so, and the next image tries again
   cells.reset(image.width_px, image.height_px, config.cell_size_px);
   thresholds.reset(config, cells.count());
-  row_groups.resize(static_cast<std::size_t>(image.width_px));
-  row_columns.resize(row_groups.size() + kernels::kMaximaPadding);
-  row_scores.assign(row_groups.size() + kernels::kScorePadding, 0);
+  one_row.groups.resize(static_cast<std::size_t>(image.width_px));
+  one_row.columns.resize(one_row.groups.size() + kernels::kMaximaPadding);
+  one_row.scores.assign(one_row.groups.size() + kernels::kScorePadding, 0);
   reserve(image);
   width_px = image.width_px;
   height_px = image.height_px;
@@ -128,11 +132,11 @@ void CornerDetector::State::reserve(const ImageView& image) {
   const auto width = static_cast<std::size_t>(image.width_px);
   const auto height = static_cast<std::size_t>(image.height_px);
   const std::size_t maxima_at_most = (width + 1) / 2 * ((height + 1) / 2);  // no two are neighbours
-  thinned.reserve(maxima_at_most);
+  lists.thinned.reserve(maxima_at_most);
   by_cell.reserve(maxima_at_most);
   const bool climbs =
       config.suppression == Suppression::kLocalClimb && config.sampling_passes < kAllPasses;
-  if (climbs) hits.reserve(width * height);
+  if (climbs) lists.hits.reserve(width * height);
 }
 
 /// Tests the pixels of the first `passes` passes, row by row from the top.
@@ -150,7 +154,7 @@ void CornerDetector::State::scan(const ImageView& image, int passes, const NextH
 }
 
 void CornerDetector::State::keepMaxima(const ImageView& image, CornerMaxima::Ties ties) {
-  maxima.begin(width_px, ties, thinned);
+  maxima.begin(width_px, ties, lists.thinned);
   scan(
       image, config.sampling_passes, [this] { return maxima.nextRow(); },
       [this](int y, int count) { maxima.endRow(y, count); });
@@ -158,26 +162,27 @@ void CornerDetector::State::keepMaxima(const ImageView& image, CornerMaxima::Tie
 }
 
 void CornerDetector::State::climbFromSamples(const ImageView& image) {
-  hits.clear();
+  lists.hits.clear();
   const bool dense = kernels.fast_group_px > 1 && config.sampling_passes >= kDensePasses;
   scan(
       image, dense ? kAllPasses : config.sampling_passes,
       [this] {
-        return kernels::FastScores{row_scores.data(), row_groups.data()};
+        return kernels::FastScores{one_row.scores.data(), one_row.groups.data()};
       },
       [this](int y, int group_count) { listHits(y, group_count); });
   climb.climb(image, config.arc_length_px,
-              {hits, config.sampling_passes, dense ? &cells : nullptr, &thresholds}, thinned);
+              {lists.hits, config.sampling_passes, dense ? &cells : nullptr, &thresholds},
+              lists.thinned);
 }
 
-/// Moves the corners of a row from `row_scores` to `hits`.
+/// Moves the corners of a row from its scores to `hits`.
 void CornerDetector::State::listHits(int y_px, int group_count) {
-  const int count =
-      kernels.fast_list(row_scores.data(), row_groups.data(), group_count, row_columns.data());
-  for (const std::uint16_t* x = row_columns.data(); x != row_columns.data() + count; ++x) {
-    hits.push_back(
-        {static_cast<std::int16_t>(*x), static_cast<std::int16_t>(y_px), row_scores[*x]});
-    row_scores[*x] = 0;
+  const int count = kernels.fast_list(one_row.scores.data(), one_row.groups.data(), group_count,
+                                      one_row.columns.data());
+  for (const std::uint16_t* x = one_row.columns.data(); x != one_row.columns.data() + count; ++x) {
+    lists.hits.push_back(
+        {static_cast<std::int16_t>(*x), static_cast<std::int16_t>(y_px), one_row.scores[*x]});
+    one_row.scores[*x] = 0;
   }
 }
 
@@ -186,7 +191,8 @@ void CornerDetector::State::dropBelowThreshold() {
   const auto below = [this](const Corner& c) {
     return c.score < thresholds.at(cells.cellAt(c.x_px, c.y_px));
   };
-  thinned.erase(std::remove_if(thinned.begin(), thinned.end(), below), thinned.end());
+  lists.thinned.erase(std::remove_if(lists.thinned.begin(), lists.thinned.end(), below),
+                      lists.thinned.end());
 }
 
 }  // namespace ardrone_vslam

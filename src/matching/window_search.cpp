@@ -24,6 +24,35 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
+/// Of each entry in the order of the cells, and room that kernels may touch behind the last.
+struct Entries {
+  std::vector<Descriptor> descriptor;
+  std::vector<float> x_px;
+  std::vector<float> y_px;
+  std::vector<std::int32_t> index;
+  std::vector<std::int32_t> nearest_query;
+  std::vector<std::int32_t> nearest_query_bits;
+
+  void resize(std::size_t count) {
+    const std::size_t room = count + kernels::kWindowPadding;
+    descriptor.resize(room);
+    x_px.resize(room);
+    y_px.resize(room);
+    index.resize(room);
+    nearest_query.assign(room, kNobody);
+    nearest_query_bits.assign(room, kNoDistance_bits);
+  }
+  void reserve(std::size_t count) {
+    const std::size_t room = count + kernels::kWindowPadding;
+    descriptor.reserve(room);
+    x_px.reserve(room);
+    y_px.reserve(room);
+    index.reserve(room);
+    nearest_query.reserve(room);
+    nearest_query_bits.reserve(room);
+  }
+};
+
 }  // namespace
 
 struct WindowSearch::State {
@@ -34,16 +63,10 @@ struct WindowSearch::State {
   float cells_per_px = 1.F;
   int columns = 1;
   int rows = 1;
-  std::vector<std::size_t> first;  // of each cell in the arrays below, and the end of the last
+  std::vector<std::size_t> first;  // of each cell in `entries`, and the end of the last
   std::vector<std::size_t> fill;
-  std::vector<int> position_of_entry;  // in the arrays below; kNobody: left out
-  // Of each entry in the order of the cells, and room that kernels may touch behind the last.
-  std::vector<Descriptor> descriptor;
-  std::vector<float> x_px;
-  std::vector<float> y_px;
-  std::vector<std::int32_t> entry;
-  std::vector<std::int32_t> nearest_query;
-  std::vector<std::int32_t> nearest_query_bits;
+  std::vector<int> position_of_entry;  // in `entries`; kNobody: left out
+  Entries entries;
   std::vector<kernels::HammingRange> ranges;  // of one circle
 
   void layCells(const std::vector<Eigen::Vector2f>& places_px);
@@ -57,7 +80,6 @@ struct WindowSearch::State {
   std::size_t cellOf(const Eigen::Vector2f& place_px) const {
     return at(row(place_px.y()) * columns + column(place_px.x()));
   }
-  void resizeArrays(std::size_t count);
 };
 
 WindowSearch::WindowSearch(InstructionSet set) : state_(std::make_unique<State>(set)) {
@@ -86,27 +108,10 @@ void WindowSearch::State::layCells(const std::vector<Eigen::Vector2f>& places_px
   rows = cells(extent_px.y());
 }
 
-void WindowSearch::State::resizeArrays(std::size_t count) {
-  const std::size_t room = count + kernels::kWindowPadding;
-  descriptor.resize(room);
-  x_px.resize(room);
-  y_px.resize(room);
-  entry.resize(room);
-  nearest_query.assign(room, kNobody);
-  nearest_query_bits.assign(room, kNoDistance_bits);
-  ranges.resize(at(rows));
-}
-
 void WindowSearch::reserve(std::size_t entries, int width_px, int height_px) {
   State& s = *state_;
-  const std::size_t room = entries + kernels::kWindowPadding;
   s.position_of_entry.reserve(entries);
-  s.descriptor.reserve(room);
-  s.x_px.reserve(room);
-  s.y_px.reserve(room);
-  s.entry.reserve(room);
-  s.nearest_query.reserve(room);
-  s.nearest_query_bits.reserve(room);
+  s.entries.reserve(entries);
   const auto rows = at(1 + static_cast<int>(static_cast<float>(height_px) / kCell_px));
   const auto columns = at(1 + static_cast<int>(static_cast<float>(width_px) / kCell_px));
   s.first.reserve(rows * columns + 1);
@@ -133,15 +138,16 @@ void WindowSearch::build(const std::vector<Eigen::Vector2f>& places_px,
   }
   for (std::size_t c = 1; c < s.first.size(); ++c) s.first[c] += s.first[c - 1];
   s.fill.assign(s.first.begin(), s.first.end() - 1);
-  s.resizeArrays(s.first.back());
+  s.entries.resize(s.first.back());
+  s.ranges.resize(at(s.rows));
   for (std::size_t i = 0; i < places_px.size(); ++i) {
     if (s.position_of_entry[i] == kNobody) continue;
     const std::size_t k = s.fill[s.cellOf(places_px[i])]++;
     s.position_of_entry[i] = static_cast<int>(k);
-    s.descriptor[k] = descriptors[i];
-    s.x_px[k] = places_px[i].x();
-    s.y_px[k] = places_px[i].y();
-    s.entry[k] = static_cast<std::int32_t>(i);
+    s.entries.descriptor[k] = descriptors[i];
+    s.entries.x_px[k] = places_px[i].x();
+    s.entries.y_px[k] = places_px[i].y();
+    s.entries.index[k] = static_cast<std::int32_t>(i);
   }
 }
 
@@ -157,10 +163,11 @@ BestTwo WindowSearch::search(const Descriptor& query, const Eigen::Vector2f& cen
     s.ranges[at(range_count++)] = {s.first[at(row * s.columns + left)],
                                    s.first[at(row * s.columns + right) + 1]};
   }
+  Entries& e = s.entries;
   kernels::HammingNearest nearest{kNobody, kNoDistance_bits, kNoDistance_bits};
   s.kernels.hamming_window(
-      {s.descriptor[0].words.data(), s.x_px.data(), s.y_px.data(), s.entry.data(),
-       s.nearest_query_bits.data(), s.nearest_query.data()},
+      {e.descriptor[0].words.data(), e.x_px.data(), e.y_px.data(), e.index.data(),
+       e.nearest_query_bits.data(), e.nearest_query.data()},
       {query.words.data(), centre_px.x(), centre_px.y(), radius_px * radius_px, number},
       s.ranges.data(), range_count, nearest);
   return {nearest.index, nearest.distance_bits, nearest.second_distance_bits};
@@ -168,7 +175,7 @@ BestTwo WindowSearch::search(const Descriptor& query, const Eigen::Vector2f& cen
 
 int WindowSearch::nearestQuery(int entry) const {
   const int position = state_->position_of_entry[at(entry)];
-  return position == kNobody ? kNobody : state_->nearest_query[at(position)];
+  return position == kNobody ? kNobody : state_->entries.nearest_query[at(position)];
 }
 
 }  // namespace ardrone_vslam

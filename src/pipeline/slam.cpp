@@ -27,7 +27,7 @@ void refuseExtrinsics(const Eigen::Isometry3d& T_base_cam) {
 }
 
 void refuseMaps(const SlamConfig& config) {
-  const std::string fault = Slam::faultOfMaps(config);
+  const std::string fault = faultOfMaps(config);
   if (!fault.empty()) throw std::invalid_argument(fault);
 }
 
@@ -89,11 +89,6 @@ void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   refuseExtrinsics(T_base_cam);
   state_->view.changeCamera();
   state_->estimator->changeCamera(T_base_cam);
-}
-
-std::string Slam::faultOfMaps(const SlamConfig& config) {
-  if (config.estimator == EstimatorKind::kMsckf) return {};
-  return "maps are loaded and saved with estimator msckf alone: set estimator to msckf";
 }
 
 void Slam::load(SavedMap map) {
