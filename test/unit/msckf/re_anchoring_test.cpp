@@ -100,7 +100,7 @@ TEST(ReAnchoring, TurnAndStretchHoldForAllThatALandmarkKnows) {
   AnchorCorrection move;
   move.from_map << 1, 0, 0;
   move.to_map << 1, 1, 0;
-  move.turn = rotationOf({0, 0, M_PI / 2});
+  move.rotation = rotationOf({0, 0, M_PI / 2});
   move.stretch = 2;
   Landmark landmark = landmarkAt({2, 0, 0}, 7);
   move.apply(landmark);
