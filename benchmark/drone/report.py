@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Instructions a frame by stage, of what scripts/drone_cost has counted."""
+"""Instructions and cycles a frame by stage, of what scripts/drone_cost has counted."""
 import argparse
 import json
 import sys
@@ -11,6 +11,13 @@ STAGES = {"detect": 0, "describe": 1, "track": 2, "set-up": 7, "associate": 3, "
 CAMERAS = {"laps": "640x360, 200 features", "bottom": "320x240, 150 features"}
 # What costs more than a cycle on a Cortex-A8.
 SLOW = {"scalar": "scalar VFP", "divide": "divides and roots", "move": "moves between VFP or NEON and the core"}
+# What the model of the processor adds, by its name in the counts.
+CYCLES = {
+    "cycles": "cycles",
+    "cycles_neon": "waiting for NEON or VFP",
+    "cycles_caches": "misses of caches",
+    "cycles_branches": "branches not foretold",
+}
 
 
 def counts_of(path):
@@ -26,13 +33,32 @@ def row_of(folder, name):
     frames = len((folder / f"{name}.poses").read_text().splitlines())
     counts = counts_of(folder / f"{name}.counts")
     by_stage = [{kind: count / frames for kind, count in counts[number].items()} for number in STAGES.values()]
+    cycles = {kind: round(sum(stage.pop(kind) for stage in by_stage), 1) for kind in CYCLES if kind != "cycles" and kind in by_stage[0]}
+    of_stages = [stage.pop("cycles", None) for stage in by_stage]
     frame = {kind: round(sum(stage[kind] for stage in by_stage), 1) for kind in by_stage[0]}
     frame["instructions"] = round(sum(frame.values()), 1)
-    return {
+    row = {
         "frames": frames,
         "stages": {stage: round(sum(kinds.values()), 1) for stage, kinds in zip(STAGES, by_stage)},
         "frame": frame,
     }
+    if cycles:
+        row["cycles"] = {"frame": round(sum(of_stages), 1), **cycles}
+        row["cycles"].update({stage: round(cycles, 1) for stage, cycles in zip(STAGES, of_stages)})
+    return row
+
+
+def run_of(name):
+    flight, estimator, kernels = name.split("_")
+    return f"{CAMERAS[flight]}, {estimator}, {kernels}"
+
+
+def cycles_table(rows):
+    columns = {"frame": "frame", **{stage: stage for stage in STAGES}, **{kind: CYCLES[kind] for kind in CYCLES if kind != "cycles"}}
+    lines = ["| run | " + " | ".join(columns.values()) + " |", "|" + "---|" * (len(columns) + 1)]
+    for name, row in rows.items():
+        lines.append(f"| {run_of(name)} | " + " | ".join(f"{row['cycles'][kind] / 1e6:.2f}" for kind in columns) + " |")
+    return "\n".join(lines)
 
 
 def table(rows):
@@ -44,8 +70,7 @@ def table(rows):
         cells += [millions(row["stages"][stage]) for stage in STAGES]
         cells += [millions(row["frame"][kind]) for kind in SLOW]
         cells.append(millions(row["frame"]["memory"] + row["frame"]["neon_memory"] + row["frame"]["scalar_memory"]))
-        flight, estimator, kernels = name.split("_")
-        lines.append(f"| {CAMERAS[flight]}, {estimator}, {kernels} | " + " | ".join(cells) + " |")
+        lines.append(f"| {run_of(name)} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
 
@@ -72,18 +97,24 @@ def main():
     rows = {path.stem: row_of(arguments.folder, path.stem) for path in sorted(arguments.folder.glob("*.counts"))}
     text = table(rows)
     print(text)
+    with_cycles = all("cycles" in row for row in rows.values())
+    if with_cycles:
+        print("\n" + cycles_table(rows))
     faults = list(rises(rows, json.loads(arguments.baseline.read_text()))) if arguments.baseline else []
     if arguments.json:
         arguments.json.write_text(json.dumps(rows, indent=1) + "\n")
     if arguments.page:
         frames = next(iter(rows.values()))["frames"]
         arguments.page.write_text(
-            "# Instructions a frame on the drone\n\n"
+            "# Instructions and cycles a frame on the drone\n\n"
             "Made by `scripts/drone_cost --page`; do not edit. Millions of executed instructions a frame, mean of "
             f"the first {frames} frames of `laps`, counted by an emulated Cortex-A8: equal from run to run. A frame of a long flight "
             "costs more, within a minute twice as much ([why](../docs/onboard.md#what-a-frame-costs-and-what-makes-it-cheaper)). "
-            "Instructions are not cycles: on the Cortex-A8 one of scalar VFP takes about ten, a move from NEON to the core about "
-            "twenty. Reading the image from its file is not counted.\n\n" + text + "\n")
+            "Reading the image from its file is not counted.\n\n" + text + "\n\n"
+            + ("## Cycles, by a model\n\n"
+               "Millions of cycles a frame of the same runs, by a [model](../docs/onboard.md#cycles-by-a-model) of the processor; it has "
+               "not been held to a real drone. At 1 GHz a million is a millisecond. The last columns are parts of the frame; misses of what "
+               "NEON loads may be hidden.\n\n" + cycles_table(rows) + "\n" if with_cycles else ""))
     for fault in faults:
         print("FAULT:", fault)
     sys.exit(1 if faults else 0)
