@@ -32,7 +32,6 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_mutual = hammingMutualAvx512;
     kernels.hamming_distances = hammingDistancesAvx512;
     kernels.project = projectAvx512;
-    kernels.product_tile = productTileAvx512;
     kernels.hamming_window = hammingWindowAvx512;
   }
 #endif
@@ -51,6 +50,7 @@ Kernels kernelsFor(InstructionSet set) {
     kernels.hamming_distances = hammingDistancesNeon;
     kernels.hamming_window = hammingWindowNeon;
     kernels.project = projectNeon;
+    kernels.product_tile = productTileNeon;
     kernels.align = alignNeon;
   }
 #endif

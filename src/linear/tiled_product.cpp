@@ -10,7 +10,7 @@ namespace {
 
 using kernels::kTileColumns;
 using kernels::kTileRows;
-using Tile = Eigen::Matrix<double, kTileRows, kTileColumns>;
+using Tile = Eigen::Matrix<float, kTileRows, kTileColumns>;
 
 /// The rows of a matrix in panels of as many as a tile has, one term of the products after the
 /// other, so that the kernel reads straight on. Rows beyond the last are zero.
@@ -31,21 +31,21 @@ class Panels {
   }
 
   /// The panel that begins with a row.
-  const double* at(Eigen::Index row) const { return values_.data() + row * terms_; }
+  const float* at(Eigen::Index row) const { return values_.data() + row * terms_; }
   int terms() const { return static_cast<int>(terms_); }
 
  private:
   Eigen::Index terms_;
-  Eigen::Matrix<double, kHeight, Eigen::Dynamic> values_;
+  Eigen::Matrix<float, kHeight, Eigen::Dynamic> values_;
 };
 
 }  // namespace
 
-Eigen::MatrixXd tiledProduct(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+Eigen::MatrixXf tiledProduct(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b) {
   const auto productTile = kernels::kernelsInUse().product_tile;
   const Panels<kTileRows> left(a);
   const Panels<kTileColumns> right(b.transpose());
-  Eigen::MatrixXd product(a.rows(), b.cols());
+  Eigen::MatrixXf product(a.rows(), b.cols());
   Tile tile;
   for (Eigen::Index column = 0; column < b.cols(); column += kTileColumns) {
     const Eigen::Index width = std::min<Eigen::Index>(kTileColumns, b.cols() - column);
@@ -61,7 +61,7 @@ Eigen::MatrixXd tiledProduct(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
   return product;
 }
 
-void subtractSymmetricProduct(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+void subtractSymmetricProduct(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b,
                               Eigen::Block<Eigen::MatrixXd> P) {
   const auto productTile = kernels::kernelsInUse().product_tile;
   const Panels<kTileRows> left(a);
@@ -73,14 +73,14 @@ void subtractSymmetricProduct(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
       productTile(left.at(row), right.at(column), left.terms(), tile.data());
       if (row >= column + kTileColumns && row + kTileRows <= size) {
         auto below = P.block<kTileRows, kTileColumns>(row, column);
-        below -= tile;
+        below -= tile.cast<double>();
         P.block<kTileColumns, kTileRows>(column, row) = below.transpose();
         continue;
       }
       // On the diagonal or at the edge.
       for (Eigen::Index j = column; j < std::min(column + kTileColumns, size); ++j) {
         for (Eigen::Index i = std::max(row, j); i < std::min(row + kTileRows, size); ++i)
-          P(j, i) = P(i, j) -= tile(i - row, j - column);
+          P(j, i) = P(i, j) -= static_cast<double>(tile(i - row, j - column));
       }
     }
   }

@@ -3,16 +3,17 @@
 
 #include <Eigen/Core>
 
-// Products of matrices of some hundred rows by the vector kernels: the same numbers on every
-// instruction set. Eigen, compiled for the oldest processor, takes twice as long as AVX-512.
+// Products of matrices of some hundred rows in single precision, by the vector kernels: the same
+// numbers on every instruction set. The drone's processor takes fourteen cycles for a product of
+// doubles and ten for a sum, and half a cycle each for those of floats.
 namespace ardrone_vslam {
 
 /// a * b.
-Eigen::MatrixXd tiledProduct(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+Eigen::MatrixXf tiledProduct(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b);
 
 /// P -= a * b', where both are symmetric: half of the product is computed, and P stays symmetric
 /// to the last bit.
-void subtractSymmetricProduct(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+void subtractSymmetricProduct(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b,
                               Eigen::Block<Eigen::MatrixXd> P);
 
 }  // namespace ardrone_vslam

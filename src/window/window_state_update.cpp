@@ -9,16 +9,61 @@
 #include "window/window_state.hpp"
 
 namespace ardrone_vslam {
+namespace {
+
+// What single precision rounds off of a correction, per variance that it takes: products of a
+// hundred terms, and eigenvalues of a matrix of such errors.
+constexpr double kRounding = 2e-6;
+
+}  // namespace
+
+// Which coordinate of a pose this is: 0 to 2 its position, 3 to 5 its attitude; -1: of none.
+int WindowState::poseCoordinate(int coordinate) const {
+  if (coordinate == kFloor) return 2;  // a height is a position
+  if (coordinate < kGlobals) return -1;
+  const int of_frames = coordinate - frameCoordinate(0);
+  if (of_frames >= 0) return of_frames % kFrame;
+  const int of_anchor = (coordinate - kGlobals) % kAnchor;
+  return of_anchor < kFrame ? of_anchor : -1;
+}
+
+// The motion that all poses share, a drift of many metres, drops out of most measurements, but not
+// from what single precision rounds. So it is taken apart: with C the columns of the newest pose
+// and S picking the pose's coordinates, P B = (P - C S) B + C (S B), and S B is next to nothing.
+Eigen::MatrixXf WindowState::covarianceTimes(const Eigen::MatrixXd& P_w,
+                                             const Eigen::MatrixXd& common,
+                                             const std::vector<int>& w,
+                                             const Eigen::MatrixXd& B) const {
+  const auto terms = static_cast<Eigen::Index>(w.size());
+  Eigen::MatrixXf left(P_w.rows(), terms + kFrame);
+  Eigen::MatrixXf right(terms + kFrame, B.cols());
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(kFrame, B.cols());
+  for (Eigen::Index k = 0; k < terms; ++k) {
+    const int of_pose = poseCoordinate(w[static_cast<std::size_t>(k)]);
+    if (of_pose < 0) {
+      left.col(k) = P_w.col(k).cast<float>();
+    } else {
+      left.col(k) = (P_w.col(k) - common.col(of_pose)).cast<float>();
+      sums.row(of_pose) += B.row(k);
+    }
+  }
+  left.rightCols<kFrame>() = common.cast<float>();
+  right << B.cast<float>(), sums.cast<float>();
+  return tiledProduct(left, right);
+}
 
 // Of (P^-1 + H' W H) e = H' W r, times P, which may be singular. Nobody asks for the covariance,
 // and so the information need not be taken apart.
 std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {
   const std::vector<int>& w = information.coordinates;
   const Eigen::MatrixXd P_ww = covariance()(w, w);
-  Eigen::MatrixXd M = tiledProduct(P_ww, information.matrix);
+  const Eigen::MatrixXd common =
+      covariance().middleCols<kFrame>(frameCoordinate(frames_.size() - 1))(w, Eigen::all);
+  Eigen::MatrixXf M = covarianceTimes(P_ww, common, w, information.matrix);
   M.diagonal().array() += 1;
-  const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>> inner(M);
-  const Eigen::VectorXd error = inner.solve(P_ww * information.vector);
+  const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXf>> inner(M);
+  const Eigen::VectorXf right = (P_ww * information.vector).cast<float>();
+  const Eigen::VectorXd error = inner.solve(right).cast<double>();
   if (!error.allFinite()) return std::nullopt;
   return error;
 }
@@ -30,18 +75,16 @@ bool WindowState::update(const Information& information) {
   const std::vector<int>& w = information.coordinates;
   auto P = covariance_.all();
   const InformationRoot root(information, P.diagonal()(w));
-  const Eigen::Index rank = root.measured.size();
-  if (rank == 0) return true;
-  Eigen::MatrixXd P_w(P.rows(), information.vector.size());
-  for (std::size_t k = 0; k < w.size(); ++k) P_w.col(static_cast<Eigen::Index>(k)) = P.col(w[k]);
-  Eigen::MatrixXd G = tiledProduct(P_w, root.rows);
-  Eigen::MatrixXd M = Eigen::MatrixXd::Identity(rank, rank);
-  subtractSymmetricProduct(-root.rows.transpose(), G(w, Eigen::all).transpose(),
-                           M.topLeftCorner(rank, rank));
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> inner(M);
+  if (root.measured.size() == 0) return true;
+  const Eigen::MatrixXd common = P.middleCols<kFrame>(frameCoordinate(frames_.size() - 1));
+  Eigen::MatrixXf G = covarianceTimes(P(Eigen::all, w), common, w, root.rows);
+  Eigen::MatrixXf M = tiledProduct(root.rows.cast<float>().transpose(), G(w, Eigen::all));
+  M.diagonal().array() += 1;
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXf>> inner(M);
   if (inner.info() != Eigen::Success) return false;
   inner.matrixU().solveInPlace<Eigen::OnTheRight>(G);
-  Eigen::VectorXd error = G * inner.matrixL().solve(root.measured);
+  const Eigen::VectorXf measured = root.measured.cast<float>();
+  Eigen::VectorXd error = (G * inner.matrixL().solve(measured)).cast<double>();
   if (!error.allFinite()) return false;
   const int fixed = kAnchor * fixed_anchors_;
   error.segment(kGlobals, fixed).setZero();
@@ -50,13 +93,15 @@ bool WindowState::update(const Information& information) {
   // P - G G', of which then the dilation is turned: (I - T S) (P - G G') (I - T S)', S picking
   // bias and scale.
   const Stretch T = stretchBy(error);
-  const Stretch P_s = P.middleCols<4>(kBias) - G * G.middleRows<4>(kBias).transpose();
+  const Stretch P_s =
+      P.middleCols<4>(kBias) - (G * G.middleRows<4>(kBias).transpose()).cast<double>();
   const Stretch V = P_s - 0.5 * T * P_s.middleRows<4>(kBias);
-  Eigen::MatrixXd left(G.rows(), G.cols() + 8);
-  Eigen::MatrixXd right(G.rows(), G.cols() + 8);
-  left << G, T, V;
-  right << G, V, T;
+  Eigen::MatrixXf left(G.rows(), G.cols() + 8);
+  Eigen::MatrixXf right(G.rows(), G.cols() + 8);
+  left << G, T.cast<float>(), V.cast<float>();
+  right << G, V.cast<float>(), T.cast<float>();
   subtractSymmetricProduct(left, right, P);
+  P.diagonal() += kRounding * G.rowwise().squaredNorm().cast<double>();
   P.block(kGlobals, kGlobals, fixed, fixed) = P_fixed;
   inject(error);
   return true;

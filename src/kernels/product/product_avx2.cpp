@@ -5,23 +5,17 @@
 
 namespace ardrone_vslam::kernels {
 
-void productTileAvx2(const double* a, const double* b, int terms, double* tile) {
-  __m256d upper[kTileColumns];
-  __m256d lower[kTileColumns];
-  for (int c = 0; c < kTileColumns; ++c) upper[c] = lower[c] = _mm256_setzero_pd();
+void productTileAvx2(const float* a, const float* b, int terms, float* tile) {
+  __m256 sum[kTileColumns];
+  for (int c = 0; c < kTileColumns; ++c) sum[c] = _mm256_setzero_ps();
   for (int t = 0; t < terms; ++t) {
-    const __m256d a_upper = _mm256_loadu_pd(a + kTileRows * t);
-    const __m256d a_lower = _mm256_loadu_pd(a + kTileRows * t + 4);
+    const __m256 rows = _mm256_loadu_ps(a + kTileRows * t);
     for (int c = 0; c < kTileColumns; ++c) {
-      const __m256d factor = _mm256_broadcast_sd(b + c + kTileColumns * t);
-      upper[c] = _mm256_add_pd(upper[c], _mm256_mul_pd(a_upper, factor));
-      lower[c] = _mm256_add_pd(lower[c], _mm256_mul_pd(a_lower, factor));
+      const __m256 factor = _mm256_broadcast_ss(b + c + kTileColumns * t);
+      sum[c] = _mm256_add_ps(sum[c], _mm256_mul_ps(rows, factor));
     }
   }
-  for (int c = 0; c < kTileColumns; ++c) {
-    _mm256_storeu_pd(tile + kTileRows * c, upper[c]);
-    _mm256_storeu_pd(tile + kTileRows * c + 4, lower[c]);
-  }
+  for (int c = 0; c < kTileColumns; ++c) _mm256_storeu_ps(tile + kTileRows * c, sum[c]);
 }
 
 }  // namespace ardrone_vslam::kernels

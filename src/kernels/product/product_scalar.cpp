@@ -3,11 +3,11 @@
 
 namespace ardrone_vslam::kernels {
 
-void productTileScalar(const double* a, const double* b, int terms, double* tile) {
+void productTileScalar(const float* a, const float* b, int terms, float* tile) {
   // So many rows at a time that the sums stay in registers.
   constexpr int kRows = kTileRows / 2;
   for (int first = 0; first < kTileRows; first += kRows) {
-    double sum[kTileColumns][kRows] = {};
+    float sum[kTileColumns][kRows] = {};
     for (int t = 0; t < terms; ++t) {
       for (int c = 0; c < kTileColumns; ++c) {
         for (int r = 0; r < kRows; ++r)
