@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The manager of the launch file does not crash when it is stopped, also not right after its nodelets were loaded."""
+"""How launch files end: the manager without a crash, also right after its nodelets were loaded; a replay without its bag."""
 import os
 import signal
+import subprocess
 import time
 import unittest
 
@@ -39,6 +40,11 @@ class Stop(unittest.TestCase):
             self.assertEqual(manager.wait(TIMEOUT_S), 0)
         finally:
             launch.shutdown()
+
+    def test_a_replay_ends_when_its_bag_is_missing(self):
+        command = ["roslaunch", "ardrone_vslam", "replay.launch", "bag:=/no/such.bag"]
+        ended = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=TIMEOUT_S, check=False)
+        self.assertIn("play_bag: /no/such.bag: there is no such file", ended.stdout)
 
 
 if __name__ == "__main__":
