@@ -107,11 +107,6 @@ class WindowState {
   friend class MapEntrance;  // and moves them into a loaded map
 
   void inject(const Eigen::VectorXd& error);
-  int poseCoordinate(int coordinate) const;
-  /// P(rows, w) * B in single precision. @param P_w  P(rows, w)
-  /// @param common  P(rows, coordinates of the newest pose)
-  Eigen::MatrixXf covarianceTimes(const Eigen::MatrixXd& P_w, const Eigen::MatrixXd& common,
-                                  const std::vector<int>& w, const Eigen::MatrixXd& B) const;
   /// What an error of bias and scale, the columns, adds to the coordinates after a correction.
   using Stretch = Eigen::Matrix<double, Eigen::Dynamic, 4>;
   Stretch stretchBy(const Eigen::VectorXd& error) const;

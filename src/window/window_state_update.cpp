@@ -2,10 +2,12 @@
 // What measurements do to the window's mean and covariance.
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <numeric>
 
 #include "ardrone_vslam/rotation.hpp"
 #include "linear/information_root.hpp"
 #include "linear/tiled_product.hpp"
+#include "window/common_drift.hpp"
 #include "window/window_state.hpp"
 
 namespace ardrone_vslam {
@@ -17,52 +19,14 @@ constexpr double kRounding = 2e-6;
 
 }  // namespace
 
-// Which coordinate of a pose this is: 0 to 2 its position, 3 to 5 its attitude; -1: of none.
-int WindowState::poseCoordinate(int coordinate) const {
-  if (coordinate == kFloor) return 2;  // a height is a position
-  if (coordinate < kGlobals) return -1;
-  const int of_frames = coordinate - frameCoordinate(0);
-  if (of_frames >= 0) return of_frames % kFrame;
-  const int of_anchor = (coordinate - kGlobals) % kAnchor;
-  return of_anchor < kFrame ? of_anchor : -1;
-}
-
-// The motion that all poses share, a drift of many metres, drops out of most measurements, but not
-// from what single precision rounds. So it is taken apart: with C the columns of the newest pose
-// and S picking the pose's coordinates, P B = (P - C S) B + C (S B), and S B is next to nothing.
-Eigen::MatrixXf WindowState::covarianceTimes(const Eigen::MatrixXd& P_w,
-                                             const Eigen::MatrixXd& common,
-                                             const std::vector<int>& w,
-                                             const Eigen::MatrixXd& B) const {
-  const auto terms = static_cast<Eigen::Index>(w.size());
-  Eigen::MatrixXf left(P_w.rows(), terms + kFrame);
-  Eigen::MatrixXf right(terms + kFrame, B.cols());
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(kFrame, B.cols());
-  for (Eigen::Index k = 0; k < terms; ++k) {
-    const int of_pose = poseCoordinate(w[static_cast<std::size_t>(k)]);
-    if (of_pose < 0) {
-      left.col(k) = P_w.col(k).cast<float>();
-    } else {
-      left.col(k) = (P_w.col(k) - common.col(of_pose)).cast<float>();
-      sums.row(of_pose) += B.row(k);
-    }
-  }
-  left.rightCols<kFrame>() = common.cast<float>();
-  right << B.cast<float>(), sums.cast<float>();
-  return tiledProduct(left, right);
-}
-
 // Of (P^-1 + H' W H) e = H' W r, times P, which may be singular. Nobody asks for the covariance,
 // and so the information need not be taken apart.
 std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {
   const std::vector<int>& w = information.coordinates;
-  const Eigen::MatrixXd P_ww = covariance()(w, w);
-  const Eigen::MatrixXd common =
-      covariance().middleCols<kFrame>(frameCoordinate(frames_.size() - 1))(w, Eigen::all);
-  Eigen::MatrixXf M = covarianceTimes(P_ww, common, w, information.matrix);
+  Eigen::MatrixXf M = covarianceTimes(*this, w, w, information.matrix);
   M.diagonal().array() += 1;
   const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXf>> inner(M);
-  const Eigen::VectorXf right = (P_ww * information.vector).cast<float>();
+  const Eigen::VectorXf right = (covariance()(w, w) * information.vector).cast<float>();
   const Eigen::VectorXd error = inner.solve(right).cast<double>();
   if (!error.allFinite()) return std::nullopt;
   return error;
@@ -76,8 +40,9 @@ bool WindowState::update(const Information& information) {
   auto P = covariance_.all();
   const InformationRoot root(information, P.diagonal()(w));
   if (root.measured.size() == 0) return true;
-  const Eigen::MatrixXd common = P.middleCols<kFrame>(frameCoordinate(frames_.size() - 1));
-  Eigen::MatrixXf G = covarianceTimes(P(Eigen::all, w), common, w, root.rows);
+  std::vector<int> all(static_cast<std::size_t>(P.rows()));
+  std::iota(all.begin(), all.end(), 0);
+  Eigen::MatrixXf G = covarianceTimes(*this, all, w, root.rows);
   Eigen::MatrixXf M = tiledProduct(root.rows.cast<float>().transpose(), G(w, Eigen::all));
   M.diagonal().array() += 1;
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXf>> inner(M);
