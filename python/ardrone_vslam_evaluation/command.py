@@ -116,6 +116,10 @@ def run(arguments, version):
 
 def main(version):
     parser = parser_of(version)
+    for argument in sys.argv[1:]:
+        for rest in ("", "-topic", "-scale-error"):
+            if argument.partition("=")[0] == "--observer" + rest:
+                parser.error(f"--observer{rest} is called --odometry{rest} now")
     arguments = parser.parse_args()
     check(parser, arguments)
     try:

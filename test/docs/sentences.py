@@ -4,6 +4,12 @@
 import re
 
 
+def cells_of(page):
+    """Those of tables, each a paragraph of its own."""
+    rows = re.findall(r"^\|(.*)\|$", re.sub(r"^ *```.*?^ *```", "", page, flags=re.MULTILINE | re.DOTALL), re.MULTILINE)
+    return "\n\n".join(cell.strip() for row in rows for cell in re.split(r"(?<!\\)\|", row))
+
+
 def prose_of(page):
     """What is read as text: without code, tables and pictures; headings and items of lists are paragraphs of their own."""
     page = re.sub(r"^ *(```|@code).*?^ *(```|@endcode)[^\n]*$", "\n", page, flags=re.MULTILINE | re.DOTALL)
@@ -20,8 +26,9 @@ def prose_of(page):
     return "\n".join(lines)
 
 
-def sentences_of(page):
-    for paragraph in re.split(r"\n\s*\n", prose_of(page)):
+def sentences_of(text):
+    """Of what prose_of or cells_of gives."""
+    for paragraph in re.split(r"\n\s*\n", text):
         text = " ".join(paragraph.split())
         text = re.sub(r"\]\([^)]*\)", "]", text)  # a link's address is not read
         text = re.sub(r"`[^`]*`", "CODE", text)

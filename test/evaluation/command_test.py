@@ -69,6 +69,12 @@ class CommandTest(unittest.TestCase):
         self.assertAlmostEqual(rows[1]["ratio"], 0.5, places=6)
         self.assertAlmostEqual(rows[1]["ratio_scale_removed"], 1.0, places=5)
 
+    def test_old_options_are_refused_with_their_new_names(self):
+        for rest in ("", "-topic", "-scale-error"):
+            code, _, told = evaluate("--truth", "t", "--estimate", "e", f"--observer{rest}", "o")
+            self.assertEqual(code, 2)
+            self.assertIn(f"--observer{rest} is called --odometry{rest} now", told)
+
     def test_unmatched_poses_are_told(self):
         truth = straight(10, 101)
         files = write_tum(self.path("t"), truth), write_tum(self.path("e"), truth.at(np.arange(50, 101)))
