@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What measurements do to the window's mean and covariance.
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <numeric>
 
 #include "ardrone_vslam/rotation.hpp"
-#include "linear/information_root.hpp"
-#include "linear/tiled_product.hpp"
 #include "window/common_drift.hpp"
+#include "window/correction.hpp"
 #include "window/window_state.hpp"
 
 namespace ardrone_vslam {
-namespace {
-
-// What single precision rounds off of a correction, per variance that it takes: products of a
-// hundred terms, and eigenvalues of a matrix of such errors.
-constexpr double kRounding = 2e-6;
-
-}  // namespace
 
 // Of (P^-1 + H' W H) e = H' W r, times P, which may be singular. Nobody asks for the covariance,
 // and so the information need not be taken apart.
@@ -32,25 +22,13 @@ std::optional<Eigen::VectorXd> WindowState::preview(const Information& informati
   return error;
 }
 
-// With the information's rows B (H' W H = B B', H' W r = B m) the gain is P B (I + B' P B)^-1, and
-// only so many columns as there are independent measurements take part.
 bool WindowState::update(const Information& information) {
   if (!information.matrix.allFinite() || !information.vector.allFinite()) return false;
-  const std::vector<int>& w = information.coordinates;
+  const auto correction = Correction::by(information, *this);
+  if (!correction) return false;
+  if (correction->error().size() == 0) return true;
   auto P = covariance_.all();
-  const InformationRoot root(information, P.diagonal()(w));
-  if (root.measured.size() == 0) return true;
-  std::vector<int> all(static_cast<std::size_t>(P.rows()));
-  std::iota(all.begin(), all.end(), 0);
-  Eigen::MatrixXf G = covarianceTimes(*this, all, w, root.rows);
-  Eigen::MatrixXf M = tiledProduct(root.rows.cast<float>().transpose(), G(w, Eigen::all));
-  M.diagonal().array() += 1;
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXf>> inner(M);
-  if (inner.info() != Eigen::Success) return false;
-  inner.matrixU().solveInPlace<Eigen::OnTheRight>(G);
-  const Eigen::VectorXf measured = root.measured.cast<float>();
-  Eigen::VectorXd error = (G * inner.matrixL().solve(measured)).cast<double>();
-  if (!error.allFinite()) return false;
+  Eigen::VectorXd error = correction->error();
   const int fixed = kAnchor * fixed_anchors_;
   error.segment(kGlobals, fixed).setZero();
   const Eigen::MatrixXd P_fixed = P.block(kGlobals, kGlobals, fixed, fixed);
@@ -58,15 +36,9 @@ bool WindowState::update(const Information& information) {
   // P - G G', of which then the dilation is turned: (I - T S) (P - G G') (I - T S)', S picking
   // bias and scale.
   const Stretch T = stretchBy(error);
-  const Stretch P_s =
-      P.middleCols<4>(kBias) - (G * G.middleRows<4>(kBias).transpose()).cast<double>();
+  const Stretch P_s = P.middleCols<4>(kBias) - correction->gainTimesRows(kBias);
   const Stretch V = P_s - 0.5 * T * P_s.middleRows<4>(kBias);
-  Eigen::MatrixXf left(G.rows(), G.cols() + 8);
-  Eigen::MatrixXf right(G.rows(), G.cols() + 8);
-  left << G, T.cast<float>(), V.cast<float>();
-  right << G, V.cast<float>(), T.cast<float>();
-  subtractSymmetricProduct(left, right, P);
-  P.diagonal() += kRounding * G.rowwise().squaredNorm().cast<double>();
+  correction->subtractFrom(P, T, V);
   P.block(kGlobals, kGlobals, fixed, fixed) = P_fixed;
   inject(error);
   return true;

@@ -36,7 +36,7 @@ void moveMean(WindowState& state, const Eigen::VectorXd& change) {
   information.vector = P.llt().solve(change) + information.matrix * change;
   const auto preview = state.preview(information);
   ASSERT_TRUE(preview);
-  ASSERT_LT((*preview - change).norm(), 1e-9 * change.norm());
+  ASSERT_LT((*preview - change).norm(), 1e-6 * change.norm());  // in single precision
   ASSERT_TRUE(state.update(information));
 }
 
@@ -101,7 +101,8 @@ void expectErrorsCarriedAsTheMeanIs(const OdometryWindow& before) {
   const char* const kNames[] = {"attitude of odom", "mounting", "position", "attitude"};
   for (Eigen::Index k = 0; k < kOutputs; ++k) {
     ASSERT_GT(expected.row(k).norm(), 1e-6);
-    EXPECT_LT((actual - expected).row(k).norm(), 1e-6 * expected.row(k).norm())
+    // The mean is moved in single precision: measured up to 8e-5.
+    EXPECT_LT((actual - expected).row(k).norm(), 3e-4 * expected.row(k).norm())
         << kNames[k / 3] << " " << k % 3;
   }
 }
