@@ -117,9 +117,9 @@ template <class Visitor>
 void visitParameters(OdometryAdapterConfig& c, Visitor&& visit) {
   visit(
       ParameterInfo{"odometry_mode", "choice", 0, 0,
-                    "pose: the odometry's position is believed. twist: it is integrated anew from "
-                    "the twist (axes of base) and the orientation, for drivers that integrate "
-                    "wrongly (ardrone_autonomy's yaw is mirrored). navdata: the package's own "
+                    "pose: the odometry's position is believed. With twist it is integrated anew "
+                    "from the twist (axes of base) and the orientation, for drivers that integrate "
+                    "wrongly (ardrone_autonomy's yaw is mirrored). With navdata the package's own "
                     "observer of the AR.Drone's topics `navdata` and `imu` takes the odometry's "
                     "place. `mapper` and `odometry_fusion` need the same",
                     turnFirst(3)},

@@ -199,8 +199,8 @@ std::string faultOfMaps(const SlamConfig& config);
 /// Of `image_time_offset_s`, also the tracker's.
 constexpr const char* kImageTimeOffset =
     "an image is exposed at its stamp plus this on the odometry's clock: negative where the driver "
-    "stamps images late. auto: 0, until the mapper has found it by the turns of camera and "
-    "odometry; `status` and `replay` tell what it is. In the tracker for `use_attitude`, where "
+    "stamps images late. With auto it is 0, until the mapper has found it by the turns of camera "
+    "and odometry; `status` and `replay` tell what it is. In the tracker for `use_attitude`, where "
     "auto is 0";
 
 template <class Visitor>

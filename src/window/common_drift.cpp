@@ -19,31 +19,42 @@ int poseCoordinate(const WindowState& state, int coordinate) {
   return of_anchor < kPose ? of_anchor : -1;
 }
 
-}  // namespace
-
-Eigen::MatrixXf covarianceTimes(const WindowState& state, const std::vector<int>& rows,
-                                const std::vector<int>& of, const Eigen::MatrixXd& B) {
-  const auto P = state.covariance();
-  const int newest = state.frameCoordinate(state.frames().size() - 1);
-  const Eigen::MatrixXd common = P.middleCols<kPose>(newest)(rows, Eigen::all);
+/// @param P  some rows of the covariance, all columns
+template <class Rows>
+Eigen::MatrixXf rowsTimes(const Rows& P, const WindowState& state, const std::vector<int>& of,
+                          const Eigen::MatrixXd& B) {
+  const auto common =
+      P.template middleCols<kPose>(state.frameCoordinate(state.frames().size() - 1));
   const auto terms = static_cast<Eigen::Index>(of.size());
-  Eigen::MatrixXf left(common.rows(), terms + kPose);
+  Eigen::MatrixXf left(P.rows(), terms + kPose);
   Eigen::MatrixXf right(terms + kPose, B.cols());
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(kPose, B.cols());
   for (Eigen::Index k = 0; k < terms; ++k) {
     const int coordinate = of[static_cast<std::size_t>(k)];
     const int of_pose = poseCoordinate(state, coordinate);
-    const Eigen::VectorXd column = P.col(coordinate)(rows);
     if (of_pose < 0) {
-      left.col(k) = column.cast<float>();
+      left.col(k) = P.col(coordinate).template cast<float>();
     } else {
-      left.col(k) = (column - common.col(of_pose)).cast<float>();
+      left.col(k) = (P.col(coordinate) - common.col(of_pose)).template cast<float>();
       sums.row(of_pose) += B.row(k);
     }
   }
-  left.rightCols<kPose>() = common.cast<float>();
+  left.rightCols<kPose>() = common.template cast<float>();
   right << B.cast<float>(), sums.cast<float>();
   return tiledProduct(left, right);
+}
+
+}  // namespace
+
+Eigen::MatrixXf covarianceTimes(const WindowState& state, const std::vector<int>& of,
+                                const Eigen::MatrixXd& B) {
+  return rowsTimes(state.covariance(), state, of, B);
+}
+
+Eigen::MatrixXf ownCovarianceTimes(const WindowState& state, const std::vector<int>& of,
+                                   const Eigen::MatrixXd& B) {
+  const Eigen::MatrixXd rows = state.covariance()(of, Eigen::all);
+  return rowsTimes(rows, state, of, B);
 }
 
 }  // namespace ardrone_vslam

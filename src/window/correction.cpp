@@ -2,7 +2,6 @@
 #include "window/correction.hpp"
 
 #include <Eigen/Cholesky>
-#include <numeric>
 
 #include "linear/information_root.hpp"
 #include "linear/tiled_product.hpp"
@@ -51,9 +50,7 @@ std::optional<Correction> Correction::by(const Information& information, const W
   const InformationRoot root(information, P.diagonal()(w));
   Correction result;
   if (root.measured.size() == 0) return result;
-  std::vector<int> all(static_cast<std::size_t>(P.rows()));
-  std::iota(all.begin(), all.end(), 0);
-  result.single_ = covarianceTimes(state, all, w, root.rows);
+  result.single_ = covarianceTimes(state, w, root.rows);
   auto error = finish(root, w, result.single_);
   if (!error || !(result.single_.rowwise().squaredNorm().maxCoeff() < kMostInSingle)) {
     result.doubles_ = P(Eigen::all, w) * root.rows;

@@ -13,7 +13,7 @@ namespace ardrone_vslam {
 // and so the information need not be taken apart.
 std::optional<Eigen::VectorXd> WindowState::preview(const Information& information) const {
   const std::vector<int>& w = information.coordinates;
-  Eigen::MatrixXf M = covarianceTimes(*this, w, w, information.matrix);
+  Eigen::MatrixXf M = ownCovarianceTimes(*this, w, information.matrix);
   M.diagonal().array() += 1;
   const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXf>> inner(M);
   const Eigen::VectorXf right = (covariance()(w, w) * information.vector).cast<float>();

@@ -182,7 +182,7 @@ TEST(DroneInstruction, KnowsItsRegisters) {
       {"vcvt.f64.f32 d5, s3", 0xeeb75ae1, 0, 0, core({1}), core({5})},
       {"vadd.f32 s0, s3, s31", 0xee310aaf, 0, 0, core({1, 15}), core({0})},
       {"vmov.32 r0, d5[1]", 0xee350b10, 0, core({0}), core({5}), 0},
-      {"vdup.32 q3, r2", 0xeea62b10, core({2}), 0, 0, core({6})},
+      {"vdup.32 q3, r2", 0xeea62b10, core({2}), 0, 0, core({6, 7})},
       {"ldm r0!, {r1-r4}", 0xe8b0001e, core({0}), core({0, 1, 2, 3, 4}), 0, 0},
       {"str r0, [r1]", 0xe5810000, core({0, 1}), 0, 0, 0},
       {"mul r0, r1, r2", 0xe0000291, core({1, 2}), core({0}), 0, 0},

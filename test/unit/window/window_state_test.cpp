@@ -34,18 +34,6 @@ void expectHonest(const WindowState& state) {
   EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-12);
 }
 
-/// P (I + N P)^-1.
-Eigen::MatrixXd updatedInLongDoubles(const Eigen::MatrixXd& P, const Information& information) {
-  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-  const Matrix prior = P.cast<long double>();
-  const int first = information.coordinates.front();
-  Matrix N = Matrix::Zero(P.rows(), P.cols());
-  N.block(first, first, information.size(), information.size()) =
-      information.matrix.cast<long double>();
-  const Matrix I = Matrix::Identity(P.rows(), P.cols());
-  return (I + prior * N).fullPivLu().solve(prior).cast<double>();
-}
-
 TEST(WindowState, FollowsTheOdometryAndGrowsLessSure) {
   const OdometryWindow state = circling(20);
   EXPECT_LT(
@@ -105,86 +93,6 @@ TEST(WindowState, ErrorsThatAreStatesAreNoWhiteNoiseInTheOdometrysCovariance) {
   // Across the way, 0.1 s: white noise, and what velocity bias and attitude leave in doubt there.
   EXPECT_LT(after_a_minute_m2, 2 * std::pow(kWhite_m_per_sqrt_s, 2) * 0.1);
   EXPECT_GT(after_a_minute_m2, std::pow(config.walk_m_per_sqrt_s, 2) * 0.1);
-}
-
-TEST(WindowState, AnUpdateIsTheKalmanUpdateInCoordinatesThatItDoesNotTurn) {
-  // Of the attitude of a frame whose position does not depend on it: nothing is stretched, so that
-  // the textbook's formula holds.
-  OdometryWindow state = circling(1);
-  const Eigen::MatrixXd P = state.covariance();
-  const int at = state.frameCoordinate(0) + 3;
-  Information information = Information::between(at, at + 3);
-  constexpr double kVariance = 1e-6;
-  const Eigen::Vector3d innovation(0.001, -0.002, 0.0005);
-  information.matrix = Eigen::Matrix3d::Identity() / kVariance;
-  information.vector = innovation / kVariance;
-  const Eigen::Matrix3d before = state.frames()[0].R_map_rig;
-  ASSERT_TRUE(state.update(information));
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, P.rows());
-  H.middleCols<3>(at).setIdentity();
-  const Eigen::Matrix3d S = H * P * H.transpose() + kVariance * Eigen::Matrix3d::Identity();
-  const Eigen::MatrixXd K = P * H.transpose() * S.inverse();
-  EXPECT_LT((state.covariance() - (P - K * H * P)).cwiseAbs().maxCoeff(), 4e-6 * P(at, at));
-  EXPECT_LT((rotationVectorOf(state.frames()[0].R_map_rig * before.transpose()) -
-             (K * innovation).segment<3>(at))
-                .norm(),
-            1e-9);
-}
-
-// What the window's frames measure of each other, to millimetres, after a drift of a hundred metres
-// that they share, and then the drift: the worst that single precision can meet.
-TEST(WindowState, SinglePrecisionIsNotFeltBehindALongDrift) {
-  OdometryWindow state;
-  OdometryState odometry = odometryOfFrame(0, {0, 0, 0});
-  odometry.covariance.diagonal().setConstant(1e-3);
-  state.add(odometry);
-  for (int i = 1; i < 14; ++i) {
-    const double turn = 0.1 * i;
-    odometry = odometryOfFrame(i, {std::sin(turn), 1 - std::cos(turn), 0}, turn);
-    odometry.covariance.diagonal() << 6e3, 6e3, 6e3, 0.05, 0.05, 0.05;
-    state.add(odometry);
-  }
-  state.removeFrame(0);
-  ASSERT_GT(state.covariance()(state.frameCoordinate(0), state.frameCoordinate(0)), 5e3);
-
-  const int first = state.frameCoordinate(0);
-  const int end = state.frameCoordinate(state.frames().size());
-  RandomSource random(5);
-  Information relative = Information::between(first, end);
-  for (int row = 0; row < 60; ++row) {
-    Eigen::VectorXd h(end - first);
-    for (Eigen::Index k = 0; k < h.size(); ++k) h(k) = 1000 * random.normal();
-    for (int axis = 0; axis < 3; ++axis) {
-      double sum = 0;
-      for (Eigen::Index k = axis; k < h.size(); k += WindowState::kFrame) sum += h(k);
-      h(axis) -= sum;
-    }
-    relative.matrix += h * h.transpose();
-  }
-  Information drift = Information::between(first, first + 3);
-  drift.matrix.diagonal().setConstant(1e4);
-
-  for (const Information& information : {relative, drift}) {
-    const Eigen::MatrixXd before = state.covariance();
-    ASSERT_TRUE(state.update(information));
-    const Eigen::MatrixXd expected = updatedInLongDoubles(before, information);
-    const Eigen::MatrixXd found = state.covariance();
-    const int last = end - WindowState::kFrame;
-    for (int at = first; at < last; at += WindowState::kFrame) {
-      const auto apart = [&](const Eigen::MatrixXd& P) {
-        return (P.block<3, 3>(at, at) + P.block<3, 3>(last, last) - P.block<3, 3>(at, last) -
-                P.block<3, 3>(last, at))
-            .trace();
-      };
-      // Nothing is lost; what is added is of the part that the measurement took. The information is
-      // rounded, too, and so tells next to nothing, but not nothing, of the common drift.
-      const double taken_m2 = before(at, at) - expected(at, at);
-      EXPECT_GT(apart(found), 0.99 * apart(expected)) << at;
-      EXPECT_LT(apart(found), 1.01 * apart(expected) + 1.3e-5 * taken_m2) << at;
-      EXPECT_NEAR(found(at, at), expected(at, at), 3e-3 * expected(at, at) + 3e-6 * taken_m2) << at;
-    }
-    expectHonest(state);
-  }
 }
 
 TEST(WindowState, StaysSymmetricAndPositiveThroughRandomUpdates) {
