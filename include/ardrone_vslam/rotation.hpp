@@ -23,6 +23,11 @@ inline Eigen::Vector3d rotationVectorOf(const Eigen::Matrix3d& R) {
   return angle_axis.angle() * angle_axis.axis();
 }
 
+/// Heading [rad]: about z, of R = Rz(yaw) Ry(pitch) Rx(roll).
+inline double yawOf(const Eigen::Matrix3d& R) {
+  return std::atan2(R(1, 0), R(0, 0));
+}
+
 /// skew(v) w = v x w.
 inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;

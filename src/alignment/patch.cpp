@@ -13,9 +13,8 @@ namespace {
 
 using kernels::AlignPatch;
 using kernels::kPatchBorder;
+using kernels::kPatchPixels;
 using kernels::kPatchSide;
-
-constexpr float kPixels = kPatchSide * kPatchSide;
 
 /// Sums over the compared pixels' gradients along x and y, and levels: whole numbers, so that they
 /// are the same on every machine.
@@ -100,11 +99,11 @@ std::uint8_t levelAt(const Surroundings& surroundings, const Place& at) {
 /// Fills in what follows from the levels.
 std::optional<AlignPatch> prepared(AlignPatch patch) {
   const PatchSums sums = sumsOf(patch);
-  const Eigen::Vector3d mean = sums.sum.cast<double>() / kPixels;
+  const Eigen::Vector3d mean = sums.sum.cast<double>() / kPatchPixels;
   const Eigen::Matrix3d products =
       sums.products.cast<double>() - mean * sums.sum.cast<double>().transpose();
   // Gradients as weak as the steps of grey levels tell no place.
-  constexpr double kLeastGradient2 = kPixels;
+  constexpr double kLeastGradient2 = kPatchPixels;
   const double least = products(0, 0) + products(1, 1) -
                        Eigen::Vector2d(products(0, 0) - products(1, 1), 2 * products(0, 1)).norm();
   if (!(least > kLeastGradient2)) return std::nullopt;
@@ -168,11 +167,11 @@ std::optional<AlignPatch> patchOf(const Surroundings& surroundings, const ViewCh
 }
 
 Eigen::Matrix2f positionVariance_px2(const AlignPatch& patch, const kernels::AlignResult& found) {
-  constexpr float kFreedom = kPixels - 4;  // shift, gain and offset are taken out
+  constexpr float kFreedom = kPatchPixels - 4;  // shift, gain and offset are taken out
   const float level2 = std::max(found.rest, 0.F) / (kFreedom * found.gain * found.gain);
   // Three quarters of what is left are the patch's own noise: the image's is smoothed between
   // pixels. A gradient is a difference of two levels, hence twice.
-  constexpr float kNoise = 2 * kPixels * 0.75F;
+  constexpr float kNoise = 2 * kPatchPixels * 0.75F;
   // Along an edge the match of corners still tells so much.
   constexpr float kMost_px2 = 0.8F * 0.8F;
   const float unit = 4 * std::max(level2, 1e-6F);

@@ -22,7 +22,6 @@ constexpr float kCornerVariance_px2 = 0.4F;
 // What the grey levels' noise does not tell: sampling, and that the view changes.
 constexpr float kModelFactor2 = 1.4F * 1.4F;
 constexpr float kModelVariance_px2 = 0.025F * 0.025F;
-constexpr float kPixels = kernels::kPatchSide * kernels::kPatchSide;
 
 /// The track is where its corner is, whatever was known of it before.
 void beginAtCorner(const ImageView& image, const Eigen::Vector2f& corner_px,
@@ -103,7 +102,7 @@ void PatchAligner::goOn(const ImageView& image, std::size_t feature, ImageFeatur
   features.pixel_px[feature] = point_px;
   features.bearing_cam[feature] = bearing->cast<float>();
   features.information[feature] = {information(0, 0), information(0, 1), information(1, 1)};
-  features.residual[feature] = std::sqrt(std::max(found.rest, 0.F) / kPixels);
+  features.residual[feature] = std::sqrt(std::max(found.rest, 0.F) / kernels::kPatchPixels);
   if (explainedShare(found) >= kRenewBelow) return;
   if (leastVariance(variance_px2) > kCornerVariance_px2) {
     beginAtCorner(image, corner_px, reference);  // the chain of views has lost more

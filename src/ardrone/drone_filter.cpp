@@ -10,7 +10,6 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kRadPerDeg = M_PI / 180;
 // Of accelerations that nobody measured [m/s^2/sqrt(Hz)].
 constexpr double kInterpolatedNoise = 0.5;
 constexpr double kCommandedNoise = 0.2;
@@ -37,7 +36,7 @@ void DroneFilter::begin(const DroneMeasurement& measured) {
   State sigma = State::Zero();
   sigma[kPosition + 2] = errors_.height_noise_m;
   sigma.segment<3>(kVelocity).setConstant(kStartVelocity_m_s);
-  sigma.segment<2>(kTilt).setConstant(errors_.tilt_sigma_deg * kRadPerDeg);
+  sigma.segment<2>(kTilt).setConstant(radians(errors_.tilt_sigma_deg));
   sigma.segment<2>(kFlowBias).setConstant(errors_.flow_bias_m_s);
   sigma[kFlowScale] = errors_.flow_scale_sigma;
   sigma.segment<3>(kForceBias).setConstant(errors_.force_bias_m_s2);
@@ -72,13 +71,13 @@ void DroneFilter::addNoise(double dt_s, double acceleration_noise) {
   keep.segment<2>(kFlowBias).setConstant(std::exp(-dt_s / errors_.flow_bias_time_s));
   x_ = keep.cwiseProduct(x_);
   P_ = keep.asDiagonal() * P_ * keep.asDiagonal();
-  const double tilt = squared(errors_.tilt_sigma_deg * kRadPerDeg);
+  const double tilt = squared(radians(errors_.tilt_sigma_deg));
   P_.diagonal().segment<2>(kTilt).array() += tilt * (1 - squared(keep[kTilt]));
   P_.diagonal().segment<2>(kFlowBias).array() +=
       squared(errors_.flow_bias_m_s) * (1 - squared(keep[kFlowBias]));
   P_.diagonal().segment<3>(kForceBias).array() +=
       squared(errors_.force_bias_m_s2) * dt_s / kForceBiasTime_s;
-  P_(kYaw, kYaw) += squared(errors_.yaw_walk_deg_per_sqrt_s * kRadPerDeg) * dt_s;
+  P_(kYaw, kYaw) += squared(radians(errors_.yaw_walk_deg_per_sqrt_s)) * dt_s;
   const double q = squared(acceleration_noise);
   P_.diagonal().segment<3>(kVelocity).array() += q * dt_s;
   P_.diagonal().segment<3>(kPosition).array() += q * dt_s * dt_s * dt_s / 3;

@@ -15,7 +15,6 @@ constexpr double kStep_s = 0.02;  // of the integration
 constexpr double kHole_s = 0.1;   // in which nobody knows what was done
 constexpr double kCommandsKept_s = 5;
 constexpr double kCommandHolds_s = 0.5;  // the drone hovers when it is told nothing for longer
-constexpr double kRadPerDeg = M_PI / 180;
 constexpr double kCommandTilt_deg =
     12;  // at a cmd_vel of 1: the driver's euler_angle_max as it comes
 constexpr double kCommandTime_s = 0.12;  // in which roll and pitch follow, twice over
@@ -24,14 +23,6 @@ constexpr double kLostSpeed_m_s = 1;     // that a drone may have flown at beyon
 constexpr double kAngularNoise_rad_s = 0.01;
 constexpr double kYawJump_rad = 0.5;
 constexpr double kFastestRotation_rad_s = 6;
-
-double seconds(std::int64_t nanoseconds) {
-  return static_cast<double>(nanoseconds) * 1e-9;
-}
-
-double yawOf(const Eigen::Matrix3d& R) {
-  return std::atan2(R(1, 0), R(0, 0));
-}
 
 /// Between two packets.
 DroneMeasurement between(const DroneMeasurement& a, const DroneMeasurement& b, double share) {
@@ -121,7 +112,7 @@ void DroneFlight::bridge(const NavdataReading& packet, double flown_s) {
   auto next = std::find_if(commands_.begin(), commands_.end(),
                            [&](const DroneCommandReading& c) { return c.stamp_ns >= oldest_ns; });
   const bool is_told = next != commands_.end() && next->stamp_ns < packet.stamp_ns;
-  CommandedFlight commanded(last_->measured, kCommandTilt_deg * kRadPerDeg, kCommandTime_s);
+  CommandedFlight commanded(last_->measured, radians(kCommandTilt_deg), kCommandTime_s);
   const int steps = static_cast<int>(std::ceil(flown_s / kStep_s - 1e-9));
   const double dt_s = flown_s / steps;
   DroneCommandReading command{oldest_ns, Eigen::Vector2d::Zero()};

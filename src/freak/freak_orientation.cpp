@@ -12,11 +12,9 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Arc tangent of 0..1 in orientations, 0..32, to 0.0005 (Abramowitz and Stegun 4.4.49: 1e-5 rad).
 float roughArcTangent(float t) {
-  constexpr auto kPerRad = static_cast<float>(kFreakOrientations / (2.0 * kPi));
+  constexpr auto kPerRad = static_cast<float>(kFreakOrientations / (2.0 * M_PI));
   const float s = t * t;
   const float series =
       0.999866F + s * (-0.3302995F + s * (0.180141F + s * (-0.085133F + s * 0.0208351F)));
@@ -28,7 +26,7 @@ float roughArcTangent(float t) {
 float freakAngle_deg(std::int32_t sum_x, std::int32_t sum_y) {
   const double y = sum_y;
   const double x = sum_x;
-  return static_cast<float>(std::atan2(y, x) * (180.0 / kPi));
+  return static_cast<float>(std::atan2(y, x) * (180.0 / M_PI));
 }
 
 int freakOrientation(float angle_deg) {
@@ -55,8 +53,8 @@ int freakOrientation(std::int32_t sum_x, std::int32_t sum_y) {
 }
 
 float degreesWithinHalfTurn(float angle_rad) {
-  return static_cast<float>(std::remainder(static_cast<double>(angle_rad), 2.0 * kPi) *
-                            (180.0 / kPi));
+  return static_cast<float>(std::remainder(static_cast<double>(angle_rad), 2.0 * M_PI) *
+                            (180.0 / M_PI));
 }
 
 }  // namespace ardrone_vslam

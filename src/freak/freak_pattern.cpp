@@ -10,7 +10,6 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kPatternScale_px = 22.0;
 constexpr int kOctaves = 4;
 constexpr float kSmallestSize_px = 7.F;
@@ -90,12 +89,12 @@ FreakPattern::FreakPattern() {
         static_cast<int>(std::ceil((kRadius[0] + ringSigma(0)) * factor * kPatternScale_px)) + 1;
   }
   for (int orientation = 0; orientation < kFreakOrientations; ++orientation) {
-    const double theta = orientation * 2 * kPi / kFreakOrientations;
+    const double theta = orientation * 2 * M_PI / kFreakOrientations;
     auto& directions = directions_[static_cast<std::size_t>(orientation)];
     for (int k = 0; k < 2 * kFreakPointsPerRing; ++k) {
-      const double half_step = k < kFreakPointsPerRing ? 0.0 : kPi / kFreakPointsPerRing;
+      const double half_step = k < kFreakPointsPerRing ? 0.0 : M_PI / kFreakPointsPerRing;
       const double alpha =
-          (k % kFreakPointsPerRing) * 2 * kPi / kFreakPointsPerRing + half_step + theta;
+          (k % kFreakPointsPerRing) * 2 * M_PI / kFreakPointsPerRing + half_step + theta;
       directions[static_cast<std::size_t>(k)] = {std::cos(alpha), std::sin(alpha)};
     }
     computeBoxes(orientation);

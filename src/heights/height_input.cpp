@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "linear/scalars.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -13,10 +15,6 @@ constexpr double kMostTilt_deg = 20;
 // Readings are interpolated at the image's stamp across no longer a hole; at their end the nearest
 // one counts for as long.
 constexpr double kLongestGap_s = 0.1;
-
-double seconds(std::int64_t nanoseconds) {
-  return static_cast<double>(nanoseconds) * 1e-9;
-}
 
 }  // namespace
 

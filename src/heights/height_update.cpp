@@ -3,14 +3,12 @@
 
 #include <cmath>
 
+#include "linear/scalars.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
 constexpr double kGateSigmas = 3;  // a height that disagrees by more is rejected
-
-double seconds(std::int64_t nanoseconds) {
-  return static_cast<double>(nanoseconds) * 1e-9;
-}
 
 }  // namespace
 

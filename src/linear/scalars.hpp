@@ -3,11 +3,16 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstdint>
 
 namespace ardrone_vslam {
 
 inline double squared(double value) {
   return value * value;
+}
+
+inline double seconds(std::int64_t duration_ns) {
+  return static_cast<double>(duration_ns) * 1e-9;
 }
 
 inline double radians(double degrees) {

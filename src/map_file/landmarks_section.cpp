@@ -8,8 +8,8 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::uint32_t kAtOnce = 400;  // records
-constexpr std::size_t kCountSize = 4;   // bytes, before the records
+constexpr std::uint32_t kRecordsAtOnce = 400;
+constexpr std::size_t kCountSize = 4;  // bytes, before the records
 
 std::uint32_t readCount(const MapFileInput& file, const MapSection& section) {
   std::array<std::uint8_t, kCountSize> bytes{};
@@ -37,10 +37,10 @@ void take(ByteReader& in, SavedMap& map) {
 void readLandmarks(const MapFileInput& file, const MapSection& section, SavedMap& map) {
   std::uint32_t left = readCount(file, section);
   map.landmarks.reserve(left);
-  std::vector<std::uint8_t> bytes(kLandmarkRecord * std::min(left, kAtOnce));
+  std::vector<std::uint8_t> bytes(kLandmarkRecord * std::min(left, kRecordsAtOnce));
   std::uint64_t offset = section.offset + kCountSize;
   while (left > 0) {
-    const std::uint32_t count = std::min(left, kAtOnce);
+    const std::uint32_t count = std::min(left, kRecordsAtOnce);
     const std::size_t size = kLandmarkRecord * count;
     file.read(offset, bytes.data(), size);
     ByteReader in(bytes.data(), size);

@@ -35,11 +35,11 @@ std::uint32_t readHeader(const MapFileInput& file) {
 }
 
 std::uint32_t checkSum(const MapFileInput& file, std::uint64_t offset, std::uint64_t count) {
-  constexpr std::uint64_t kAtOnce = 64 * 1024;
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::min(count, kAtOnce)));
+  constexpr std::uint64_t kBytesAtOnce = 64 * 1024;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::min(count, kBytesAtOnce)));
   Crc32 crc;
   while (count > 0) {
-    const auto size = static_cast<std::size_t>(std::min(count, kAtOnce));
+    const auto size = static_cast<std::size_t>(std::min(count, kBytesAtOnce));
     file.read(offset, bytes.data(), size);
     crc.add(bytes.data(), size);
     offset += size;

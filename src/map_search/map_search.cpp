@@ -75,8 +75,7 @@ MapSearch::MapSearch(SavedMap map, const SlamConfig& config)
 
 std::optional<MapEntry> MapSearch::see(const ImageFeatures& features,
                                        const Eigen::Isometry3d& T_flight_cam) {
-  if (looked_ns_ != 0 &&
-      static_cast<double>(features.stamp_ns - looked_ns_) * 1e-9 < kBetweenLooks_s)
+  if (looked_ns_ != 0 && seconds(features.stamp_ns - looked_ns_) < kBetweenLooks_s)
     return std::nullopt;
   looked_ns_ = features.stamp_ns;
   auto observation = look(features, T_flight_cam);

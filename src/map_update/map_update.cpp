@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/scalars.hpp"
 #include "map_update/relocation.hpp"
 
 namespace ardrone_vslam {
@@ -88,8 +89,7 @@ FixOutcome MapUpdate::fix(const std::vector<LandmarkObservation>& observations, 
     const auto anchor = indexOf(anchors, s.anchor_id);
     if (!anchor) continue;
     const auto age_ns = frame.state.newest().stamp_ns - anchors[*anchor].stamp_ns;
-    if (!anchors[*anchor].is_loaded && static_cast<double>(age_ns) * 1e-9 < config_.fix_min_age_s)
-      continue;
+    if (!anchors[*anchor].is_loaded && seconds(age_ns) < config_.fix_min_age_s) continue;
     old.push_back({s.bearing_rig, s.point_map, s.covariance_m2, *anchor, i, s.window_rad});
     if (s.window_rad <= widest_rad) continue;
     wide.push_back(old.back());

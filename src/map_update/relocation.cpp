@@ -15,9 +15,9 @@ namespace {
 
 constexpr int kMostSamples = 1000;  // a tenth of right matches are found in nearly every frame
 constexpr double kLeastAttitude_rad = 0.0175;
-constexpr double kParallelSine = 0.03;  // of two rays that tell no distance
-constexpr double kMostByChance = 1e-6;  // a lost drone asks in every frame
-constexpr std::size_t kFewest = 4;      // three of them are taken by the pose
+constexpr double kParallelSine = 0.03;           // of two rays that tell no distance
+constexpr double kMostByChanceWhileLost = 1e-6;  // a lost drone asks in every frame
+constexpr std::size_t kFewest = 4;               // three of them are taken by the pose
 
 enum class Heading { kPredicted, kUnknown };
 
@@ -219,7 +219,8 @@ std::optional<ObservationConsensus> Relocator::consensus() const {
   const auto pose = search();
   if (!pose) return std::nullopt;
   const std::vector<std::size_t> indices = agreeing(*pose, kSlack_rad);
-  if (chanceExplains(*pose, camera_rig_, observations_, indices.size(), sigma_a_, kMostByChance))
+  if (chanceExplains(*pose, camera_rig_, observations_, indices.size(), sigma_a_,
+                     kMostByChanceWhileLost))
     return std::nullopt;
   ObservationConsensus consensus;
   consensus.position_map = pose->position_map;

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "linear/scalars.hpp"
 #include "matching/frame_view.hpp"
 
 namespace ardrone_vslam {
@@ -21,7 +22,7 @@ class TimeSinceFix {
   /// as good as it claims has narrow windows; but a gap is blind from its beginning.
   void see(std::int64_t stamp_ns) {
     constexpr double kGap_s = 0.5;  // slower cameras are searched as after a gap
-    uncounted_s_ = last_stamp_ns_ ? static_cast<double>(stamp_ns - *last_stamp_ns_) * 1e-9 : 0;
+    uncounted_s_ = last_stamp_ns_ ? seconds(stamp_ns - *last_stamp_ns_) : 0;
     last_stamp_ns_ = stamp_ns;
     if (uncounted_s_ < kGap_s) return;
     pass(uncounted_s_);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "linear/scalars.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -55,8 +57,7 @@ void renew(const UsedTrack& one, const FrameView& view, const MsckfConfig& confi
   // Its place beside the old anchor is forgotten: the drift since then must be worth it, too, and
   // once it gives fixes it stays where it is.
   constexpr double kBetter = 0.5;  // in variance
-  const double age_s =
-      static_cast<double>(view.features().stamp_ns - landmark.first_seen_ns) * 1e-9;
+  const double age_s = seconds(view.features().stamp_ns - landmark.first_seen_ns);
   if (age_s > config.fix_min_age_s) return;
   const double distance_m = (one.point.position_map - view.origin_map()).norm();
   const double drift_m =

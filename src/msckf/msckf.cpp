@@ -123,7 +123,7 @@ bool Msckf::needsKeyframe(const ImageFeatures& features) {
   if (motion() == CameraMotion::kResting) return false;
   const Clone& last = state_.frames()[*keyframe];
   if (motion() != CameraMotion::kRotating &&
-      static_cast<double>(newest().stamp_ns - last.stamp_ns) * 1e-9 > kKeyframe_s)
+      seconds(newest().stamp_ns - last.stamp_ns) > kKeyframe_s)
     return true;
   const TrackWindow::Motion moved = tracks_.motionSince(last, newest(), features, order_);
   return moved.lost > moved.common || moved.common == 0 || moved.median_px > kKeyframe_px;

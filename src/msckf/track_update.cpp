@@ -103,7 +103,7 @@ double stretchSigma(TrackViews views, const Eigen::Vector3d& camera_rig, const W
   const Eigen::Vector3d along_rig = last.R_map_rig.transpose() * baseline / length_m;
   constexpr int kBias = WindowState::kBias;
   const double variance = along_rig.dot(state.covariance().block<3, 3>(kBias, kBias) * along_rig);
-  const double time_s = static_cast<double>(last.stamp_ns - first.stamp_ns) * 1e-9;
+  const double time_s = seconds(last.stamp_ns - first.stamp_ns);
   return std::sqrt(variance) * time_s / length_m;
 }
 

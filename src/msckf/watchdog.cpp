@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "linear/scalars.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -17,7 +19,7 @@ constexpr double kLongest_s = 1e6;      // of a pause
 
 bool Watchdog::see(std::int64_t stamp_ns, const Contradiction& contradiction) {
   constexpr double kCalmShare = 1.0 / 3;  // of a limit
-  const double passed_s = last_ns_ ? static_cast<double>(stamp_ns - *last_ns_) * 1e-9 : 0;
+  const double passed_s = last_ns_ ? seconds(stamp_ns - *last_ns_) : 0;
   last_ns_ = stamp_ns;
 
   const bool was_refused = std::exchange(is_refused_, !setup_.isCameraUsed());

@@ -8,10 +8,7 @@
 namespace ardrone_vslam {
 namespace {
 
-// What is configured counts as so much time, and what was learned is forgotten over so much: the
-// bias is to have changed some times meanwhile (velocity_bias_time_s).
-constexpr double kConfigured_s = 5;
-constexpr double kMemory_s = 60;
+constexpr double kConfigured_s = 5;  // what is configured counts as so much time
 
 }  // namespace
 
@@ -21,7 +18,7 @@ BiasLevel::BiasLevel(double configured_m_s)
 void BiasLevel::learn(const Eigen::Vector3d& bias_m_s, const Eigen::Matrix3d& covariance,
                       double inflation, double duration_s) {
   const double seen = (bias_m_s.squaredNorm() + covariance.trace()) / 3 / inflation;
-  const double memory_s = std::min(kConfigured_s + learned_s_, kMemory_s);
+  const double memory_s = std::min(kConfigured_s + learned_s_, kNoiseMemory_s);
   variance_ += std::min(duration_s / memory_s, 1.0) * (seen - variance_);
   learned_s_ += duration_s;
 }

@@ -6,6 +6,10 @@
 
 namespace ardrone_vslam {
 
+/// What was learned of the odometry's noise is forgotten over so much: the bias is to have changed
+/// some times meanwhile (velocity_bias_time_s).
+constexpr double kNoiseMemory_s = 60;
+
 /// How large the slow error of the odometry's velocity is: begins as configured and is learned from
 /// the bias that the filter finds, by expectation maximisation on line (Cappe and Moulines,
 /// "On-line expectation-maximization algorithm for latent data models", 2009). The expected square

@@ -9,7 +9,6 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kMemory_s = 60;  // as BiasLevel's
 // Factors on the variance are powers of two, half an exponent apart. Beforehand 1 is the most
 // probable one, and the others as the exponent's upper half of a normal distribution: with a larger
 // sigma one odd second counts, with a smaller one a bad odometry is believed for long.
@@ -32,12 +31,11 @@ void YawLevel::learn(const SetupFinding& finding) {
   if (!(yaw.span_s > 0) || yaw.stamp_ns == learned_ns_) return;
   if (finding.fault != SetupFault::kNone) return;
   // Pairs overlap: of each counts what lies behind the one before.
-  const double new_s =
-      std::clamp(static_cast<double>(yaw.stamp_ns - learned_ns_) * 1e-9, 0.0, yaw.span_s);
+  const double new_s = std::clamp(seconds(yaw.stamp_ns - learned_ns_), 0.0, yaw.span_s);
   learned_ns_ = yaw.stamp_ns;
   const double walk_rad2 = configuredWalk_rad2(yaw.span_s, yaw.displacement_m);
   const double rest_rad2 = yaw.variance_rad2 + 2 * squared(radians(config_.attitude_noise_deg));
-  const double kept = std::exp(-new_s / kMemory_s);
+  const double kept = std::exp(-new_s / kNoiseMemory_s);
   double most = -std::numeric_limits<double>::infinity();
   double most_probable = 1;
   for (std::size_t i = 0; i < kFactors; ++i) {

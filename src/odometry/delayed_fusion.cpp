@@ -161,7 +161,7 @@ MapState DelayedFusion::inMap(const OdometryState& state, double travelled_m) co
 
 Matrix6d DelayedFusion::growth(const OdometryState& state, double travelled_m) const {
   assert(state.stamp_ns >= at_correction_.stamp_ns && "growth is from the correction on");
-  const double dt_s = static_cast<double>(state.stamp_ns - at_correction_.stamp_ns) * 1e-9;
+  const double dt_s = seconds(state.stamp_ns - at_correction_.stamp_ns);
   const Eigen::Matrix3d& R_map_odom = T_map_odom_.linear();
   const Eigen::Vector3d step_map =
       R_map_odom * (state.T_odom_base.translation() - at_correction_.T_odom_base.translation());

@@ -29,8 +29,7 @@ void ImageRays::take(const ImageFeatures& features, TrackOrder& order) {
       rays.push_back({one.track_id, features.bearing_cam[one.feature]});
 }
 
-void findPairs(const ImageRays& then, const ImageRays& now, std::size_t most,
-               std::vector<BearingPair>& pairs) {
+void findPairs(const ImageRays& then, const ImageRays& now, std::vector<BearingPair>& pairs) {
   pairs.clear();
   auto ray = then.rays.begin();
   for (const ImageRays::Ray& one : now.rays) {
@@ -39,9 +38,9 @@ void findPairs(const ImageRays& then, const ImageRays& now, std::size_t most,
     if (ray->track_id != one.track_id) continue;
     pairs.push_back({ray->bearing_cam.cast<double>(), one.bearing_cam.cast<double>()});
   }
-  if (pairs.size() <= most) return;
-  for (std::size_t i = 0; i < most; ++i) pairs[i] = pairs[i * pairs.size() / most];
-  pairs.resize(most);
+  if (pairs.size() <= kMostPairs) return;
+  for (std::size_t i = 0; i < kMostPairs; ++i) pairs[i] = pairs[i * pairs.size() / kMostPairs];
+  pairs.resize(kMostPairs);
 }
 
 }  // namespace ardrone_vslam

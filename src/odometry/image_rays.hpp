@@ -23,9 +23,8 @@ struct ImageRays {
   void take(const ImageFeatures& features, TrackOrder& order);
 };
 
-/// The tracks that two images have in common. More than `most` are thinned.
+/// The tracks that two images have in common. More than kMostPairs are thinned.
 /// @param pairs  set; keeps its memory
-void findPairs(const ImageRays& then, const ImageRays& now, std::size_t most,
-               std::vector<BearingPair>& pairs);
+void findPairs(const ImageRays& then, const ImageRays& now, std::vector<BearingPair>& pairs);
 
 }  // namespace ardrone_vslam

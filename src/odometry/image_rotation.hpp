@@ -15,6 +15,11 @@ struct BearingPair {
   Eigen::Vector3d now;   ///< in the later one
 };
 
+/// Sigma of a corner between two images [px], per axis.
+constexpr double kCornerSigma_px = 0.7;
+/// More pairs cost time and say little, as neighbours err alike.
+constexpr std::size_t kMostPairs = 120;
+
 /// The camera's way between two images as the odometry says: it tells apart the two motions that
 /// move a plane's picture alike, and a turn from a way sideways.
 struct DisplacementGuess {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "odometry/message_pair.hpp"
 
+#include "linear/scalars.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr double kResetSpeed_m_s = 100;  // no drone and no car
 }  // namespace
 
 double secondsBetween(const OdometryState& a, const OdometryState& b) {
-  return static_cast<double>(b.stamp_ns - a.stamp_ns) * 1e-9;
+  return seconds(b.stamp_ns - a.stamp_ns);
 }
 
 Eigen::Vector3d velocity_odom_m_s(const OdometryState& state) {

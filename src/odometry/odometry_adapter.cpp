@@ -27,7 +27,7 @@ double farthest_m(const OdometryState& state) {
   return state.T_odom_base.translation().cwiseAbs().maxCoeff();
 }
 
-bool isFinite(const OdometryState& state) {
+bool isMotionFinite(const OdometryState& state) {
   return state.T_odom_base.matrix().allFinite() && state.twist_base.allFinite();
 }
 
@@ -81,7 +81,7 @@ void OdometryAdapter::State::beginAnew() {
 }
 
 Push OdometryAdapter::State::push(const OdometryState& message, std::vector<OdometryState>& ready) {
-  if (!isFinite(message)) return Push::kNotFinite;
+  if (!isMotionFinite(message)) return Push::kNotFinite;
   if (!(message.twist_base.cwiseAbs().maxCoeff() <= kFastestOdometry) ||
       isBeyondAllJumps(message)) {
     return Push::kOutOfRange;

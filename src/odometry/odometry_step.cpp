@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ardrone_vslam/frame_result.hpp"
+#include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -34,7 +35,7 @@ std::optional<OdometryStep> OdometryStepWatch::see(const OdometryState& state) {
   const bool is_first = !has_last_;
   last_ = state;
   has_last_ = true;
-  const double dt_s = static_cast<double>(state.stamp_ns - last.stamp_ns) * 1e-9;
+  const double dt_s = seconds(state.stamp_ns - last.stamp_ns);
   if (is_first || !(dt_s > 0)) return std::nullopt;
   const Eigen::Vector3d displacement_m =
       state.T_odom_base.translation() - last.T_odom_base.translation();

@@ -69,9 +69,7 @@ Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
   const std::vector<std::string> faults = faultsBetween(config);
   if (!faults.empty()) throw ConfigError(faults);
   refuseExtrinsics(T_base_cam);
-  SlamConfig used = config;
-  if (used.thesis_filter.as_printed) used.thesis_filter = asPrinted(used.thesis_filter);
-  state_ = std::make_unique<State>(used, T_base_cam);
+  state_ = std::make_unique<State>(config, T_base_cam);
 }
 
 Slam::~Slam() = default;

@@ -20,6 +20,7 @@ struct ToldMotion {
 
 /// Offsets of the images' stamps that are compared; the one in the middle is what is told.
 constexpr std::size_t kSetupOffsets = 21;
+constexpr std::size_t kNoOffset = kSetupOffsets / 2;
 constexpr std::int64_t kSetupOffsetStep_ns = 40'000'000;
 /// The calibration's focal length over the true one.
 constexpr std::array<double, 8> kFocalFactors{0.5, 0.6, 0.7, 0.8, 1.25, 1.5, 1.75, 2.0};
@@ -37,7 +38,7 @@ struct ComparedMotion {
   ToldMotion told_by_position;  ///< if the odometry integrates with a mirrored yaw
   ToldMotion told_by_yaw;       ///< if its yaw is mirrored
 
-  const ToldMotion& told() const { return told_at_offset[kSetupOffsets / 2]; }
+  const ToldMotion& told() const { return told_at_offset[kNoOffset]; }
 };
 
 /// Squared deviations between what is seen and what is told, of 5 that are independent; at most

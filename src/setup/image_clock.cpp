@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/setup_monitor.hpp"
+#include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -40,7 +41,7 @@ double ImageClock::see(const ImageFeatures& features, const OdometryBuffer& odom
   newest_ns_ = features.stamp_ns;
   double change_s = 0;
   if (lagging_ns_ == offset_ns_) {
-    change_s = static_cast<double>(offset_ns_ - left_ns_) * 1e-9;
+    change_s = seconds(offset_ns_ - left_ns_);
     left_ns_ = offset_ns_;
   }
   estimator_->see(features, odometry);

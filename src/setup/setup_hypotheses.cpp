@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "linear/scalars.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -20,17 +22,16 @@ constexpr double kNothingFits = 14;  // squares of a motion, mean: no known faul
 constexpr double kFitsAgain = 6;     // and to end that
 constexpr double kFewest = 10;       // motions for that
 constexpr double kSuspicious = 1.0;  // mean squares; usual is about 0.6
-constexpr std::size_t kSameClock = 4;  // offset steps that are no fault
-constexpr std::size_t kMiddle = kSetupOffsets / 2;
+constexpr std::size_t kSameClock = 4;      // offset steps that are no fault
 constexpr double kIndependentTracks = 40;  // outliers of neighbouring corners are alike
 
 std::size_t stepsFromMiddle(std::size_t offset) {
-  return offset > kMiddle ? offset - kMiddle : kMiddle - offset;
+  return offset > kNoOffset ? offset - kNoOffset : kNoOffset - offset;
 }
 
 double offsetOf_s(std::size_t offset) {
-  return (static_cast<double>(offset) - static_cast<double>(kMiddle)) *
-         static_cast<double>(kSetupOffsetStep_ns) * 1e-9;
+  return (static_cast<double>(offset) - static_cast<double>(kNoOffset)) *
+         seconds(kSetupOffsetStep_ns);
 }
 
 ToldMotion rotated(const Eigen::Matrix3d& Q, const ToldMotion& told) {
@@ -94,7 +95,7 @@ double SetupHypotheses::squaresOf(const Hypothesis& h, const ComparedMotion& mot
     case SetupFault::kUnknown:
       break;
   }
-  if (h.fault == SetupFault::kNone && h.which == kMiddle) return motion.squares_told;
+  if (h.fault == SetupFault::kNone && h.which == kNoOffset) return motion.squares_told;
   return squaresBetween(motion.seen, motion.told_at_offset[h.which], motion.span_s);
 }
 

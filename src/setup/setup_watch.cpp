@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/scalars.hpp"
 #include "odometry/image_rays.hpp"
 #include "setup/setup_hypotheses.hpp"
 
@@ -16,20 +17,12 @@ constexpr std::int64_t kBetween_ns = 150'000'000;    // from one comparison to t
 constexpr std::int64_t kSpan_ns = 270'000'000;       // a pair's images are so far apart, or less;
 constexpr std::int64_t kLongest_ns = 1'500'000'000;  // slow cameras' so far
 constexpr std::size_t kImages = 16;                  // kept: those of kSpan_ns and of the offsets
-constexpr std::size_t kMostPairs = 120;              // more tracks cost time and say little
-constexpr std::size_t kFewestPairs = 20;
-constexpr double kLeast_px = 3;     // the tracks' median way: less tells nothing
-constexpr double kCorner_px = 0.7;  // sigma between two images, per axis
-constexpr double kStill = 1e-6;     // odometry that moves less, in m and rad, is frozen
-constexpr std::size_t kMiddle = kSetupOffsets / 2;
+constexpr double kLeast_px = 3;                      // the tracks' median way: less tells nothing
+constexpr double kStill = 1e-6;  // odometry that moves less, in m and rad, is frozen
 
 std::int64_t offsetOf_ns(std::size_t offset) {
-  return (static_cast<std::int64_t>(offset) - static_cast<std::int64_t>(kMiddle)) *
+  return (static_cast<std::int64_t>(offset) - static_cast<std::int64_t>(kNoOffset)) *
          kSetupOffsetStep_ns;
-}
-
-double yawOf(const Eigen::Matrix3d& R) {
-  return std::atan2(R(1, 0), R(0, 0));
 }
 
 Eigen::Matrix3d yawed(double yaw_rad) {
@@ -92,7 +85,7 @@ void SetupWatch::State::see(const ImageFeatures& features, const OdometryBuffer&
     used_ = std::max(used_, taken_ - std::min(taken_, kImages / 2));
   }
   // The odometry reaches to the newest image, at all offsets of the older ones, then.
-  constexpr std::int64_t kReach_ns = kSetupOffsets / 2 * kSetupOffsetStep_ns;
+  constexpr std::int64_t kReach_ns = kNoOffset * kSetupOffsetStep_ns;
   for (; used_ < taken_ && image(used_).stamp_ns + kReach_ns <= features.stamp_ns; ++used_) {
     const ImageRays& now = image(used_);
     const bool is_due = now.stamp_ns < compared_ns_ || now.stamp_ns - compared_ns_ >= kBetween_ns;
@@ -109,8 +102,8 @@ void SetupWatch::State::compare(const ImageRays& now, std::size_t number,
     const std::int64_t span_ns = now.stamp_ns - then.stamp_ns;
     const bool is_last = i + 1 == number;
     if (span_ns > (is_last ? kLongest_ns : kSpan_ns)) continue;
-    findPairs(then, now, kMostPairs, pairs_);
-    if (pairs_.size() < kFewestPairs) continue;
+    findPairs(then, now, pairs_);
+    if (pairs_.size() < kFewestRotationTracks) continue;
     compared_ns_ = now.stamp_ns;
     return compare(then, now, odometry);
   }
@@ -120,11 +113,11 @@ void SetupWatch::State::compare(const ImageRays& then, const ImageRays& now,
                                 const OdometryBuffer& odometry) {
   if (medianMotion_px(now.focal_length_px) < kLeast_px) return;
   ComparedMotion motion;
-  motion.span_s = static_cast<double>(now.stamp_ns - then.stamp_ns) * 1e-9;
+  motion.span_s = seconds(now.stamp_ns - then.stamp_ns);
   motion.pairs = static_cast<double>(pairs_.size());
   if (!find(odometry, then, now, motion)) return;
   const ToldMotion& told = motion.told();
-  const double sigma_rad = kCorner_px / now.focal_length_px;
+  const double sigma_rad = kCornerSigma_px / now.focal_length_px;
   const auto seen = motionSeen(pairs_, sigma_rad, told, motion.span_s);
   if (!seen) return;
   motion.seen = *seen;

@@ -4,20 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/scalars.hpp"
 #include "setup/time_offset_state.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kCorner_px = 0.7;       // sigma between two images, per axis
-constexpr double kVelocity_m_s = 0.05;   // sigma of the odometry's velocity, per axis
-constexpr double kOdometryScale = 0.05;  // and of its scale
-constexpr std::size_t kMostPairs = 120;  // more tracks cost time and say little
-constexpr std::size_t kSmoothing = 2;    // grid points to each side
-
-double seconds(std::int64_t nanoseconds) {
-  return static_cast<double>(nanoseconds) * 1e-9;
-}
+constexpr double kVelocityNoise_m_s = 0.05;  // sigma of the odometry's velocity, per axis
+constexpr double kOdometryScale = 0.05;      // and of its scale
+constexpr std::size_t kSmoothing = 2;        // grid points to each side
 
 /// Of small turns to and from the middle; white noise of the attitude averages out.
 Eigen::Quaterniond meanOf(const Eigen::Quaterniond* first, std::size_t count) {
@@ -99,15 +94,15 @@ DisplacementGuess TimeOffsetEstimator::State::displacementBetween(const Image& t
   DisplacementGuess guess;
   guess.displacement_m =
       then.q_odom_cam[kMiddleOffset].conjugate() * (now.camera_odom_m - then.camera_odom_m);
-  guess.sigma_m = kVelocity_m_s * seconds(now.stamp_ns - then.stamp_ns) +
+  guess.sigma_m = kVelocityNoise_m_s * seconds(now.stamp_ns - then.stamp_ns) +
                   kOdometryScale * guess.displacement_m.norm();
   return guess;
 }
 
 std::optional<ImageRotation> TimeOffsetEstimator::State::rotationBetween(const Image& then,
                                                                          const Image& now) {
-  findPairs(then, now, kMostPairs, pairs_);
-  return fitRotation(pairs_, kCorner_px / now.focal_length_px, displacementBetween(then, now));
+  findPairs(then, now, pairs_);
+  return fitRotation(pairs_, kCornerSigma_px / now.focal_length_px, displacementBetween(then, now));
 }
 
 TimeOffsetEstimator::TimeOffsetEstimator(const Eigen::Isometry3d& T_base_cam, double centre_s)

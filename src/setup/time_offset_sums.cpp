@@ -6,28 +6,25 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kAttitude_rad = 0.002;  // white noise of a turn by the odometry, per axis
-constexpr double kCalibration = 0.02;    // of a turn, by focal length and lens
-constexpr double kDrift_rad_s = 0.02;    // sigma of the rates' constant difference
-constexpr double kDepth_m = 3;           // of the scene, roughly
-constexpr double kScale = 0.1;           // sigma of the turns' constant relative difference
-constexpr double kOutlierSigmas = 5;     // of a turn
-constexpr double kFewestRotations = 30;  // in the sums
-constexpr double kClearRotation = 16;    // mean square of turns, in sigmas: no noise
-constexpr double kAlike = 4;             // mean square that may stay; usual is below 1
-constexpr double kSignificant = 5;       // times what noise makes of the squares
-constexpr double kTwoRotations = 4;      // squares of a difference of two like turns, at most
-constexpr std::size_t kParabola = 5;     // grid points to each side of the minimum
-constexpr double kLikeNeighbours = 2;    // turns of neighbouring images share their errors
-constexpr double kFloor_s = 0.001;       // smoothing and grid
-
-double seconds(std::int64_t nanoseconds) {
-  return static_cast<double>(nanoseconds) * 1e-9;
-}
+constexpr double kRotationNoise_rad = 0.002;  // white noise of a turn by the odometry, per axis
+constexpr double kCalibration = 0.02;         // of a turn, by focal length and lens
+constexpr double kDrift_rad_s = 0.02;         // sigma of the rates' constant difference
+constexpr double kDepth_m = 3;                // of the scene, roughly
+constexpr double kScale = 0.1;                // sigma of the turns' constant relative difference
+constexpr double kOutlierSigmas = 5;          // of a turn
+constexpr double kFewestRotations = 30;       // in the sums
+constexpr double kClearRotation = 16;         // mean square of turns, in sigmas: no noise
+constexpr double kAlike = 4;                  // mean square that may stay; usual is below 1
+constexpr double kSignificant = 5;            // times what noise makes of the squares
+constexpr double kTwoRotations = 4;           // squares of a difference of two like turns, at most
+constexpr std::size_t kParabola = 5;          // grid points to each side of the minimum
+constexpr double kLikeNeighbours = 2;         // turns of neighbouring images share their errors
+constexpr double kFloor_s = 0.001;            // smoothing and grid
 
 struct Parabola {
   double slope = 0;  // in its middle, per grid step
@@ -64,7 +61,7 @@ TimeOffsetSums::TimeOffsetSums(std::int64_t centre_ns)
 void TimeOffsetSums::add(const ComparedRotation& rotation) {
   const ImageRotation& by_tracks = rotation.by_tracks;
   const Eigen::Vector3d rotation_rad = rotationVectorOf(by_tracks.R_then_now);
-  const double other_rad = kAttitude_rad + kCalibration * rotation_rad.norm();
+  const double other_rad = kRotationNoise_rad + kCalibration * rotation_rad.norm();
   // A short way across looks like yaw or pitch of the camera, but not like roll.
   const double hidden_rad = rotation.displacement_sigma_m / kDepth_m;
   Eigen::Vector3d other_rad2 = Eigen::Vector3d::Constant(other_rad * other_rad);

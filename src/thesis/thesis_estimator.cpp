@@ -9,13 +9,18 @@ namespace {
 // Of the odometry's attitude, which the thesis takes as it is: for the published covariance alone.
 constexpr double kAttitudeSigma_deg = 0.3;
 
+SlamConfig used(SlamConfig config) {
+  if (config.thesis_filter.as_printed) config.thesis_filter = asPrinted(config.thesis_filter);
+  return config;
+}
+
 }  // namespace
 
 ThesisEstimator::ThesisEstimator(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam)
-    : config_(config),
+    : config_(used(config)),
       T_base_cam_(T_base_cam),
-      filter_(config.thesis_filter),
-      locator_(config.thesis_filter),
+      filter_(config_.thesis_filter),
+      locator_(config_.thesis_filter),
       mapper_(config.mapper),
       associator_(config.association),
       feature_map_(config.feature_map) {}

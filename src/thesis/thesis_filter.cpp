@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/scalars.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -31,7 +33,7 @@ void ThesisFilter::start(const Eigen::Vector3d& position_map, const OdometryStat
 void ThesisFilter::predict(const OdometryState& odometry) {
   const Eigen::Vector3d increment =
       odometry.T_odom_base.translation() - odometry_.T_odom_base.translation();
-  const double seconds = static_cast<double>(odometry.stamp_ns - odometry_.stamp_ns) * 1e-9;
+  const double passed_s = seconds(odometry.stamp_ns - odometry_.stamp_ns);
   constexpr double kRounding = 1e-12;  // a constant covariance does not grow by its rounding
   const std::optional<double> then = positionVariance_m2(odometry_);
   const std::optional<double> now = positionVariance_m2(odometry);
@@ -42,7 +44,7 @@ void ThesisFilter::predict(const OdometryState& odometry) {
     variance = config_.odometry_noise_m_per_sqrt_m * config_.odometry_noise_m_per_sqrt_m *
                    increment.norm() +
                config_.odometry_noise_m_per_sqrt_s * config_.odometry_noise_m_per_sqrt_s *
-                   std::max(seconds, 0.0);
+                   std::max(passed_s, 0.0);
   }
   position_map_ += increment;
   covariance_ += variance * Eigen::Matrix3d::Identity();

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "linear/scalars.hpp"
+
 namespace ardrone_vslam {
 
 std::optional<std::size_t> indexOf(const std::vector<Clone>& poses, std::uint32_t id) {
@@ -20,7 +22,7 @@ Eigen::Vector3d recentVelocity_base_m_s(const std::vector<Clone>& frames,
   for (std::size_t i = frames.size() - 1; i-- > 0 && passed_s < kSpan_s;) {
     displacement_base_m += R_base_rig * frames[i].R_map_rig.transpose() *
                            (frames[i + 1].position_map - frames[i].position_map);
-    passed_s = static_cast<double>(frames.back().stamp_ns - frames[i].stamp_ns) * 1e-9;
+    passed_s = seconds(frames.back().stamp_ns - frames[i].stamp_ns);
   }
   return passed_s > 0 ? Eigen::Vector3d(displacement_base_m / passed_s) : Eigen::Vector3d::Zero();
 }

@@ -12,7 +12,7 @@ namespace ardrone_vslam {
 
 double walkVariance_m2(const OdometryNoiseConfig& config, const OdometryState& from,
                        const OdometryState& to, double displacement_m, double travelled_m) {
-  const double dt_s = std::max(static_cast<double>(to.stamp_ns - from.stamp_ns) * 1e-9, 0.0);
+  const double dt_s = std::max(seconds(to.stamp_ns - from.stamp_ns), 0.0);
   const double configured_m2 =
       squared(config.walk_m_per_sqrt_m) * displacement_m + squared(config.walk_m_per_sqrt_s) * dt_s;
   const std::optional<double> then = positionVariance_m2(from);

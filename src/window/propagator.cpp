@@ -90,8 +90,8 @@ double Propagator::biasSigmas(const WindowState& state) const {
 
 void Propagator::learnVelocityBias(const OdometryState& odometry, const WindowState& state) {
   constexpr double kLongest_s = 1;  // what was known before a hole does not stand for all of it
-  const double duration_s = std::clamp(
-      static_cast<double>(odometry.stamp_ns - odometry_.stamp_ns) * 1e-9, 0.0, kLongest_s);
+  const double duration_s =
+      std::clamp(seconds(odometry.stamp_ns - odometry_.stamp_ns), 0.0, kLongest_s);
   learned_.bias.learn(state.velocityBias_m_s(), state.covariance().block<3, 3>(kBias, kBias),
                       inflation_of_state_, duration_s);
 }
@@ -99,8 +99,7 @@ void Propagator::learnVelocityBias(const OdometryState& odometry, const WindowSt
 void Propagator::propagate(const OdometryState& odometry, const std::optional<OdometryStep>& step,
                            WindowState& state) {
   Increment increment;
-  increment.duration_s =
-      std::max(static_cast<double>(odometry.stamp_ns - odometry_.stamp_ns) * 1e-9, 0.0);
+  increment.duration_s = std::max(seconds(odometry.stamp_ns - odometry_.stamp_ns), 0.0);
   increment.displacement_odom_m =
       step ? step->motion_odom_m
            : odometry.T_odom_base.translation() - odometry_.T_odom_base.translation();

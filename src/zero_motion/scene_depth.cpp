@@ -24,11 +24,8 @@ constexpr double kLeastProbability = 1e-12;
 
 // When images are compared.
 constexpr double kBetweenLooks_s = 0.35;
-constexpr double kLongest_s = 4;    // the bias changes meanwhile
-constexpr double kFarthest = 0.05;  // way over depth: it tells enough
-constexpr std::size_t kMostPairs = 120;
-constexpr std::size_t kFewestPairs = 15;
-constexpr double kCornerSigma_px = 0.7;
+constexpr double kLongest_s = 4;       // the bias changes meanwhile
+constexpr double kTellsEnough = 0.05;  // way over depth
 constexpr double kRotationSigma_rad = 0.003;
 
 // The odometry: twice as bad as a drone's usually is.
@@ -43,7 +40,7 @@ constexpr double kMostOff = 25;
 constexpr double kMostSeen = 100;
 
 double passedSince(const ImageRays& then, const ImageRays& now) {
-  return static_cast<double>(now.stamp_ns - then.stamp_ns) * 1e-9;
+  return seconds(now.stamp_ns - then.stamp_ns);
 }
 
 }  // namespace
@@ -60,12 +57,10 @@ SceneDepth::SceneDepth() : hypotheses_(kDepths) {
 
 void SceneDepth::see(const ImageFeatures& features, const Eigen::Isometry3d& T_odom_cam) {
   const bool is_first = reference_.rays.rays.empty();
-  if (!is_first &&
-      static_cast<double>(features.stamp_ns - now_.rays.stamp_ns) * 1e-9 < kBetweenLooks_s)
-    return;
+  if (!is_first && seconds(features.stamp_ns - now_.rays.stamp_ns) < kBetweenLooks_s) return;
   now_.rays.take(features, order_);
   now_.T_odom_cam = T_odom_cam;
-  findPairs(reference_.rays, now_.rays, kMostPairs, pairs_);
+  findPairs(reference_.rays, now_.rays, pairs_);
 
   Motion motion;
   motion.passed_s = passedSince(reference_.rays, now_.rays);
@@ -77,8 +72,8 @@ void SceneDepth::see(const ImageFeatures& features, const Eigen::Isometry3d& T_o
     seen = seenMotion(pairs_, R_then_now, kRotationSigma_rad,
                       kCornerSigma_px / features.focal_length_px);
   const bool is_fading = 2 * pairs_.size() < std::min(kMostPairs, reference_.rays.rays.size());
-  const bool is_long =
-      is_fading || motion.passed_s > kLongest_s || (seen && seen->displacement.norm() > kFarthest);
+  const bool is_long = is_fading || motion.passed_s > kLongest_s ||
+                       (seen && seen->displacement.norm() > kTellsEnough);
   if (seen && !is_long) return;  // the longer, the more it tells
   if (seen) {
     motion.seen.displacement = R_odom_then * seen->displacement;

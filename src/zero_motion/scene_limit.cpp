@@ -11,11 +11,10 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr int kFewestTracks = 15;
-constexpr double kCornerSigma_px = 1;
+constexpr double kOldCornerSigma_px = 1;  // between images that are seconds apart
 constexpr double kAttitudeNoise_rad = 1e-4;
 // Way over depth: further, parallax tells the way.
-constexpr double kFarthest = 0.02;
+constexpr double kParallaxTells = 0.02;
 // Within less the odometry knows the way better than an image does.
 constexpr double kShortest_s = 1;
 // The scene is between these quantiles of its depth.
@@ -23,10 +22,6 @@ constexpr double kNear = 0.1;
 constexpr double kFar = 0.9;
 // What is seen of the way, over its length, differs from track to track as their depths do.
 constexpr double kUneven = 0.4;
-
-double secondsBetween(const Clone& then, const Clone& now) {
-  return static_cast<double>(now.stamp_ns - then.stamp_ns) * 1e-9;
-}
 
 /// The camera's displacement since a frame of the window is the way seen, times the depth.
 void limitDisplacement(std::size_t frame, const SeenMotion& seen, const SceneDepth& depth,
@@ -44,7 +39,7 @@ void limitDisplacement(std::size_t frame, const SeenMotion& seen, const SceneDep
       squared(0.5 * (far_m - near_m)) * displacement_map * displacement_map.transpose();
   variance_m2.diagonal().array() += squared(kUneven * far_m) * displacement_map.squaredNorm();
   const Eigen::Matrix3d weight = variance_m2.inverse();
-  if (!mayBeDrift(off_m.norm(), secondsBetween(then, newest))) return;
+  if (!mayBeDrift(off_m.norm(), seconds(newest.stamp_ns - then.stamp_ns))) return;
   if (off_m.dot(weight * off_m) < 1) return;  // it need not be drift
   const int from = state.frameCoordinate(frame);
   const int to = state.frameCoordinate(state.frames().size() - 1);
@@ -62,15 +57,15 @@ void limitByScene(const ImageFeatures& features, const TrackOrder& order,
   // The oldest frame that shows the same: since then most drift has added up.
   for (std::size_t frame = 0; frame + 1 < state.frames().size(); ++frame) {
     const Clone& then = state.frames()[frame];
-    if (secondsBetween(then, state.newest()) < kShortest_s) return;
+    if (seconds(state.newest().stamp_ns - then.stamp_ns) < kShortest_s) return;
     const TrackWindow::Common common = tracks.commonWith(then.id, features, order);
-    const auto pairs = static_cast<int>(common.pairs.size());
-    if (pairs < kFewestTracks || common.lost > pairs) continue;
+    const std::size_t pairs = common.pairs.size();
+    if (pairs < kFewestPairs || static_cast<std::size_t>(common.lost) > pairs) continue;
     const auto seen =
         seenMotion(common.pairs, then.R_map_rig.transpose() * state.newest().R_map_rig,
                    rotationSigma_rad(state, frame) + kAttitudeNoise_rad,
-                   kCornerSigma_px / features.focal_length_px);
-    if (seen && seen->displacement.norm() < kFarthest)
+                   kOldCornerSigma_px / features.focal_length_px);
+    if (seen && seen->displacement.norm() < kParallaxTells)
       limitDisplacement(frame, *seen, depth, camera_rig, state);
     return;
   }

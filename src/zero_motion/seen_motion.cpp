@@ -15,11 +15,8 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kRounds = 4;
-constexpr std::size_t kMostPairs = 120;  // more tell no more, as neighbours err alike
-constexpr double kIndependentTracks = 20;
-constexpr double kInlierSigmas = 3;
-constexpr double kInlierShare = 0.4;
+constexpr int kFitRounds = 4;
+constexpr double kFewestAgree = 0.4;   // share of the pairs
 constexpr double kDepthSpread = 0.5;   // of points, over the typical depth
 constexpr double kTypicalError = 0.2;  // of the typical depth, as few points tell it
 constexpr double kWeakest = 1e-3;      // keeps what no pair shows solvable
@@ -62,7 +59,7 @@ std::optional<SeenMotion> seenMotion(const std::vector<BearingPair>& pairs,
   if (pairs.empty()) return std::nullopt;
   Vector6d solution = Vector6d::Zero();
   DisplacementFit fit;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     fit = fitAround(pairs, R_then_now, corner_sigma_rad, solution, round == 0);
     const double weight =
         std::min(1.0, kIndependentTracks / std::max(fit.inliers, 1)) / squared(corner_sigma_rad);
@@ -71,7 +68,7 @@ std::optional<SeenMotion> seenMotion(const std::vector<BearingPair>& pairs,
     fit.A.diagonal().tail<3>().array() += 1 / squared(rotation_sigma_rad);
     solution = fit.A.ldlt().solve(weight * fit.g);
   }
-  if (!solution.allFinite() || fit.inliers < kInlierShare * fit.pairs) return std::nullopt;
+  if (!solution.allFinite() || fit.inliers < kFewestAgree * fit.pairs) return std::nullopt;
   SeenMotion seen;
   seen.displacement = solution.head<3>();
   seen.covariance = fit.A.inverse().topLeftCorner<3, 3>();

@@ -9,6 +9,13 @@
 
 namespace ardrone_vslam {
 
+/// From fewer tracks nothing is told.
+constexpr std::size_t kFewestPairs = 15;
+/// Jumps of neighbouring corners are alike (compression, interpolation): more tracks say no more.
+constexpr double kIndependentTracks = 20;
+/// Of so many corners at rest, in sigmas, nearly all jump by less: 99 % in the plane.
+constexpr double kInlierSigmas = 3;
+
 /// The camera's way between two images over the scene's typical depth, axes of the image then.
 struct SeenMotion {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< [1]

@@ -16,9 +16,6 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kInlierShare = 0.6;  // a third of the tracks may be wrong
 constexpr double kShiftGate = 16;     // chi-square with three degrees of freedom: 99.9 %
-// Jumps of neighbouring corners are alike (compression, interpolation): more tracks than this say
-// no more.
-constexpr double kIndependentTracks = 20;
 
 std::vector<double> left_rad(const std::vector<BearingPair>& pairs, const Eigen::Matrix3d& R) {
   std::vector<double> left;

@@ -4,18 +4,14 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "odometry/image_rotation.hpp"
+#include "zero_motion/seen_motion.hpp"
 
 namespace ardrone_vslam {
 
 /// How far a corner at rest jumps between two images, per axis: noise, and the corner's own pixel.
 constexpr double kCornerJump_px = 0.8;
-/// Of so many corners at rest, in sigmas, nearly all jump by less: 99 % in the plane.
-constexpr double kInlierSigmas = 3;
 /// By so many sigmas a turn may differ from the odometry's.
 constexpr double kRotationSigmas = 3.5;
-/// From fewer tracks nothing is told.
-constexpr std::size_t kFewestPairs = 15;
 
 /// An image beside the reference.
 struct Stillness {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/scalars.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -14,10 +16,6 @@ constexpr double kAfter_s = 1;
 constexpr double kRotating_deg_per_s = 3;  // a resting camera turns slower
 constexpr double kRotationWindow_s = 0.5;
 constexpr double kPatience_s = 0.2;  // single images are bad: a compressed stream's key frames
-
-double seconds(std::int64_t duration_ns) {
-  return static_cast<double>(duration_ns) * 1e-9;
-}
 
 // Half of the tracks are further off than a turn that is the odometry's within its sigma, and a
 // corner's jump, could bring them: whatever turn they agree on, the camera moves.

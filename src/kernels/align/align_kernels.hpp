@@ -11,6 +11,7 @@ namespace ardrone_vslam::kernels {
 
 constexpr int kPatchSide = 8;    ///< pixels compared, each way
 constexpr int kPatchBorder = 1;  ///< around them, for gradients
+constexpr int kPatchPixels = kPatchSide * kPatchSide;
 constexpr int kPatchRows = kPatchSide + 2 * kPatchBorder;
 constexpr int kPatchStride = 16;  ///< bytes of a row, of which kPatchRows count
 /// Column and row of the patch's own pixel in `rows`: the patch is compared from 4 pixels before it

@@ -31,7 +31,6 @@ struct AlignStep {
 
 static inline AlignStep solveAlign(const AlignPatch& patch, const AlignSums& sums) {
   constexpr float kScale = 1.F / 16;
-  constexpr float kPixels = kPatchSide * kPatchSide;
   const float* m = patch.inverse;
   const auto one = static_cast<float>(sums.one);
   const float d[3] = {static_cast<float>(sums.gradient_x) - one * patch.mean[0],
@@ -42,9 +41,9 @@ static inline AlignStep solveAlign(const AlignPatch& patch, const AlignSums& sum
                       (m[2] * d[0] + m[4] * d[1]) + m[5] * d[2]};
   // Exact: 37 bits. As an integer it would need a library to become a float on a 32 bit processor.
   const auto all = static_cast<double>(sums.one);
-  const double total = kPatchSide * kPatchSide * static_cast<double>(sums.square) - all * all;
+  const double total = kPatchPixels * static_cast<double>(sums.square) - all * all;
   AlignStep step;
-  step.contrast = static_cast<float>(total) * (kScale * kScale / kPixels);
+  step.contrast = static_cast<float>(total) * (kScale * kScale / kPatchPixels);
   step.rest = step.contrast - ((c[0] * d[0] + c[1] * d[1]) + c[2] * d[2]) * (kScale * kScale);
   step.gain = c[2] * kScale;
   // The image is gain * (level - gradient / 2 * shift) + offset.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ardrone_vslam/rotation.hpp"
 #include "bags/messages/bag_messages.hpp"
 #include "sequences/drone_cameras.hpp"
 #include "world/flight/world_flight.hpp"
@@ -20,10 +21,6 @@ geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector) {
   message.y = vector.y();
   message.z = vector.z();
   return message;
-}
-
-double yawOf(const Eigen::Matrix3d& R) {
-  return std::atan2(R(1, 0), R(0, 0));
 }
 
 /// The drone counts 2048 s (11 bits of seconds, 21 of microseconds); the driver makes a float.
