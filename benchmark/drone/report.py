@@ -109,7 +109,7 @@ def main():
             "# Instructions and cycles a frame on the drone\n\n"
             "Made by `scripts/drone_cost --page`; do not edit. Millions of executed instructions a frame, mean of "
             f"the first {frames} frames of `laps`, counted by an emulated Cortex-A8: equal from run to run. A frame of a long flight "
-            "costs more, within a minute twice as much ([why](../docs/onboard.md#what-a-frame-costs-and-what-makes-it-cheaper)). "
+            "costs more ([why](../docs/onboard.md#what-a-frame-costs-and-what-makes-it-cheaper)). "
             "Reading the image from its file is not counted.\n\n" + text + "\n\n"
             + ("## Cycles, by a model\n\n"
                "Millions of cycles a frame of the same runs, by a [model](../docs/onboard.md#cycles-by-a-model) of the processor; it has "
