@@ -31,7 +31,7 @@ function(ardrone_vslam_room room)
   endif()
 endfunction()
 
-# The headers of ROS and OpenCV cost more than what includes them: each folder's are read once.
+# The headers and templates of Eigen, ROS and OpenCV cost more than what includes them: each folder's are read once.
 function(ardrone_vslam_unity target)
   if(ARDRONE_VSLAM_UNITY_BUILD)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)

@@ -13,7 +13,7 @@
 namespace ardrone_vslam::test {
 namespace {
 
-constexpr int kImages = 20;
+constexpr int kPipedImages = 20;
 
 /// @return allocations while `work` is done
 template <class Work>
@@ -27,10 +27,10 @@ TEST(OnboardAllocation, NoneForImages) {
   Pipe pipe;
   FrameStream stream(FileDescriptor(pipe.reader()), -1, {32, 24, false}, true);
   const std::string bytes = pgm(1, generatedImage(32, 24));
-  for (int i = 0; i < kImages; ++i) pipe.write(bytes);
+  for (int i = 0; i < kPipedImages; ++i) pipe.write(bytes);
   Frame frame;
   EXPECT_EQ(during([&] {
-              for (int i = 0; i < kImages; ++i)
+              for (int i = 0; i < kPipedImages; ++i)
                 ASSERT_EQ(stream.read(frame), FrameSource::Read::kFrame);
             }),
             0);
@@ -60,7 +60,7 @@ TEST(OnboardAllocation, NoneForAnswersAndTelemetry) {
   const FrameResult result;
   const ImageFeatures features;
   EXPECT_EQ(during([&] {
-              for (int i = 1; i <= kImages; ++i) {
+              for (int i = 1; i <= kPipedImages; ++i) {
                 output.sendPose(result, {});
                 output.sendState(VSLAM_NO_OBSERVER, i, {});
                 output.sendTelemetry(features, landmarks, std::int64_t{i} * 1'000'000'000);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
-constexpr std::int64_t kPeriod_ns = kSecond_ns / 30;
+constexpr std::int64_t kDronePeriod_ns = kSecond_ns / 30;
 constexpr std::int64_t kNow_ns = 1'700'000'000 * kSecond_ns;  // ours
 constexpr std::int64_t kBooted_ns = 77 * kSecond_ns;          // the drone's at the same time
 
@@ -20,7 +20,7 @@ TEST(ClockMap, TheFastestArrivalTellsTheDifference) {
   const std::int64_t delays_ms[] = {40, 12, 90, 7, 30, 8, 7, 200};
   std::int64_t least_ms = 1000;
   for (int i = 0; i < 8; ++i) {
-    const std::int64_t after_ns = i * kPeriod_ns;
+    const std::int64_t after_ns = i * kDronePeriod_ns;
     least_ms = std::min(least_ms, delays_ms[i]);
     const std::int64_t mapped_ns =
         clock.map(kBooted_ns + after_ns, kNow_ns + after_ns + delays_ms[i] * kMillisecond_ns);
@@ -36,9 +36,9 @@ TEST(ClockMap, StampsAscendAndNoneIsOfTheFuture) {
   std::int64_t arrival_ns = kNow_ns;
   int clamped = 0;
   for (int i = 0; i < 5000; ++i) {
-    const std::int64_t stamp_ns = kBooted_ns + i * kPeriod_ns;
+    const std::int64_t stamp_ns = kBooted_ns + i * kDronePeriod_ns;
     arrival_ns = std::max<std::int64_t>(
-        arrival_ns + 1000, kNow_ns + i * kPeriod_ns + std::llround(delay_s(random) * 1e9));
+        arrival_ns + 1000, kNow_ns + i * kDronePeriod_ns + std::llround(delay_s(random) * 1e9));
     const std::int64_t mapped_ns = clock.map(stamp_ns, arrival_ns);
     EXPECT_GT(mapped_ns, before_ns) << i;
     EXPECT_LE(mapped_ns, arrival_ns) << i;
@@ -53,7 +53,7 @@ TEST(ClockMap, FollowsAClockThatDrifts) {
     ClockMap clock;
     double worst_s = 0;
     for (int i = 0; i < 30 * 600; ++i) {
-      const std::int64_t after_ns = i * kPeriod_ns;
+      const std::int64_t after_ns = i * kDronePeriod_ns;
       const auto stamp_ns = kBooted_ns + std::llround(static_cast<double>(after_ns) * (1 + drift));
       const std::int64_t true_ns = kNow_ns + after_ns;
       const std::int64_t mapped_ns = clock.map(stamp_ns, true_ns + 5 * kMillisecond_ns);
@@ -79,7 +79,7 @@ TEST(ClockMap, FollowsItsOwnClockThatIsSetBack) {
   ClockMap clock;
   clock.map(kBooted_ns, kNow_ns);
   const std::int64_t back_ns = kNow_ns - 3600 * kSecond_ns;
-  EXPECT_EQ(clock.map(kBooted_ns + kPeriod_ns, back_ns), back_ns);
+  EXPECT_EQ(clock.map(kBooted_ns + kDronePeriod_ns, back_ns), back_ns);
 }
 
 }  // namespace

@@ -12,16 +12,14 @@
 namespace ardrone_vslam::test {
 namespace {
 
-using Read = DroneStream::Read;
-
-constexpr std::int64_t kPeriod_ns = 33'333'333;
+constexpr std::int64_t kFramePeriod_ns = 33'333'333;
 
 VslamPose somePose(std::uint32_t sequence) {
   VslamPose pose{};
   pose.sequence = sequence;
   pose.flags = VSLAM_POSE_IS_VALID;
   pose.state = VSLAM_TRACKING;
-  pose.stamp_ns = sequence * kPeriod_ns;
+  pose.stamp_ns = sequence * kFramePeriod_ns;
   pose.position_m[0] = 0.25 * sequence;
   pose.quaternion[3] = pose.observer_quaternion[0] = 1;
   return pose;
@@ -35,6 +33,8 @@ Bytes bytesOf(const VslamPose& pose) {
 
 class DroneStreamTest : public ::testing::Test {
  protected:
+  using Read = DroneStream::Read;
+
   Read read(const Bytes& bytes) {
     return stream_.read(bytes.data(), bytes.size(), now_ns_ += 1000);
   }

@@ -10,10 +10,10 @@
 namespace ardrone_vslam::test {
 namespace {
 
-using Read = FrameSource::Read;
-
 class FrameStreamTest : public ::testing::Test {
  protected:
+  using Read = FrameSource::Read;
+
   FrameStream stream(const FrameSize& size = {8, 4, false}, bool every_frame = true) {
     return FrameStream(FileDescriptor(pipe_.reader()), stop_.ends[0], size, every_frame);
   }

@@ -10,7 +10,7 @@
 namespace ardrone_vslam::test {
 namespace {
 
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::int64_t kMs_ns = 1'000'000;
 
 class ObserverInputTest : public ::testing::Test {
  protected:
@@ -95,9 +95,9 @@ TEST_F(ObserverInputTest, EachKindOfDamageIsCounted) {
 TEST_F(ObserverInputTest, SilenceIsFromTheLastGoodRecord) {
   EXPECT_TRUE(input_.isSilent(0, 0.5));
   EXPECT_TRUE(accepts(odometryAt(1, 1), 0));
-  EXPECT_FALSE(input_.isSilent(500 * kMillisecond_ns, 0.5));
-  EXPECT_FALSE(accepts(odometryAt(1, 1), 400 * kMillisecond_ns));
-  EXPECT_TRUE(input_.isSilent(501 * kMillisecond_ns, 0.5));
+  EXPECT_FALSE(input_.isSilent(500 * kMs_ns, 0.5));
+  EXPECT_FALSE(accepts(odometryAt(1, 1), 400 * kMs_ns));
+  EXPECT_TRUE(input_.isSilent(501 * kMs_ns, 0.5));
 }
 
 }  // namespace

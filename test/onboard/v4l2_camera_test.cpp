@@ -139,7 +139,7 @@ TEST_F(V4l2CameraTest, StampsAreOfTheClockAskedForWhicheverTheDriverUsed) {
 }
 
 TEST_F(V4l2CameraTest, ASilentCameraIsOpenedAgain) {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  constexpr std::int64_t kOneSecond_ns = 1'000'000'000;
   OnboardConfig config;
   config.frames = "/dev/null";  // a device; the calls are the test's
   FrameInput input(config, kSize, -1, {}, kFakeCalls);
@@ -149,15 +149,15 @@ TEST_F(V4l2CameraTest, ASilentCameraIsOpenedAgain) {
   Frame frame;
   ASSERT_EQ(input.read(frame), FrameSource::Read::kFrame);
   const std::int64_t heard_ns = now_ns();
-  input.closeSilent(heard_ns + kSecond_ns / 2);
+  input.closeSilent(heard_ns + kOneSecond_ns / 2);
   EXPECT_FALSE(input.isLost());
-  input.closeSilent(heard_ns + kSecond_ns);
+  input.closeSilent(heard_ns + kOneSecond_ns);
   EXPECT_TRUE(input.isLost());
   EXPECT_FALSE(input.isOver());
   EXPECT_FALSE(fake->is_streaming);
-  input.openAgain(heard_ns + kSecond_ns * 3 / 2);
+  input.openAgain(heard_ns + kOneSecond_ns * 3 / 2);
   EXPECT_TRUE(input.isLost()) << "it is left alone for a second";
-  input.openAgain(heard_ns + 2 * kSecond_ns);
+  input.openAgain(heard_ns + 2 * kOneSecond_ns);
   EXPECT_FALSE(input.isLost());
   fake->queued.clear();
 }

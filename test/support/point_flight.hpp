@@ -23,6 +23,8 @@ inline std::int64_t stampOf(int frame, double rate_hz) {
   return 1'000'000'000 + static_cast<std::int64_t>(std::llround(frame / rate_hz * 1e9));
 }
 
+constexpr int kLapFrames = 200;  ///< of a lap at 10 Hz, 0.79 m/s
+
 /// Circles of a radius at a height, looking along the way.
 inline Flight lapsFlight(int frames_per_lap, int laps, double rate_hz, double radius_m = 2.5,
                          double height_m = 1.2) {

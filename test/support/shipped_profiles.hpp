@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "simulation/odometry_model.hpp"
 #include "test_paths.hpp"
 
 namespace ardrone_vslam::test {
+
+constexpr double kRadPerDeg = M_PI / 180;  // profiles are in degrees
 
 /// The file of the odometry profiles that the package ships.
 inline const std::string kShippedProfiles =

@@ -14,7 +14,7 @@ using test::Flight;
 using test::FlightRun;
 using test::PointWorld;
 
-constexpr int kLapFrames = 200;
+using test::kLapFrames;
 constexpr int kLaps = 3;
 
 /// As on the AR.Drone: one ahead, at the nose, one that looks down.

@@ -12,7 +12,7 @@ namespace {
 using test::Flight;
 using test::PointWorld;
 
-constexpr double kScaleSigma = 0.05;
+constexpr double kDrawnScaleSigma = 0.05;
 
 /// The floor, and a table of 0.7 m where asked for.
 PointWorld floorWorld(std::uint64_t seed, bool with_table) {
@@ -26,13 +26,13 @@ PointWorld floorWorld(std::uint64_t seed, bool with_table) {
   return world;
 }
 
-struct Outcome {
+struct FloorFlight {
   double scale_off = 0;
   double scale_sigma = 0;
   double rmse_m = 0;
 };
 
-Outcome fly(std::uint64_t seed, double scale_error, bool floor_points, bool with_table) {
+FloorFlight fly(std::uint64_t seed, double scale_error, bool floor_points, bool with_table) {
   const Flight flight = test::lapsFlight(200, 2, 10, 2.5, 1.4);
   test::DriftConfig drift;
   drift.scale_error = scale_error;
@@ -47,12 +47,12 @@ Outcome fly(std::uint64_t seed, double scale_error, bool floor_points, bool with
   SlamConfig config;
   config.msckf.odometry.walk_m_per_sqrt_s = 0.03;  // what test::observe draws
   config.msckf.odometry.velocity_bias_m_s = 0.01;
-  config.msckf.odometry.scale_sigma = kScaleSigma;
+  config.msckf.odometry.scale_sigma = kDrawnScaleSigma;
   config.height_input.use_range = true;
   config.msckf.height.floor_points = floor_points;
   PointWorld world = floorWorld(seed, with_table);
   Slam slam(config, test::bottomExtrinsics());
-  Outcome outcome;
+  FloorFlight outcome;
   FrameResult last;
   for (std::size_t i = 0; i < flight.size(); ++i) {
     last = slam.process(
@@ -73,11 +73,11 @@ TEST(FloorPoints, TellTheScaleWithoutAnyClimb) {
   double without_m = 0;
   double with_m = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const double drawn = kScaleSigma * RandomSource(seed, 9).normal();
-    const Outcome without = fly(seed, drawn, false, false);
-    const Outcome with = fly(seed, drawn, true, false);
-    EXPECT_GT(without.scale_sigma, 0.85 * kScaleSigma) << seed;
-    EXPECT_LT(with.scale_sigma, 0.2 * kScaleSigma) << seed;
+    const double drawn = kDrawnScaleSigma * RandomSource(seed, 9).normal();
+    const FloorFlight without = fly(seed, drawn, false, false);
+    const FloorFlight with = fly(seed, drawn, true, false);
+    EXPECT_GT(without.scale_sigma, 0.85 * kDrawnScaleSigma) << seed;
+    EXPECT_LT(with.scale_sigma, 0.2 * kDrawnScaleSigma) << seed;
     EXPECT_LT(std::abs(with.scale_off), 0.04) << seed;
     nees += std::pow(with.scale_off / with.scale_sigma, 2) / kSeeds;
     without_m += without.rmse_m / kSeeds;
@@ -90,7 +90,7 @@ TEST(FloorPoints, TellTheScaleWithoutAnyClimb) {
 
 TEST(FloorPoints, ATableBelowIsNoFalseScale) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Outcome with = fly(seed, 0, true, true);
+    const FloorFlight with = fly(seed, 0, true, true);
     EXPECT_LT(std::abs(with.scale_off), 0.04) << seed;
     EXPECT_LT(with.rmse_m, 0.05) << seed;  // measured: 0.03
   }

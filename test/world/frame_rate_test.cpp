@@ -18,7 +18,7 @@ using test::PointWorld;
 
 constexpr double kMostHz = 60;
 constexpr double kLap_s = 20;
-constexpr int kLaps = 3;
+constexpr int kRounds = 3;
 
 /// Frames 0, every, 2 every .. of what was drawn at the highest rate: the same drift at all rates.
 template <class Item>
@@ -50,8 +50,8 @@ int keyframesOf(const std::vector<ImageFeatures>& frames,
 }
 
 TEST(FrameRate, TracksWorkAtEveryRateAndKeyframesFollowTheWay) {
-  const Flight flight = test::lapsFlight(static_cast<int>(kLap_s * kMostHz), kLaps, kMostHz);
-  const double displacement_m = 2 * M_PI * 2.5 * kLaps;
+  const Flight flight = test::lapsFlight(static_cast<int>(kLap_s * kMostHz), kRounds, kMostHz);
+  const double displacement_m = 2 * M_PI * 2.5 * kRounds;
   std::map<int, double> keyframes_per_m;
   for (const int hz : {3, 10, 30, 60}) {
     const int every = static_cast<int>(kMostHz) / hz;

@@ -15,12 +15,12 @@ namespace {
 using test::Flight;
 using test::PointWorld;
 
-constexpr double kRate_hz = 10;
-constexpr std::uint64_t kSeeds = 20;
+constexpr double kMapRate_hz = 10;
+constexpr std::uint64_t kMapSeeds = 20;
 
 /// Two laps of a room, and the map that they leave.
 SavedMap mapOf(PointWorld& world, std::uint64_t seed) {
-  const Flight flight = test::lapsFlight(200, 2, kRate_hz);
+  const Flight flight = test::lapsFlight(200, 2, kMapRate_hz);
   const auto odometry = test::observe(flight, {}, seed);
   Slam slam(test::configForDrift(), test::forwardExtrinsics());
   const auto frames = test::film(world, flight);
@@ -31,13 +31,13 @@ SavedMap mapOf(PointWorld& world, std::uint64_t seed) {
 /// On another circle, the other way round, from anywhere on it.
 Flight anotherFlight(std::uint64_t seed) {
   RandomSource random(seed, 3);
-  const Flight laps = test::lapsFlight(200, 2, kRate_hz, 2.2, 1.4);
+  const Flight laps = test::lapsFlight(200, 2, kMapRate_hz, 2.2, 1.4);
   const int start = random.integer(0, 199);
   Flight flight;
   for (int i = 0; i < 150; ++i) {
     test::FlightPose pose = laps[static_cast<std::size_t>(200 + start - i)];
     pose.T_map_base.rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()));
-    pose.stamp_ns = test::stampOf(i, kRate_hz);
+    pose.stamp_ns = test::stampOf(i, kMapRate_hz);
     flight.push_back(pose);
   }
   return flight;
@@ -99,7 +99,7 @@ TEST(MapFlight, IsFoundFromAnyStartAndHeading) {
   std::vector<double> frames_until_found;
   std::vector<double> errors_m;
   std::vector<double> nees;
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kMapSeeds; ++seed) {
     PointWorld world = test::pointRoom(seed, 0.1);
     const SavedMap map = mapOf(world, seed);
     const Again again = flyAgain(world, anotherFlight(seed), map, seed);
@@ -121,7 +121,7 @@ TEST(MapFlight, LocaliseOnlyLeavesTheMapAsItIs) {
   config.msckf.localise_only = true;
   std::vector<double> errors_m;
   std::vector<double> nees;
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kMapSeeds; ++seed) {
     PointWorld world = test::pointRoom(seed, 0.1);
     const SavedMap map = mapOf(world, seed);
     const Again again = flyAgain(world, anotherFlight(seed), map, seed, config);
@@ -144,7 +144,7 @@ TEST(MapFlight, LocaliseOnlyLeavesTheMapAsItIs) {
 }
 
 TEST(MapFlight, AnotherRoomIsNotTakenForTheMaps) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kMapSeeds; ++seed) {
     PointWorld world = test::pointRoom(seed, 0.1);
     const SavedMap map = mapOf(world, seed);
     PointWorld other = test::pointRoom(seed + 100, 0.1);
@@ -156,7 +156,7 @@ TEST(MapFlight, AnotherRoomIsNotTakenForTheMaps) {
 }
 
 TEST(MapFlight, PointsThatLookAlikeElsewhereAreNoPlace) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kMapSeeds; ++seed) {
     PointWorld world = test::pointRoom(seed, 0.1);
     const SavedMap map = mapOf(world, seed);
     world.exchangeDescriptors(1);
@@ -185,7 +185,7 @@ PointWorld roomWithCupboard(std::uint64_t seed, bool is_other_room) {
 }
 
 TEST(MapFlight, TheSameCupboardInAnotherRoomIsNoPlace) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kMapSeeds; ++seed) {
     PointWorld world = roomWithCupboard(seed, false);
     const SavedMap map = mapOf(world, seed);
     EXPECT_TRUE(flyAgain(world, anotherFlight(seed), map, seed).found_frame) << seed;

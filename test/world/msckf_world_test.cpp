@@ -16,7 +16,7 @@ using test::Flight;
 using test::FlightRun;
 using test::PointWorld;
 
-constexpr int kLapFrames = 200;
+using test::kLapFrames;
 
 double meanNees(const Flight& flight, const FlightRun& run) {
   double sum = 0;

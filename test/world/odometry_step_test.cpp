@@ -13,7 +13,7 @@ using test::Flight;
 using test::FlightRun;
 using test::PointWorld;
 
-constexpr int kLapFrames = 200;
+using test::kLapFrames;
 constexpr std::size_t kFault = 300;  // frame, in the second of three laps
 
 void stepBy(const Eigen::Vector3d& step_m, std::size_t from, std::vector<OdometryState>& odometry) {

@@ -15,7 +15,7 @@ using test::Flight;
 using test::FlightRun;
 using test::PointWorld;
 
-constexpr double kRate_hz = 10;
+constexpr double kRelocationRate_hz = 10;
 constexpr std::size_t kSeen = 300;   // frames: one and a half laps
 constexpr std::size_t kBlind = 300;  // 30 s
 constexpr std::size_t kAgain = 160;
@@ -23,8 +23,8 @@ constexpr std::size_t kAgainFrom = kSeen + kBlind;
 
 /// Laps; then on the other side of the room, on another circle and turned outwards.
 Flight flightWithABlindStretch() {
-  const Flight seen = test::lapsFlight(200, 4, kRate_hz);
-  const Flight other = test::lapsFlight(200, 4, kRate_hz, 1.8, 1.5);
+  const Flight seen = test::lapsFlight(200, 4, kRelocationRate_hz);
+  const Flight other = test::lapsFlight(200, 4, kRelocationRate_hz, 1.8, 1.5);
   Flight flight(seen.begin(), seen.begin() + kSeen + kBlind / 2);
   flight.insert(flight.end(), other.begin() + kSeen + kBlind / 2,
                 other.begin() + kSeen + kBlind + kAgain);
@@ -138,7 +138,7 @@ class FailingLandmarks : public ::testing::Test {
  protected:
   static constexpr std::size_t kLap = 200;
 
-  FailingLandmarks() : flight_(test::lapsFlight(kLap, 4, kRate_hz)), world_(1) {
+  FailingLandmarks() : flight_(test::lapsFlight(kLap, 4, kRelocationRate_hz)), world_(1) {
     world_.addRoom({10, 8, 3}, 1200);
   }
   ImageFeatures look(std::size_t frame) {

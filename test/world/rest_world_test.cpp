@@ -14,7 +14,7 @@ using test::Flight;
 using test::FlightRun;
 using test::PointWorld;
 
-constexpr double kRate_hz = 15;
+constexpr double kRestRate_hz = 15;
 // About 2 m in 15 s, as odometry without a velocity sensor.
 constexpr test::DriftConfig kHover{0.02, 0.13};
 
@@ -24,9 +24,9 @@ Flight turning(int frames, const YawAt& yaw_at) {
   Flight flight;
   for (int i = 0; i < frames; ++i) {
     test::FlightPose pose;
-    pose.stamp_ns = test::stampOf(i, kRate_hz);
+    pose.stamp_ns = test::stampOf(i, kRestRate_hz);
     pose.T_map_base.linear() =
-        Eigen::AngleAxisd(yaw_at(i / kRate_hz), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+        Eigen::AngleAxisd(yaw_at(i / kRestRate_hz), Eigen::Vector3d::UnitZ()).toRotationMatrix();
     pose.T_map_base.translation() << 1, 1, 1.2;
     flight.push_back(pose);
   }
@@ -71,7 +71,7 @@ TEST(RestWorld, TurningOnTheSpotHoldsThePosition) {
 Flight hovering(int frames) {
   Flight flight = turning(frames, [](double t_s) { return 0.3 + 0.05 * std::sin(0.9 * t_s); });
   for (std::size_t i = 0; i < flight.size(); ++i) {
-    const double t_s = static_cast<double>(i) / kRate_hz;
+    const double t_s = static_cast<double>(i) / kRestRate_hz;
     flight[i].T_map_base.translation() += Eigen::Vector3d(
         0.04 * std::sin(1.3 * t_s), 0.05 * std::sin(0.8 * t_s), 0.03 * std::sin(t_s));
   }
@@ -97,7 +97,7 @@ TEST(RestWorld, HoveringIsHeldWithinWhatTheImageShows) {
 
 // What the odometry says is possible in a scene this far away, so it is believed.
 TEST(RestWorld, ASlowFlightBeforeAFarSceneIsNotHeld) {
-  const Flight flight = test::straightFlight(150, kRate_hz, 0.3);
+  const Flight flight = test::straightFlight(150, kRestRate_hz, 0.3);
   PointWorld world(1);
   world.addRoom({200, 200, 60}, 3000);
   const FlightRun run = test::fly(world, flight, test::observeExactly(flight), test::msckfConfig());
@@ -105,7 +105,7 @@ TEST(RestWorld, ASlowFlightBeforeAFarSceneIsNotHeld) {
 }
 
 TEST(RestWorld, AFrozenStreamDoesNotHoldAFlyingDrone) {
-  const Flight flight = test::straightFlight(60, kRate_hz, 1.5);
+  const Flight flight = test::straightFlight(60, kRestRate_hz, 1.5);
   PointWorld world = test::pointRoom(1);
   std::vector<ImageFeatures> frames;
   for (const auto& pose : flight)

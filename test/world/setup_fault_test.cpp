@@ -7,7 +7,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kRate_hz = 15;
+constexpr double kFaultRate_hz = 15;
 
 SetupFinding mirrored() {
   SetupFinding finding;
@@ -25,7 +25,7 @@ class SetupFaultWorld : public testing::TestWithParam<EstimatorKind> {
  protected:
   SetupFaultWorld()
       : world_(test::pointRoom(1)),
-        flight_(test::lapsFlight(225, 2, kRate_hz)),
+        flight_(test::lapsFlight(225, 2, kFaultRate_hz)),
         images_(test::film(world_, flight_)),
         odometry_(test::observe(flight_, {0.03, 0.05}, 1)) {
     config_.estimator = GetParam();

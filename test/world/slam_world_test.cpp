@@ -16,7 +16,7 @@ using test::FlightRun;
 using test::PointWorld;
 using test::ViewFaults;
 
-constexpr int kLapFrames = 200;
+using test::kLapFrames;
 
 PointWorld corridor(std::uint64_t seed, double wrong_share = 0) {
   ViewFaults faults;

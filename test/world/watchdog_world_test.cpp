@@ -16,14 +16,14 @@ namespace {
 constexpr std::size_t kLap = 200;
 constexpr std::size_t kRoomTurnsFrom = 400;
 
-struct Outcome {
+struct WatchedFlight {
   test::FlightRun run;
   std::vector<double> error_m;
   std::vector<double> odometry_error_m;
 };
 
 /// @param speed  of the flight that the camera sees, over the true one
-Outcome fly(double speed, std::uint64_t seed) {
+WatchedFlight fly(double speed, std::uint64_t seed) {
   const test::Flight flight = test::lapsFlight(kLap, 4, 10);
   test::PointWorld world(seed);
   world.addRoom({10, 8, 3}, 1200);
@@ -40,7 +40,7 @@ Outcome fly(double speed, std::uint64_t seed) {
   SlamConfig config;
   config.estimator = EstimatorKind::kMsckf;
   const auto odometry = test::observe(flight, {}, seed);
-  Outcome outcome{test::run(frames, odometry, config), {}, {}};
+  WatchedFlight outcome{test::run(frames, odometry, config), {}, {}};
   for (std::size_t i = 0; i < flight.size(); ++i) {
     const Eigen::Vector3d truth = flight[i].T_map_base.translation();
     outcome.error_m.push_back((outcome.run.results[i].T_map_base.translation() - truth).norm());
@@ -57,7 +57,7 @@ TEST(WatchdogWorld, CameraThatContradictsGoodOdometryIsFoundOutAndLeftOut) {
   std::vector<double> excess_m;  // of the error that is gone back to over the odometry's
   for (const double speed : {0.0, -0.5}) {
     for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
-      const Outcome outcome = fly(speed, seed);
+      const WatchedFlight outcome = fly(speed, seed);
       const auto& results = outcome.run.results;
       const auto first = std::find_if(results.begin(), results.end(), isDistrusted);
       ASSERT_NE(first, results.end()) << speed << ' ' << seed;
@@ -80,7 +80,7 @@ TEST(WatchdogWorld, CameraThatContradictsGoodOdometryIsFoundOutAndLeftOut) {
 
 TEST(WatchdogWorld, TrustDoesNotEndInAFlightWhereBothAreRight) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const Outcome outcome = fly(1, seed);
+    const WatchedFlight outcome = fly(1, seed);
     EXPECT_TRUE(std::none_of(outcome.run.results.begin(), outcome.run.results.end(), isDistrusted))
         << seed;
   }

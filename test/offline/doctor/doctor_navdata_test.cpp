@@ -46,7 +46,7 @@ DoctorRecording navdataRecording() {
   return recording;
 }
 
-Findings allOf(const DoctorRecording& recording) {
+Findings navdataFindings(const DoctorRecording& recording) {
   Findings findings = checkNavdataStreams(recording);
   for (const Finding& finding : checkNavdataValues(recording)) findings.push_back(finding);
   return findings;
@@ -55,7 +55,7 @@ Findings allOf(const DoctorRecording& recording) {
 /// Those that found something; each must say what to do.
 Names found(const DoctorRecording& recording) {
   Names names;
-  for (const Finding& finding : allOf(recording)) {
+  for (const Finding& finding : navdataFindings(recording)) {
     if (finding.verdict == Verdict::kOk) continue;
     names.insert(finding.check);
     EXPECT_FALSE(finding.remedy.empty()) << finding.check;
@@ -81,9 +81,9 @@ DoctorRecording withImu(Change change) {
 TEST(DoctorNavdata, WithoutFaultsHasNone) {
   const DoctorRecording good = navdataRecording();
   EXPECT_EQ(found(good), Names{});
-  EXPECT_EQ(allOf(good).size(), 11U);
-  EXPECT_EQ(findingOf(allOf(good), "navdata_rate").text, "100.0 Hz for 12.0 s");
-  EXPECT_TRUE(allOf(goodRecording()).empty());
+  EXPECT_EQ(navdataFindings(good).size(), 11U);
+  EXPECT_EQ(findingOf(navdataFindings(good), "navdata_rate").text, "100.0 Hz for 12.0 s");
+  EXPECT_TRUE(navdataFindings(goodRecording()).empty());
 }
 
 TEST(DoctorNavdata, StandsInForOdometry) {
@@ -132,7 +132,7 @@ TEST(DoctorNavdata, FindsNumbersThatAreNone) {
     if (i % 10 == 0) packet.measured.flow_base_m_s.x() = kNan;
   });
   EXPECT_EQ(found(navdata), Names{"navdata_values"});
-  EXPECT_NE(findingOf(allOf(navdata), "navdata_values").text.find("120 of 1200"),
+  EXPECT_NE(findingOf(navdataFindings(navdata), "navdata_values").text.find("120 of 1200"),
             std::string::npos);
   const auto imu = withImu([](std::size_t i, DroneImu& reading) {
     if (i % 10 == 0) reading.force_base_m_s2.z() = kNan;
@@ -140,7 +140,7 @@ TEST(DoctorNavdata, FindsNumbersThatAreNone) {
   EXPECT_EQ(found(imu), Names{"imu_values"});
   const auto none = withNavdata(
       [](std::size_t, NavdataReading& packet) { packet.measured.R_odom_base.setConstant(kNan); });
-  EXPECT_EQ(findingOf(allOf(none), "navdata_values").verdict, Verdict::kFault);
+  EXPECT_EQ(findingOf(navdataFindings(none), "navdata_values").verdict, Verdict::kFault);
   EXPECT_FALSE(examine(none, {}).canWork());
 }
 

@@ -27,7 +27,7 @@ DoctorRecording changed(Change change) {
   return recording;
 }
 
-Findings allOf(const DoctorRecording& recording) {
+Findings odometryFindings(const DoctorRecording& recording) {
   Parameters parameters;
   Findings findings = checkOdometryValues(recording);
   for (const Finding& f : checkOdometryFields(recording, parameters)) findings.push_back(f);
@@ -37,7 +37,7 @@ Findings allOf(const DoctorRecording& recording) {
 }
 
 TEST(DoctorOdometry, SoundOdometryHasNoFault) {
-  for (const Finding& finding : allOf(goodRecording())) {
+  for (const Finding& finding : odometryFindings(goodRecording())) {
     EXPECT_EQ(finding.verdict, Verdict::kOk) << finding.check << ": " << finding.text;
   }
 }
@@ -47,7 +47,7 @@ TEST(DoctorOdometry, WithoutMotionNothingIsOk) {
     state.T_odom_base.setIdentity();
     state.twist_base.setZero();
   });
-  const Findings findings = allOf(still);
+  const Findings findings = odometryFindings(still);
   for (const std::string check :
        {"odometry_unit", "odometry_turn_rate", "odometry_yaw", "height_metres", "height_ground"}) {
     EXPECT_EQ(verdictOf(findings, check), Verdict::kNotChecked) << check;
@@ -66,7 +66,7 @@ TEST(DoctorOdometry, FindsTheMirroredYaw) {
     }
     state.T_odom_base.translation().head<2>() = position.head<2>();
   });
-  EXPECT_EQ(found(allOf(mirrored)), Names{"odometry_yaw"});
+  EXPECT_EQ(found(odometryFindings(mirrored)), Names{"odometry_yaw"});
   Parameters parameters;
   checkOdometryYaw(mirrored, parameters);
   ASSERT_EQ(parameters.size(), 1U);
@@ -90,11 +90,11 @@ TEST(DoctorOdometry, FindsJumps) {
   const auto far = changed([](std::size_t i, OdometryState& state) {
     if (i > 600) state.T_odom_base.translation().x() += 1e9;
   });
-  EXPECT_EQ(found(allOf(far)), Names{"odometry_jumps"});
+  EXPECT_EQ(found(odometryFindings(far)), Names{"odometry_jumps"});
   const auto near = changed([](std::size_t i, OdometryState& state) {
     if (i > 600) state.T_odom_base.translation().x() += 3;
   });
-  EXPECT_EQ(found(allOf(near)), Names{"odometry_jumps"});
+  EXPECT_EQ(found(odometryFindings(near)), Names{"odometry_jumps"});
 }
 
 TEST(DoctorOdometry, FindsMillimetres) {
@@ -108,9 +108,9 @@ TEST(DoctorOdometry, FindsWhatIsNotFilled) {
     state.covariance.setZero();
     state.twist_base.tail<3>().setZero();
   });
-  EXPECT_EQ(found(allOf(empty)), (Names{"odometry_covariance", "odometry_turn_rate"}));
+  EXPECT_EQ(found(odometryFindings(empty)), (Names{"odometry_covariance", "odometry_turn_rate"}));
   const auto unknown = changed([](std::size_t, OdometryState& state) { state.covariance *= 1e9; });
-  EXPECT_EQ(found(allOf(unknown)), Names{"odometry_covariance"});
+  EXPECT_EQ(found(odometryFindings(unknown)), Names{"odometry_covariance"});
 }
 
 TEST(DoctorOdometry, CountsWhatIsNotFinite) {
@@ -119,7 +119,7 @@ TEST(DoctorOdometry, CountsWhatIsNotFinite) {
   EXPECT_EQ(verdictOf(checkOdometryValues(recording), "odometry_values"), Verdict::kWarning);
   for (DoctorOdometry& odometry : recording.odometry) odometry.state.reset();
   EXPECT_EQ(verdictOf(checkOdometryValues(recording), "odometry_values"), Verdict::kFault);
-  EXPECT_NO_FATAL_FAILURE(allOf(recording));
+  EXPECT_NO_FATAL_FAILURE(odometryFindings(recording));
 }
 
 TEST(DoctorHeight, FindsWholeMetres) {
@@ -127,7 +127,7 @@ TEST(DoctorHeight, FindsWholeMetres) {
     double& z_m = state.T_odom_base.translation().z();
     z_m = std::trunc(z_m);
   });
-  const Findings findings = allOf(whole);
+  const Findings findings = odometryFindings(whole);
   EXPECT_EQ(found(findings), Names{"height_metres"});
   EXPECT_EQ(verdictOf(findings, "height_ground"), Verdict::kNotChecked);
 }
@@ -136,7 +136,7 @@ TEST(DoctorHeight, FindsTheStepOverATable) {
   const auto table = changed([](std::size_t i, OdometryState& state) {
     if (i > 400 && i < 700) state.T_odom_base.translation().z() -= 0.75;
   });
-  const Findings findings = allOf(table);
+  const Findings findings = odometryFindings(table);
   EXPECT_EQ(found(findings), Names{"height_ground"});
   EXPECT_NE(test::findingOf(findings, "height_ground").text.find("2 steps of up to 7"),
             std::string::npos)
@@ -153,7 +153,7 @@ TEST(DoctorHeight, FindsTheStepBehindWholeMetresByTheDronesOwnAltitude) {
     recording.navdata.push_back({recording.odometry[i].time, reading});
     z_m = std::trunc(z_m);
   }
-  EXPECT_EQ(found(allOf(recording)), (Names{"height_metres", "height_ground"}));
+  EXPECT_EQ(found(odometryFindings(recording)), (Names{"height_metres", "height_ground"}));
 }
 
 TEST(DoctorHeight, KnowsTheDronesAltitudeByItsMillimetres) {
@@ -161,7 +161,7 @@ TEST(DoctorHeight, KnowsTheDronesAltitudeByItsMillimetres) {
     double& z_m = state.T_odom_base.translation().z();
     z_m = std::trunc(z_m * 1000) / 1000;
   });
-  EXPECT_EQ(found(allOf(millimetres)), Names{"height_ground"});
+  EXPECT_EQ(found(odometryFindings(millimetres)), Names{"height_ground"});
 }
 
 }  // namespace

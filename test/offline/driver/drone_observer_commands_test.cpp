@@ -12,7 +12,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::int64_t kBegin_ns = 1'400'000'000'000'000'000;
+constexpr std::int64_t kFirstPacket_ns = 1'400'000'000'000'000'000;
 
 /// A drone that obeys, told to and fro, and is not heard of for 0.8 s. @return how far off the
 /// observer is 0.1 s later [m]
@@ -24,7 +24,7 @@ double errorBeyondHole_m(int hole_at, bool is_told) {
   DroneObserver observer;
   std::vector<OdometryState> states;
   NavdataReading reading;
-  reading.stamp_ns = kBegin_ns;
+  reading.stamp_ns = kFirstPacket_ns;
   Eigen::Vector3d displacement_m = Eigen::Vector3d::Zero();
   for (int i = 0; i < hole_at + 180; ++i, reading.stamp_ns += 5'000'000) {
     DroneCommand command;

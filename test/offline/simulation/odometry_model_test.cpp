@@ -24,7 +24,7 @@ using test::yawOf;
 
 constexpr int kSeeds = 400;
 constexpr double kTolerance = 0.15;
-constexpr double kRadPerDeg = M_PI / 180;
+using test::kRadPerDeg;
 
 /// Root mean squares over the seeds of three numbers that should have mean 0.
 Eigen::Vector3d rms(const Trajectory& truth, const OdometryProfile& profile,

@@ -11,8 +11,6 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kRadPerDeg = M_PI / 180;
-
 std::string faultOfLoading(const std::string& name, const std::string& yaml) {
   const TemporaryFolder folder;
   folder.write("profiles.yaml", yaml);
@@ -38,10 +36,11 @@ TEST(OdometryProfile, FaultsNameTheFileTheKeyAndWhatIsKnown) {
 
 TEST(OdometryProfile, AnglesAndTimesAreConverted) {
   const OdometryProfile drone = test::shippedProfile("drone");
-  EXPECT_NEAR(drone.yaw_walk_rad_per_sqrt_s * std::sqrt(60), kRadPerDeg, 1e-12);
-  EXPECT_NEAR(drone.attitude_bias_rad, 0.3 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(drone.yaw_walk_rad_per_sqrt_s * std::sqrt(60), test::kRadPerDeg, 1e-12);
+  EXPECT_NEAR(drone.attitude_bias_rad, 0.3 * test::kRadPerDeg, 1e-12);
   EXPECT_EQ(drone.rate_hz, 200);
-  EXPECT_NEAR(test::shippedProfile("wheel").yaw_walk_rad_per_sqrt_m, 0.02 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(test::shippedProfile("wheel").yaw_walk_rad_per_sqrt_m, 0.02 * test::kRadPerDeg,
+              1e-12);
 }
 
 }  // namespace

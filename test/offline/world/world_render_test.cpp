@@ -16,8 +16,8 @@ namespace {
 
 using namespace test;
 
-int compareMarks(const CameraIntrinsics& camera, const Eigen::Isometry3d& T_world_cam,
-                 const Surface& wall = markedWall()) {
+int compareMarksAt(const CameraIntrinsics& camera, const Eigen::Isometry3d& T_world_cam,
+                   const Surface& wall = markedWall()) {
   const cv::Mat image = WorldRenderer(camera, 0).render(Scene{{wall}}, T_world_cam, 0);
   return test::compareMarks(
       camera, image, [&](double) { return T_world_cam; }, wall);
@@ -25,16 +25,16 @@ int compareMarks(const CameraIntrinsics& camera, const Eigen::Isometry3d& T_worl
 
 TEST(WorldRenderer, MarksLieWhereTheProjectionPutsThem) {
   const CameraIntrinsics camera = arDroneFrontCamera();
-  EXPECT_GT(compareMarks(camera, cameraAt(0, 0, 1.2, 0, 0, 0)), 40);       // 3 m
-  EXPECT_GT(compareMarks(camera, cameraAt(1.5, 0.3, 1.5, 10, 5, 20)), 8);  // 1.5 m
-  EXPECT_GT(compareMarks(camera, cameraAt(1, 0.7, 1.1, 35, -5, -3)), 15);  // oblique
-  EXPECT_GT(compareMarks(camera, cameraAt(-3, 0.1, 1.3, -3, 2, 90)), 60);  // 6 m
+  EXPECT_GT(compareMarksAt(camera, cameraAt(0, 0, 1.2, 0, 0, 0)), 40);       // 3 m
+  EXPECT_GT(compareMarksAt(camera, cameraAt(1.5, 0.3, 1.5, 10, 5, 20)), 8);  // 1.5 m
+  EXPECT_GT(compareMarksAt(camera, cameraAt(1, 0.7, 1.1, 35, -5, -3)), 15);  // oblique
+  EXPECT_GT(compareMarksAt(camera, cameraAt(-3, 0.1, 1.3, -3, 2, 90)), 60);  // 6 m
 }
 
 TEST(WorldRenderer, MarksLieRightForOtherLenses) {
   CameraIntrinsics camera = arDroneFrontCamera();
   camera.k1 = camera.k2 = 0;
-  EXPECT_GT(compareMarks(camera, cameraAt(0, 0, 1.2, 0, 0, 0)), 30);
+  EXPECT_GT(compareMarksAt(camera, cameraAt(0, 0, 1.2, 0, 0, 0)), 30);
   camera.k1 = -0.3;
   camera.k2 = 0.1;
   camera.k3 = -0.01;
@@ -43,7 +43,7 @@ TEST(WorldRenderer, MarksLieRightForOtherLenses) {
   camera.cx_px = 311.3;
   camera.cy_px = 187.8;
   camera.fy_px = 560;
-  EXPECT_GT(compareMarks(camera, cameraAt(0, 0, 1.2, 5, 3, 2)), 30);
+  EXPECT_GT(compareMarksAt(camera, cameraAt(0, 0, 1.2, 5, 3, 2)), 30);
 }
 
 Eigen::Isometry3d bodyAt(const Eigen::Vector3d& place, double yaw_deg, double tilt_deg) {
@@ -53,10 +53,10 @@ Eigen::Isometry3d bodyAt(const Eigen::Vector3d& place, double yaw_deg, double ti
 }
 
 TEST(WorldRenderer, MarksLieRightForTheDronesOtherCameras) {
-  EXPECT_GT(compareMarks(cameraNamed("front_wide").intrinsics, cameraAt(0, 0, 1.2, 3, 2, 5)), 60);
+  EXPECT_GT(compareMarksAt(cameraNamed("front_wide").intrinsics, cameraAt(0, 0, 1.2, 3, 2, 5)), 60);
   const CameraChoice& bottom = cameraNamed("bottom");
   const auto marksFrom = [&](const Eigen::Isometry3d& T_world_body) {
-    return compareMarks(bottom.intrinsics, T_world_body * bottom.T_body_cam, markedFloor());
+    return compareMarksAt(bottom.intrinsics, T_world_body * bottom.T_body_cam, markedFloor());
   };
   EXPECT_GE(marksFrom(bodyAt({0.2, 0.2, 0.5}, 0, 0)), 1);
   EXPECT_GT(marksFrom(bodyAt({0, 0, 1.6}, 30, 5)), 5);

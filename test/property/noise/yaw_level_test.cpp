@@ -17,7 +17,7 @@ namespace {
 constexpr double kImage_rad = 0.001;  // a pair's own error
 constexpr double kSpan_s = 0.27;
 constexpr double kBetween_s = 0.15;
-constexpr int kSeeds = 40;
+constexpr int kYawSeeds = 40;
 
 OdometryNoiseConfig configured() {
   OdometryNoiseConfig config;
@@ -62,16 +62,16 @@ double learned(double factor, std::uint64_t seed) {
 TEST(YawLevel, IsThatOfTheWalkWithinAMinute) {
   for (const double factor : {4.0, 10.0, 25.0}) {
     std::vector<double> ratios;
-    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) ratios.push_back(learned(factor, seed));
+    for (std::uint64_t seed = 1; seed <= kYawSeeds; ++seed) ratios.push_back(learned(factor, seed));
     std::sort(ratios.begin(), ratios.end());
-    EXPECT_GT(ratios[kSeeds / 10], 1 / 1.5) << factor;
-    EXPECT_LT(ratios[kSeeds * 9 / 10], 1.25) << factor;
+    EXPECT_GT(ratios[kYawSeeds / 10], 1 / 1.5) << factor;
+    EXPECT_LT(ratios[kYawSeeds * 9 / 10], 1.25) << factor;
   }
 }
 
 TEST(YawLevel, StaysAsConfiguredWhereTheOdometryIsNoWorse) {
   for (const double factor : {0.1, 1.0}) {
-    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed)
+    for (std::uint64_t seed = 1; seed <= kYawSeeds; ++seed)
       EXPECT_EQ(std::lround(100 * factor * learned(factor, seed)), 100) << factor << ' ' << seed;
   }
 }

@@ -12,7 +12,7 @@ namespace {
 using test::PointCamera;
 using test::Swaying;
 
-constexpr double kRate_hz = 20;
+constexpr double kWatchRate_hz = 20;
 constexpr double kDegree = M_PI / 180;
 
 /// A drone that turns, and flies at up to 1.5 m/s or so.
@@ -61,7 +61,7 @@ std::optional<double> film(SetupWatch& watch, const Swaying& flight, const Odome
                            const Fault& fault, double from_s, double to_s, std::uint64_t seed) {
   PointCamera camera(seed);
   std::optional<double> found_s;
-  for (double t_s = from_s; t_s < to_s; t_s += 1 / kRate_hz) {
+  for (double t_s = from_s; t_s < to_s; t_s += 1 / kWatchRate_hz) {
     watch.see(look(camera, flight, t_s, fault), odometry);
     if (!found_s && watch.finding().fault != SetupFault::kNone) found_s = t_s;
   }
@@ -256,8 +256,8 @@ TEST(SetupWatch, TellsHowFarTheOdometrysYawIsOff) {
     SetupWatch watch(test::forwardExtrinsics());
     PointCamera camera(seed);
     std::int64_t last_ns = 0;
-    for (int i = 0; i < kRate_hz * (kSeconds - 1); ++i) {
-      watch.see(look(camera, flight, i / kRate_hz, {}), odometry);
+    for (int i = 0; i < kWatchRate_hz * (kSeconds - 1); ++i) {
+      watch.see(look(camera, flight, i / kWatchRate_hz, {}), odometry);
       const SeenYaw yaw = watch.finding().yaw;
       if (yaw.stamp_ns == last_ns) continue;
       last_ns = yaw.stamp_ns;

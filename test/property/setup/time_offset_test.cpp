@@ -12,7 +12,7 @@ using test::AttitudeErrors;
 using test::PointCamera;
 using test::Swaying;
 
-constexpr double kRate_hz = 30;
+constexpr double kOffsetRate_hz = 30;
 
 /// Images of a flight, their stamps early by the offset. @param after  called with the seconds
 /// since the first one, after each image
@@ -20,7 +20,7 @@ template <class Flight, class After>
 void film(TimeOffsetEstimator& estimator, const Flight& flight, const OdometryBuffer& odometry,
           double offset_s, double duration_s, std::uint64_t seed, const After& after) {
   PointCamera camera(seed);
-  for (double t_s = 0; t_s < duration_s; t_s += 1 / kRate_hz) {
+  for (double t_s = 0; t_s < duration_s; t_s += 1 / kOffsetRate_hz) {
     estimator.see(camera.look(flight.T_map_base(t_s), test::swayStamp_ns(t_s - offset_s)),
                   odometry);
     after(t_s);
@@ -175,7 +175,7 @@ TEST(TimeOffset, FollowsAChange) {
   const auto odometry = test::swayOdometry(flight, 90, 200, {0.001, 0}, 7);
   TimeOffsetEstimator estimator(test::forwardExtrinsics());
   PointCamera camera(7);
-  for (double t_s = 0; t_s < 90; t_s += 1 / kRate_hz) {
+  for (double t_s = 0; t_s < 90; t_s += 1 / kOffsetRate_hz) {
     const double offset_s = t_s < 30 ? 0.02 : 0.08;
     estimator.see(camera.look(flight.T_map_base(t_s), test::swayStamp_ns(t_s - offset_s)),
                   odometry);

@@ -96,7 +96,7 @@ TEST_P(FeaturesFault, IsNamed) {
   EXPECT_NE(faultOf(message).find(GetParam().expected), std::string::npos) << faultOf(message);
 }
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kFloatNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
 INSTANTIATE_TEST_SUITE_P(
@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
         Spoiled{"no frame_id", [](Features& m) { m.header.frame_id.clear(); }},
         Spoiled{"image size", [](Features& m) { m.width = 0; }},
         Spoiled{"focal_length", [](Features& m) { m.focal_length = 0; }},
-        Spoiled{"focal_length", [](Features& m) { m.focal_length = kNaN; }},
+        Spoiled{"focal_length", [](Features& m) { m.focal_length = kFloatNaN; }},
         Spoiled{"50 times the image width", [](Features& m) { m.focal_length = 1e30F; }},
         Spoiled{"'y' has 9", [](Features& m) { m.y.pop_back(); }},
         Spoiled{"'score' has 11", [](Features& m) { m.score.push_back(1); }},
@@ -117,11 +117,11 @@ INSTANTIATE_TEST_SUITE_P(
         Spoiled{"'information' has 29", [](Features& m) { m.information.pop_back(); }},
         Spoiled{"'residual' has 9", [](Features& m) { m.residual.pop_back(); }},
         Spoiled{"'residual' has 10 entries", [](Features& m) { m.information.clear(); }},
-        Spoiled{"information 1", [](Features& m) { m.information[4] = kNaN; }},
+        Spoiled{"information 1", [](Features& m) { m.information[4] = kFloatNaN; }},
         Spoiled{"information 2", [](Features& m) { m.information[7] = -3; }},
         Spoiled{"'y' has 10 entries where 'x' asks for 0", [](Features& m) { m.x.clear(); }},
         Spoiled{"not finite", [](Features& m) { m.x[4] = kInf; }},
-        Spoiled{"bearing 2", [](Features& m) { m.bearing[7] = kNaN; }},
+        Spoiled{"bearing 2", [](Features& m) { m.bearing[7] = kFloatNaN; }},
         Spoiled{"bearing 0", [](Features& m) { m.bearing[2] = 2; }},
         Spoiled{"track_id 3", [](Features& m) { m.track_id[3] = 0; }}));
 

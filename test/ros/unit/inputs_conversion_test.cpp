@@ -230,9 +230,9 @@ struct SpoiledOdometry {
   std::function<void(nav_msgs::Odometry&)> spoil;
 };
 
-class OdometryFault : public testing::TestWithParam<SpoiledOdometry> {};
+class SpoiledOdometryMessage : public testing::TestWithParam<SpoiledOdometry> {};
 
-TEST_P(OdometryFault, IsNamed) {
+TEST_P(SpoiledOdometryMessage, IsNamed) {
   auto odometry = goodOdometry();
   GetParam().spoil(odometry);
   const auto checked = toOdometryState(odometry);
@@ -241,7 +241,7 @@ TEST_P(OdometryFault, IsNamed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    All, OdometryFault,
+    All, SpoiledOdometryMessage,
     testing::Values(
         SpoiledOdometry{"position", [](auto& o) { o.pose.pose.position.z = kNaN; }},
         SpoiledOdometry{"orientation is not finite",

@@ -8,8 +8,6 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kFocalLength_px = test::kPointFocalLength_px;
-
 /// 40 landmarks with descriptors of their own, 5 m ahead in a row; the camera sees them from
 /// elsewhere.
 class WidePriorTest : public ::testing::Test {
@@ -33,7 +31,7 @@ class WidePriorTest : public ::testing::Test {
   AssociationResult look(double sigma_m) {
     builder_.lookFrom({0, 0, 0});
     for (std::size_t i = 0; i < 40; ++i) {
-      const double right_px = kFocalLength_px * 0.01 * (20.0 - static_cast<double>(i));
+      const double right_px = test::kPointFocalLength_px * 0.01 * (20.0 - static_cast<double>(i));
       builder_.addPixel(right_px + 250, 0, kNoTrack, features_of_all_[i]);
     }
     builder_.view().setPositionVariance(sigma_m * sigma_m, true);

@@ -11,7 +11,7 @@
 namespace ardrone_vslam::test {
 namespace {
 
-constexpr std::size_t kInfo = 0;
+constexpr std::size_t kInfoSection = 0;
 
 TEST_F(MapFileReadTest, TheHelpersPutTheFileTogetherAsItWas) {
   EXPECT_TRUE(fileOf(sections_) == bytes_);
@@ -78,7 +78,7 @@ TEST_F(MapFileReadTest, OtherDescriptorsAreRefusedByName) {
   auto sections = sections_;
   ByteWriter info;
   info.text("ORB-256");
-  sections[kInfo].payload.replace(0, 13, bytesOf(info));
+  sections[kInfoSection].payload.replace(0, 13, bytesOf(info));
   EXPECT_EQ(faultOfSections(sections),
             "its landmarks have descriptors of the kind \"ORB-256\", not \"FREAK-512\"; make the "
             "map anew");

@@ -11,7 +11,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr int kFrames = 8;
+constexpr int kClimbFrames = 8;
 
 /// Of a climb in a left turn, tilted.
 OdometryState climbingTurnAt(int frame) {
@@ -48,7 +48,7 @@ OdometryWindow window(OdometryNoiseConfig config, const Eigen::Vector3d& odom_ro
   config.scale_sigma = 1;
   OdometryWindow state(config);
   state.add(climbingTurnAt(0));
-  for (int i = 1; i < kFrames; ++i) state.add(climbingTurnAt(i));
+  for (int i = 1; i < kClimbFrames; ++i) state.add(climbingTurnAt(i));
   Eigen::VectorXd change =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(uncertainCoordinates(state).size()));
   change.segment<3>(WindowState::kAttitude) = odom_rotation_rad;
@@ -83,19 +83,19 @@ void expectErrorsCarriedAsTheMeanIs(const OdometryWindow& before) {
     OdometryWindow less = before;
     moveMean(more, kStep * Eigen::VectorXd::Unit(size, k));
     moveMean(less, -kStep * Eigen::VectorXd::Unit(size, k));
-    more.add(climbingTurnAt(kFrames));
-    less.add(climbingTurnAt(kFrames));
+    more.add(climbingTurnAt(kClimbFrames));
+    less.add(climbingTurnAt(kClimbFrames));
     transition.col(k) = difference(more, less) / (2 * kStep);
   }
   OdometryWindow after = before;
-  after.add(climbingTurnAt(kFrames));
+  after.add(climbingTurnAt(kClimbFrames));
   // Of the errors that a step leaves alone, which take no noise: their covariance with the new ones
   // is the transition times what it was.
   std::vector<int> kept;
-  for (int k = before.frameCoordinate(0); k < before.frameCoordinate(kFrames); ++k)
+  for (int k = before.frameCoordinate(0); k < before.frameCoordinate(kClimbFrames); ++k)
     kept.push_back(k);
   std::vector<int> outputs;
-  const int newest = before.frameCoordinate(kFrames);
+  const int newest = before.frameCoordinate(kClimbFrames);
   for (const int first : {static_cast<int>(WindowState::kAttitude),
                           static_cast<int>(WindowState::kExtrinsics), newest, newest + 3})
     for (int k = 0; k < 3; ++k) outputs.push_back(first + k);
