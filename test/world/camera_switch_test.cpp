@@ -95,8 +95,8 @@ TEST(CameraSwitch, OneMapHasWhatBothCamerasSaw) {
       if (std::abs(p.z()) < 0.1) ++floor;
       if (p.z() > 0.3 && to_wall_m < 0.3) ++walls;
     }
-    EXPECT_GT(floor, 500) << thesis;
-    EXPECT_GT(walls, 300) << thesis;
+    EXPECT_GT(floor, 870) << thesis;  // measured: 1306, 1858
+    EXPECT_GT(walls, 510) << thesis;  // measured: 764, 951
     EXPECT_GT(floor + walls, static_cast<int>(run.landmarks.size()) * 8 / 10) << thesis;
   }
 }
@@ -110,7 +110,7 @@ TEST(CameraSwitch, WhatTheFirstCameraSawCorrectsThePoseWhenItIsBack) {
     int localised = 0;
     for (std::size_t i = 2 * kLapFrames; i < flight.size(); ++i)
       localised += run.results[i].state == SlamState::kLocalised ? 1 : 0;
-    EXPECT_GT(localised, kLapFrames / 2) << seed;
+    EXPECT_GT(localised, kLapFrames * 9 / 10) << seed;  // measured: all
     EXPECT_LT(rmse_m(flight, run, 2 * kLapFrames),
               0.4 * odometryRmse_m(flight, odometry, 2 * kLapFrames))
         << seed;
@@ -127,10 +127,10 @@ TEST(CameraSwitch, ThePoseDoesNotJumpWithTheCamera) {
         run.results[i].T_map_base.translation() - run.results[i - 1].T_map_base.translation();
     const Eigen::Vector3d truth =
         flight[i].T_map_base.translation() - flight[i - 1].T_map_base.translation();
-    EXPECT_LT((step - truth).norm(), 0.06) << "frame " << i;
+    EXPECT_LT((step - truth).norm(), 0.016) << "frame " << i;  // measured: 0.0104
     EXPECT_GT(run.results[i].covariance.llt().matrixLLT().diagonal().minCoeff(), 0) << i;
   }
-  EXPECT_LT(rmse_m(flight, run, 0), 0.08);
+  EXPECT_LT(rmse_m(flight, run, 0), 0.009);  // measured: 0.006
 }
 
 TEST(CameraSwitch, TheLeverOfEachCameraIsItsOwn) {
@@ -147,7 +147,7 @@ TEST(CameraSwitch, TheLeverOfEachCameraIsItsOwn) {
   const auto every_2_s = [](std::size_t frame) { return frame / 20 % 2 == 1; };
   const SwitchedRun run =
       fly(1, flight, test::observeExactly(flight), test::configForDrift(), every_2_s);
-  EXPECT_LT(rmse_m(flight, run, 0), 0.03);
+  EXPECT_LT(rmse_m(flight, run, 0), 0.016);  // measured: 0.0105
 }
 
 TEST(CameraSwitch, AnAbsurdMountingIsRefusedAndNothingChanges) {

@@ -107,13 +107,13 @@ TEST(MapFlight, IsFoundFromAnyStartAndHeading) {
     frames_until_found.push_back(static_cast<double>(*again.found_frame));
     errors_m.push_back(again.rmse_m);
     nees.push_back(again.nees);
-    EXPECT_LT(again.rmse_m, 0.2) << seed;
+    EXPECT_LT(again.rmse_m, 0.155) << seed;  // measured: 0.04 to 0.105
   }
   std::printf("found after %.0f frames, error %.3f m, nees %.2f (medians)\n",
               test::median(frames_until_found), test::median(errors_m), test::median(nees));
-  EXPECT_LE(test::median(frames_until_found), 8);
-  EXPECT_LT(test::median(errors_m), 0.1);
-  EXPECT_LT(test::median(nees), 6);
+  EXPECT_LE(test::median(frames_until_found), 6);  // measured: 4
+  EXPECT_LT(test::median(errors_m), 0.1);          // measured: 0.07
+  EXPECT_LT(test::median(nees), 1.8);              // 3 is honest; measured: 1.2
 }
 
 TEST(MapFlight, LocaliseOnlyLeavesTheMapAsItIs) {
@@ -139,8 +139,8 @@ TEST(MapFlight, LocaliseOnlyLeavesTheMapAsItIs) {
     EXPECT_LT((again.map.anchor_covariance - map.anchor_covariance).cwiseAbs().maxCoeff(), 1e-12);
   }
   std::printf("error %.3f m, nees %.2f (medians)\n", test::median(errors_m), test::median(nees));
-  EXPECT_LT(test::median(errors_m), 0.1);
-  EXPECT_LT(test::median(nees), 6);
+  EXPECT_LT(test::median(errors_m), 0.11);  // measured: 0.076
+  EXPECT_LT(test::median(nees), 1.8);       // 3 is honest; measured: 1.1
 }
 
 TEST(MapFlight, AnotherRoomIsNotTakenForTheMaps) {
@@ -197,8 +197,8 @@ TEST(MapFlight, TheSameCupboardInAnotherRoomIsNoPlace) {
 TEST(MapFlight, AFileKeepsAllThatAFlightNeeds) {
   PointWorld world = test::pointRoom(1, 0.1);
   const SavedMap map = mapOf(world, 1);
-  EXPECT_GT(map.landmarks.size(), 300U);
-  EXPECT_GT(map.anchors.size(), 5U);
+  EXPECT_GT(map.landmarks.size(), 510U);  // measured: 777
+  EXPECT_GT(map.anchors.size(), 19U);     // measured: 30
   EXPECT_EQ(map.anchor_covariance.rows(),
             SavedMap::kAnchor * static_cast<Eigen::Index>(map.anchors.size()));
   for (const Landmark& landmark : map.landmarks) {

@@ -59,7 +59,7 @@ TEST_P(SetupFaultWorld, ThePoseFollowsTheOdometryAndItsStateSaysSo) {
   const Eigen::Vector3d displacement =
       last.T_map_base.translation() - first.T_map_base.translation();
   const Eigen::Vector3d told = last.T_odom_base.translation() - first.T_odom_base.translation();
-  EXPECT_LT((displacement - told).norm(), 0.02);
+  EXPECT_LT((displacement - told).norm(), 1e-6);
   EXPECT_GT(last.covariance(0, 0), first.covariance(0, 0));
 }
 
@@ -99,7 +99,7 @@ TEST_P(MsckfSetupFaultWorld, ForgottenImagesLeaveAnUncertainPoseAndNoLandmark) {
   const Eigen::Vector3d displacement =
       after.T_map_base.translation() - before.T_map_base.translation();
   const Eigen::Vector3d told = after.T_odom_base.translation() - before.T_odom_base.translation();
-  EXPECT_LT((displacement - told).norm(), 0.02) << "the pose goes on where it was";
+  EXPECT_LT((displacement - told).norm(), 0.001) << "the pose goes on where it was";
   const Eigen::Vector3d axis = corrected.normalized();
   const double variance_m2 = axis.dot(after.covariance.topLeftCorner<3, 3>() * axis);
   EXPECT_GT(variance_m2, corrected.squaredNorm());
@@ -112,8 +112,8 @@ TEST_P(MsckfSetupFaultWorld, WhatWasConfirmedStays) {
   ASSERT_GT((kept.T_map_base.translation() - kept.T_odom_base.translation()).norm(), 0.02);
   fly(300, 320, {});
   const FrameResult result = fly(320, 321, mirrored());
-  EXPECT_GE(result.landmarks, kept.landmarks / 2);
-  EXPECT_LT((slam_->T_map_odom().translation() - T_map_odom.translation()).norm(), 0.05);
+  EXPECT_EQ(result.landmarks, kept.landmarks);
+  EXPECT_LT((slam_->T_map_odom().translation() - T_map_odom.translation()).norm(), 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Estimators, MsckfSetupFaultWorld, testing::Values(EstimatorKind::kMsckf),

@@ -64,7 +64,7 @@ TEST_F(SlamStates, OneLandmarkMissingIsTooFew) {
   FrameResult last;
   for (std::size_t i = 0; i < 30; ++i) last = slam.process(look(i), odometry_[i]);
   EXPECT_EQ(last.state, SlamState::kTooFewLandmarks);
-  EXPECT_GT(last.landmark_matches, 10);
+  EXPECT_GT(last.landmark_matches, 80);  // measured: 118
 }
 
 TEST_F(SlamStates, FixRejected) {
@@ -200,7 +200,7 @@ TEST_F(SlamStates, CapsHold) {
     ASSERT_LE(result.landmarks, 60);
     ASSERT_EQ(static_cast<std::size_t>(result.landmarks), slam.landmarks().size());
   }
-  EXPECT_GT(slam.landmarks().size(), 20U);
+  EXPECT_GT(slam.landmarks().size(), 33U);  // measured: 50
 }
 
 TEST_F(SlamStates, MountingOfTheCameraIsTakenIntoAccount) {
@@ -218,8 +218,8 @@ TEST_F(SlamStates, MountingOfTheCameraIsTakenIntoAccount) {
         largest_m, (result.T_map_base.translation() - flight_[i].T_map_base.translation()).norm());
     matches += result.landmark_matches;
   }
-  EXPECT_LT(largest_m, 0.03);
-  EXPECT_GT(matches, 30 * static_cast<int>(flight_.size()));
+  EXPECT_LT(largest_m, 0.007);                                 // measured: 0.0046
+  EXPECT_GT(matches, 100 * static_cast<int>(flight_.size()));  // measured: 147
 }
 
 }  // namespace

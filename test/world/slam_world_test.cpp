@@ -57,14 +57,14 @@ TEST(SlamWorld, TrueOdometryIsHardlyMadeWorse) {
   };
   // With a share of 0.4 wrong landmarks, made of wrong features, outweigh what the exact mean's
   // reweighting can tell apart.
-  for (const Case& c : {Case{MeanKind::kPrinted, 0, 0.01}, Case{MeanKind::kPrinted, 0.2, 0.05},
-                        Case{MeanKind::kPrinted, 0.4, 0.1}, Case{MeanKind::kExact, 0, 0.05},
-                        Case{MeanKind::kExact, 0.2, 0.05}, Case{MeanKind::kExact, 0.4, 0.5}}) {
+  for (const Case& c : {Case{MeanKind::kPrinted, 0, 0.004}, Case{MeanKind::kPrinted, 0.2, 0.035},
+                        Case{MeanKind::kPrinted, 0.4, 0.085}, Case{MeanKind::kExact, 0, 0.035},
+                        Case{MeanKind::kExact, 0.2, 0.04}, Case{MeanKind::kExact, 0.4, 0.5}}) {
     PointWorld world = test::pointRoom(1, c.wrong_share);
     const FlightRun run = test::fly(world, flight, test::observeExactly(flight), withMean(c.mean));
     EXPECT_LT(run.fused.rmse_m, c.rmse_m) << nameOf(c.mean) << ' ' << c.wrong_share;
     EXPECT_LT(run.fused.max_m, 2 * c.rmse_m) << nameOf(c.mean) << ' ' << c.wrong_share;
-    EXPECT_GT(test::meanMatches(run, kLapFrames, 2 * kLapFrames), 50);
+    EXPECT_GT(test::meanMatches(run, kLapFrames, 2 * kLapFrames), 80);  // measured: 108 to 150
   }
 }
 
@@ -128,8 +128,8 @@ TEST(SlamWorld, LandmarksStandWhereThePointsAre) {
   const auto errors = landmarkErrors_m(world, run, false);
   ASSERT_GT(errors.size(), 800U) << "most of the 1200 points";
   EXPECT_LT(run.landmarks.size(), 1300U) << "hardly any point twice";
-  EXPECT_LT(errors[errors.size() / 2], 0.1);
-  EXPECT_LT(errors[errors.size() * 9 / 10], 0.3);
+  EXPECT_LT(errors[errors.size() / 2], 0.085);      // measured: 0.057
+  EXPECT_LT(errors[errors.size() * 9 / 10], 0.25);  // measured: 0.17
 }
 
 TEST(SlamWorld, FirstImageMapEqualsOdometry) {
@@ -159,7 +159,7 @@ TEST(SlamWorld, MapToOdomTakesTheOdometryToThePose) {
     const Eigen::Isometry3d expected = slam.T_map_odom() * r.T_odom_base;
     ASSERT_LT((expected.matrix() - r.T_map_base.matrix()).cwiseAbs().maxCoeff(), 1e-12);
   }
-  EXPECT_GT(slam.T_map_odom().translation().norm(), 0.1) << "there was drift to correct";
+  EXPECT_GT(slam.T_map_odom().translation().norm(), 0.3) << "there was drift to correct";
 }
 
 TEST(SlamWorld, OdometryEstimatorPassesTheOdometryOn) {
@@ -210,9 +210,9 @@ TEST(SlamWorld, PlanarModeWithTrueOdometry) {
   const Flight flight = test::lapsFlight(60, 3, 3);
   PointWorld world = test::pointRoom(1);
   const FlightRun run = test::fly(world, flight, test::observeExactly(flight), config);
-  EXPECT_LT(run.fused.max_m, 0.01);
+  EXPECT_LT(run.fused.max_m, 0.002);  // measured: 0.001
   const auto errors = landmarkErrors_m(world, run, true);
-  EXPECT_LT(errors[errors.size() / 2], 0.15);
+  EXPECT_LT(errors[errors.size() / 2], 0.1);  // measured: 0.066
   EXPECT_LT(run.landmarks.size(), 1300U) << "hardly any point twice";
 }
 
@@ -232,8 +232,8 @@ TEST(SlamWorld, PlanarModeDoesNotMindUnknownTilt) {
         largest_m,
         (run.results[i].T_map_base.translation() - flight[i].T_map_base.translation()).norm());
   }
-  EXPECT_LT(largest_m, 0.1);
-  EXPECT_GT(test::meanMatches(run, 60, 120), 40);
+  EXPECT_LT(largest_m, 0.018);                     // measured: 0.012
+  EXPECT_GT(test::meanMatches(run, 60, 120), 95);  // measured: 143
 }
 
 }  // namespace

@@ -44,17 +44,17 @@ TEST_F(WidePrior, AllLandmarksAreComparedAndThePoseIsFoundAgain) {
     ASSERT_EQ(run.results[i].match_method, MatchMethod::kGuided) << i;
   const FrameResult& result = atJump(run);
   EXPECT_EQ(result.match_method, MatchMethod::kExact);
-  EXPECT_GT(result.landmark_matches, 50);
+  EXPECT_GT(result.landmark_matches, 80);  // measured: 123
   EXPECT_EQ(result.state, SlamState::kLocalised);
   const auto calm = test::run(frames_, calm_odometry_, config_);
   const auto offset_m = [&](std::size_t i) {
     return (run.results[i].T_map_base.translation() - calm.results[i].T_map_base.translation())
         .norm();
   };
-  EXPECT_LT(offset_m(kJump), 0.15) << "of a jump of 2.9 m";
+  EXPECT_LT(offset_m(kJump), 0.12) << "of a jump of 2.9 m";  // measured: 0.08
   for (std::size_t i = kJump + 1; i < kFrames; ++i)
     EXPECT_EQ(run.results[i].match_method, MatchMethod::kGuided) << "narrow again, frame " << i;
-  EXPECT_LT(offset_m(kFrames - 1), 0.05);
+  EXPECT_LT(offset_m(kFrames - 1), 0.007);  // measured: 0.0044
 
   config_.association.max_window_share = 1e6;
   const FrameResult guided = atJump(test::run(frames_, odometry_, config_));
@@ -76,12 +76,12 @@ TEST_F(WidePrior, LargeMapsAreSearchedByTheIndexWithTheSameAnswer) {
   config_.association.index_probes = 4;
   const FrameResult fewer = atJump(test::run(frames_, odometry_, config_));
   EXPECT_EQ(fewer.match_method, MatchMethod::kIndexed);
-  EXPECT_GT(fewer.landmark_matches, atJump(exact).landmark_matches / 3);
+  EXPECT_GT(fewer.landmark_matches, atJump(exact).landmark_matches * 2 / 3);  // measured: 0.97
 }
 
 TEST_F(WidePrior, NoLandmarkIsWornDownByAPriorThatIsWrong) {
   const auto run = test::run(frames_, odometry_, config_);
-  EXPECT_LE(atJump(run).removed_landmarks, 2);
+  EXPECT_EQ(atJump(run).removed_landmarks, 0);
 }
 
 }  // namespace
