@@ -68,12 +68,9 @@ struct EnumNames<MeanKind> {
   static constexpr std::array<const char*, 2> kNames{"printed", "exact"};
 };
 
-/// How landmarks and odometry are weighed, and which fixes are rejected.
-struct ThesisFilterConfig {
-  bool as_printed = false;
+/// How landmarks alone give a position.
+struct LocatorConfig {
   int min_landmarks = 10;
-  double odometry_noise_m_per_sqrt_m = 0.015;
-  double odometry_noise_m_per_sqrt_s = 0.06;
 
   // No parameters, but varied by tests and by the reproduction of the thesis.
   /// kExact is undamped along the rays: for odometry without drift of scale.
@@ -81,14 +78,30 @@ struct ThesisFilterConfig {
   /// With kExact: a landmark that lies so many robust sigmas off its ray weighs a quarter,
   /// further ones hardly anything; 0: all weigh fully.
   double outlier_sigmas = 3.0;
-  /// Landmarks share the drift of the time they were made, so fresh ones correct little; false:
-  /// independent, as printed.
-  bool common_drift = true;
-  double initial_sigma_m = 0.01;    ///< of the position at the first image
   double fix_sigma_floor_m = 0.01;  ///< errors that all landmarks share: no fix is better
   /// The same for errors that grow with the landmarks' distance: attitude and calibration.
   double fix_angle_floor_deg = 2.0;
-  double gate_sigmas = 5.0;  ///< a fix further off the prediction is rejected
+};
+
+template <class Visitor>
+void visitParameters(LocatorConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"min_landmarks", "landmarks", 1, 1000, "fewer matched landmarks give no fix",
+                      ofPart(PagePart::kThesis)},
+        c.min_landmarks);
+}
+
+/// How landmarks and odometry are weighed, and which fixes are rejected.
+struct ThesisFilterConfig : LocatorConfig {
+  bool as_printed = false;
+  double odometry_noise_m_per_sqrt_m = 0.015;
+  double odometry_noise_m_per_sqrt_s = 0.06;
+
+  // No parameters, but varied by tests and by the reproduction of the thesis.
+  /// Landmarks share the drift of the time they were made, so fresh ones correct little; false:
+  /// independent, as printed.
+  bool common_drift = true;
+  double initial_sigma_m = 0.01;  ///< of the position at the first image
+  double gate_sigmas = 5.0;       ///< a fix further off the prediction is rejected
 };
 
 /// The thesis's localisation without the package's own corrections: landmarks are independent, a
@@ -109,9 +122,7 @@ void visitParameters(ThesisFilterConfig& c, Visitor&& visit) {
                       "is taken as good as it claims, none is rejected",
                       ofPart(PagePart::kThesis)},
         c.as_printed);
-  visit(ParameterInfo{"min_landmarks", "landmarks", 1, 1000, "fewer matched landmarks give no fix",
-                      ofPart(PagePart::kThesis)},
-        c.min_landmarks);
+  visitParameters(static_cast<LocatorConfig&>(c), visit);
   visit(ParameterInfo{"odometry_noise_m_per_sqrt_m", "m/sqrt(m)", 0, 10,
                       "noise of the odometry's position per square root of distance, where the "
                       "odometry gives no covariance",

@@ -21,7 +21,7 @@ double residual(const Observation& s, const Eigen::Vector3d& camera_map, double 
 
 }  // namespace
 
-LandmarkLocator::LandmarkLocator(const ThesisFilterConfig& config) : config_(config) {
+LandmarkLocator::LandmarkLocator(const LocatorConfig& config) : config_(config) {
   validate(config);
 }
 

@@ -32,7 +32,7 @@ struct PositionFix {
 class LandmarkLocator {
  public:
   /// @throws ConfigError listing every parameter out of its range
-  explicit LandmarkLocator(const ThesisFilterConfig& config);
+  explicit LandmarkLocator(const LocatorConfig& config);
 
   /// The camera's position (6.1-6.4; `exact`: least squares over the landmarks' rays, undamped
   /// along them). O(observations).
@@ -60,7 +60,7 @@ class LandmarkLocator {
   std::vector<double> trustIn(const std::vector<Observation>& observations,
                               const Eigen::Vector3d& camera_map, double sigma_a) const;
 
-  ThesisFilterConfig config_;
+  LocatorConfig config_;
 };
 
 }  // namespace ardrone_vslam

@@ -19,7 +19,7 @@ MsckfEstimator::MsckfEstimator(const SlamConfig& config, const Eigen::Isometry3d
     : config_(config),
       T_rig_cam_(T_base_cam),
       filter_(config.msckf, T_base_cam),
-      locator_(config.thesis_filter),
+      locator_(LocatorConfig{}),
       mapper_(config.mapper) {}
 
 bool MsckfEstimator::canChangeCamera() const {
