@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
 #include "simulation/random_source.hpp"
+#include "support/eigenvalues.hpp"
 #include "support/odometry_states.hpp"
 #include "support/odometry_window.hpp"
 
@@ -120,7 +120,7 @@ double largestChange(const WindowState& state, const Eigen::MatrixXd& expected) 
 void expectPositive(const WindowState& state) {
   const Eigen::MatrixXd P = state.covariance();
   EXPECT_EQ(P, P.transpose());
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(P).eigenvalues().minCoeff(), -1e-12);
+  EXPECT_GT(test::leastEigenvalue(P), -1e-12);
 }
 
 // In single precision, as the common drift is taken apart: else doubles would be needed.
