@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 // Debian has no library of Lie groups (Sophus, manif); what follows is all that is needed of one.
 namespace ardrone_vslam {
@@ -26,6 +27,22 @@ inline Eigen::Vector3d rotationVectorOf(const Eigen::Matrix3d& R) {
 /// Heading [rad]: about z, of R = Rz(yaw) Ry(pitch) Rx(roll).
 inline double yawOf(const Eigen::Matrix3d& R) {
   return std::atan2(R(1, 0), R(0, 0));
+}
+
+/// All 24 rotations that take axes to axes, the identity among them.
+inline std::vector<Eigen::Matrix3d> quarterTurns() {
+  std::vector<Eigen::Matrix3d> rotations;
+  for (int x = 0; x < 6; ++x) {
+    for (int y = 0; y < 6; ++y) {
+      if (x % 3 == y % 3) continue;
+      Eigen::Matrix3d R;
+      R.col(0) = Eigen::Vector3d::Unit(x % 3) * (x < 3 ? 1 : -1);
+      R.col(1) = Eigen::Vector3d::Unit(y % 3) * (y < 3 ? 1 : -1);
+      R.col(2) = R.col(0).cross(R.col(1));
+      rotations.push_back(R);
+    }
+  }
+  return rotations;
 }
 
 /// skew(v) w = v x w.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ardrone_vslam/rotation.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -38,22 +39,6 @@ ToldMotion rotated(const Eigen::Matrix3d& Q, const ToldMotion& told) {
   return {Q.transpose() * told.R_then_now * Q, Q.transpose() * told.displacement_then_m};
 }
 
-/// Rotations that take axes to axes, without none.
-std::vector<Eigen::Matrix3d> quarterTurns() {
-  std::vector<Eigen::Matrix3d> rotations;
-  for (int x = 0; x < 6; ++x) {
-    for (int y = 0; y < 6; ++y) {
-      if (x % 3 == y % 3) continue;
-      Eigen::Matrix3d R;
-      R.col(0) = Eigen::Vector3d::Unit(x % 3) * (x < 3 ? 1 : -1);
-      R.col(1) = Eigen::Vector3d::Unit(y % 3) * (y < 3 ? 1 : -1);
-      R.col(2) = R.col(0).cross(R.col(1));
-      if (!R.isIdentity()) rotations.push_back(R);
-    }
-  }
-  return rotations;
-}
-
 }  // namespace
 
 SetupHypotheses::SetupHypotheses(const Eigen::Isometry3d& T_base_cam, double image_time_offset_s)
@@ -63,7 +48,7 @@ SetupHypotheses::SetupHypotheses(const Eigen::Isometry3d& T_base_cam, double ima
     hypotheses_.push_back({is_same ? SetupFault::kNone : SetupFault::kTimeOffset, i});
   }
   for (const Eigen::Matrix3d& Q : quarterTurns())
-    hypotheses_.push_back({SetupFault::kExtrinsics, 0, Q});
+    if (!Q.isIdentity()) hypotheses_.push_back({SetupFault::kExtrinsics, 0, Q});
   for (const Eigen::Vector3d& mirror : {Eigen::Vector3d(-1, 1, 1), Eigen::Vector3d(1, -1, 1)})
     hypotheses_.push_back({SetupFault::kMirrored, 0, mirror.asDiagonal()});
   for (std::size_t i = 0; i < kFocalFactors.size(); ++i)

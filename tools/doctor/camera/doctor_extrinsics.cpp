@@ -19,22 +19,6 @@ constexpr double kLargestOffset_s = 0.3;
 constexpr double kOffsetStep_s = 0.04;
 constexpr double kAgrees = 0.6;  // share of what it is without any motion
 
-/// Rotations that take axes to axes.
-std::vector<Eigen::Matrix3d> quarterTurns() {
-  std::vector<Eigen::Matrix3d> rotations;
-  for (int x = 0; x < 6; ++x) {
-    for (int y = 0; y < 6; ++y) {
-      if (x % 3 == y % 3) continue;
-      Eigen::Matrix3d R;
-      R.col(0) = Eigen::Vector3d::Unit(x % 3) * (x < 3 ? 1 : -1);
-      R.col(1) = Eigen::Vector3d::Unit(y % 3) * (y < 3 ? 1 : -1);
-      R.col(2) = R.col(0).cross(R.col(1));
-      rotations.push_back(R);
-    }
-  }
-  return rotations;
-}
-
 double angleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return Eigen::AngleAxisd(a.transpose() * b).angle();
 }
