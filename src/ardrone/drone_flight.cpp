@@ -21,6 +21,7 @@ constexpr double kCommandTime_s = 0.12;  // in which roll and pitch follow, twic
 constexpr double kLongestHole_s = 1;     // as the OdometryAdapter's
 constexpr double kLostSpeed_m_s = 1;     // that a drone may have flown at beyond it
 constexpr double kAngularNoise_rad_s = 0.01;
+// A heading that changes faster began anew: the drone itself turns by 6.1 rad/s at most.
 constexpr double kYawJump_rad = 0.5;
 constexpr double kFastestRotation_rad_s = 6;
 

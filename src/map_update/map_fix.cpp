@@ -14,6 +14,7 @@
 namespace ardrone_vslam {
 namespace {
 
+// Pairs of matches: with half of them wrong none is right once in 100,000.
 constexpr int kSamples = 40;
 constexpr double kRotation_rad = 0.02;    // keeps the turn of a fix by few landmarks regular
 constexpr double kNoRotation_rad = 1e-6;  // where the attitude is taken as exact

@@ -13,7 +13,7 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr int kNobody = -1;
-constexpr float kCell_px = 24.F;
+constexpr float kCell_px = 24.F;  // 1,000 features of 640x480 are two a cell
 /// Along one side, at most: bounds the cost for very wide lenses.
 constexpr float kMostCells = 256.F;
 /// By so much the square of cells is larger than the circle, so that rounding loses no entry at its

@@ -32,7 +32,7 @@ struct Prediction {
 
 std::optional<Prediction> predict(const Ray& measured, const Eigen::Vector3d& point_map) {
   constexpr double kNearest_m = 1e-6;
-  constexpr double kWidestCosine = 0.5;
+  constexpr double kWidestCosine = 0.5;  // 60 degrees off: behind, or of another point
   const Eigen::Vector3d offset = point_map - measured.origin_map;
   const double distance_m = offset.norm();
   if (!(distance_m > kNearest_m)) return std::nullopt;

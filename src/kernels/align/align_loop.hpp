@@ -50,6 +50,7 @@ static inline AlignStep solveAlign(const AlignPatch& patch, const AlignSums& sum
   const float per_gain = -2 / c[2];
   step.dx_px = c[0] * per_gain;
   step.dy_px = c[1] * per_gain;
+  // Of the exposure: what differs by more is something else.
   constexpr float kLeastGain = 0.4F;
   constexpr float kMostGain = 2.5F;
   step.is_good = step.gain > kLeastGain && step.gain < kMostGain;
@@ -64,8 +65,8 @@ template <class Comparison>
 static inline AlignResult alignBy(const AlignPatch& patch, const std::uint8_t* pixels,
                                   std::ptrdiff_t stride_bytes, float x_px, float y_px) {
   constexpr int kMostSteps = 8;
-  constexpr float kLongestStep_px = 1;
-  constexpr float kEnd_px = 0.03F;
+  constexpr float kLongestStep_px = 1;  // gradients tell no more
+  constexpr float kEnd_px = 0.03F;      // about what noise moves an alignment
   constexpr std::int32_t kFarthest = kAlignFarthest_px * kAlignSteps;
   constexpr int kFirst_px = kPatchSide / 2;
   const Comparison comparison(patch);
