@@ -47,7 +47,7 @@ Fit betterFit(const std::vector<TrackMove>& moves, const Fit& fit) {
 ViewChange commonViewChange(const std::vector<TrackMove>& moves) {
   constexpr std::size_t kFewest = 8;  // two would do, if none were wrong
   constexpr int kPasses = 5;
-  constexpr float kMost = 0.5F;  // half as large again, or 29 degrees: no image so soon
+  constexpr float kMost = 0.5F;  // half as large again, or 29 degrees: no next image
   if (moves.size() < kFewest) return kSameView;
   Fit fit;
   for (int i = 0; i < kPasses; ++i) fit = betterFit(moves, fit);

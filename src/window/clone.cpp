@@ -16,7 +16,7 @@ std::optional<std::size_t> indexOf(const std::vector<Clone>& poses, std::uint32_
 
 Eigen::Vector3d recentVelocity_base_m_s(const std::vector<Clone>& frames,
                                         const Eigen::Matrix3d& R_base_rig) {
-  constexpr double kSpan_s = 2;  // in which a drone may begin to fly
+  constexpr double kSpan_s = 2;  // steps of single frames are noisy
   Eigen::Vector3d displacement_base_m = Eigen::Vector3d::Zero();
   double passed_s = 0;
   for (std::size_t i = frames.size() - 1; i-- > 0 && passed_s < kSpan_s;) {

@@ -65,8 +65,8 @@ template <class Comparison>
 static inline AlignResult alignBy(const AlignPatch& patch, const std::uint8_t* pixels,
                                   std::ptrdiff_t stride_bytes, float x_px, float y_px) {
   constexpr int kMostSteps = 8;
-  constexpr float kLongestStep_px = 1;  // gradients tell no more
-  constexpr float kEnd_px = 0.03F;      // about what noise moves an alignment
+  constexpr float kLongestStep_px = 1;  // gradients hold no further
+  constexpr float kEnd_px = 0.03F;      // about the model's own error (patch_aligner.cpp)
   constexpr std::int32_t kFarthest = kAlignFarthest_px * kAlignSteps;
   constexpr int kFirst_px = kPatchSide / 2;
   const Comparison comparison(patch);
