@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plots of trajectories and maps, from above."""
+"""Plots of trajectories and maps, from above, and of heights."""
 
 import numpy as np
 
@@ -11,9 +11,9 @@ def plane_of(trajectory):
     return ((0, 2), "x, to the right [m]", "z, forward [m]") if trajectory.is_camera else ((0, 1), "x [m]", "y [m]")
 
 
-def position_of(row):
+def trajectory_of(row):
     """Aligned as --align asks, where there is a truth."""
-    return row.trajectory.positions_m if row.aligned is None else row.aligned.positions_m
+    return row.trajectory if row.aligned is None else row.aligned
 
 
 def groups_of(rows):
@@ -41,13 +41,31 @@ def draw_trajectories(rows):
             truth = group[0].truth.positions_m
             one.plot(truth[:, x], truth[:, y], "--", color=TRUTH, linewidth=1.4, label="truth")
         for row in group:
-            position = position_of(row)
+            position = trajectory_of(row).positions_m
             one.plot(position[:, x], position[:, y], linewidth=1.2, **look[row.name])
-        start = position_of(group[0])[0]
+        start = trajectory_of(group[0]).positions_m[0]
         one.plot(start[x], start[y], "o", color=TRUTH, markersize=4)
         one.set_aspect("equal", adjustable="datalim")
         one.set_xlabel(x_label)
         one.set_ylabel(y_label)
+        legend(one)
+    return figure
+
+
+def draw_heights(rows):
+    """What a picture from above cannot show."""
+    look = looks(rows)
+    groups, title = few_of(groups_of(rows))
+    figure, axes = panels(len(groups), 3.0, title=title)
+    for one, group in zip(axes, groups):
+        begin_ns = group[0].start_ns()
+        lines = [] if group[0].truth is None else [(group[0].truth, {"linestyle": "--", "color": TRUTH, "label": "truth"})]
+        for trajectory, style in lines + [(trajectory_of(row), look[row.name]) for row in group]:
+            time = (trajectory.stamps_ns - begin_ns) * 1e-9 if trajectory.has_time else trajectory.stamps_ns
+            height_m = -trajectory.positions_m[:, 1] if trajectory.is_camera else trajectory.positions_m[:, 2]
+            one.plot(time, height_m, linewidth=1.2, **style)
+        one.set_xlabel("time [s]" if group[0].trajectory.has_time else "pose")
+        one.set_ylabel("height [m]")
         legend(one)
     return figure
 

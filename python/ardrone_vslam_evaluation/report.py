@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 from .faults import MachineFault, reason
 from .plot_errors import draw_error_over_length, draw_error_over_time, draw_nees, draw_nis, draw_odometry_noise
 from .plot_frames import draw_error_against_matches, draw_histogram_of_matches, draw_matches_over_time, draw_stage_times
-from .plot_paths import draw_maps, draw_trajectories
+from .plot_paths import draw_heights, draw_maps, draw_trajectories
 from .plot_rates import draw_error_against_rate, has_several_rates
 from .plot_style import LeftOut
 from .table import tables
@@ -35,6 +35,7 @@ def all_figures(rows):
                    "than there are: replay --budget-ms or --cpu-factor.", draw_error_against_rate)
     return ([rates] if has_several_rates(rows) else []) + [
         Figure("trajectories", "Trajectories", "From above. The dot is the start.", draw_trajectories),
+        Figure("heights", "Heights", "Upwards, from where the frame's origin is.", draw_heights),
         Figure("error_over_time", "Position error over time", "Thick: mean over 5 s (poses without stamps: over 50). The "
                "smallest hundredth of the errors is below the picture.", draw_error_over_time),
         Figure("error_over_length", "Error by length of the way", "Sub-paths from every 10th pose, as in the KITTI development kit.",

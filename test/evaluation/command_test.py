@@ -11,7 +11,20 @@ import numpy as np
 
 from paths import evaluate, straight, winding, write_kitti, write_tum
 
+from ardrone_vslam_evaluation.evaluation import Row
+from ardrone_vslam_evaluation.plot_paths import draw_heights
+
 NO_TRACE = "Traceback"
+
+
+class HeightsTest(unittest.TestCase):
+    def test_upwards_is_z_and_of_a_camera_minus_y(self):
+        path = winding(50)
+        for trajectory, up_m in ((path, path.positions_m[:, 2]), (dataclasses.replace(path, is_camera=True), -path.positions_m[:, 1])):
+            (axes,) = draw_heights([Row("one", "estimate", None, trajectory)]).axes
+            seconds, height_m = axes.lines[0].get_data()
+            np.testing.assert_array_equal(height_m, up_m)
+            np.testing.assert_allclose(seconds, 0.1 * np.arange(50))
 
 
 class CommandTest(unittest.TestCase):
@@ -96,9 +109,9 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(pages[0], pages[1])
         for forbidden in ("http:", "https:", "<script", "<link", "one & <two>"):
             self.assertNotIn(forbidden, pages[0])
-        self.assertEqual(pages[0].count("<img "), 3)
+        self.assertEqual(pages[0].count("<img "), 4)
         self.assertIn("Left out: only folders that replay or record_run wrote hold it", pages[0])
-        self.assertEqual(sorted(os.listdir(self.path("png"))), ["error_over_length.png", "error_over_time.png", "trajectories.png"])
+        self.assertEqual(sorted(os.listdir(self.path("png"))), ["error_over_length.png", "error_over_time.png", "heights.png", "trajectories.png"])
 
     def test_lines_that_cannot_be_are_named(self):
         good = write_tum(self.path("good"), straight(10, 11))

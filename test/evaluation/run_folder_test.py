@@ -79,7 +79,7 @@ class RunFolderTest(unittest.TestCase):
 
     def test_all_plots_are_drawn(self):
         page = self.page(f"{self.runs}/msckf/seed_1")[1]
-        self.assertEqual(page.count("<img "), 11)
+        self.assertEqual(page.count("<img "), 12)
         self.assertNotIn("Left out", page)
 
     def test_seeds_and_estimators_stand_side_by_side(self):
