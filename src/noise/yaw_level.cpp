@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "linear/scalars.hpp"
+#include "noise/bias_level.hpp"
 
 namespace ardrone_vslam {
 namespace {
