@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/median.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -82,10 +84,7 @@ bool Associator::windowsAreWide(const FrameView& view, const LandmarkColumns& co
     }
   }
   if (sorted_radii_px_.empty()) return false;
-  const auto median =
-      sorted_radii_px_.begin() + static_cast<std::ptrdiff_t>(sorted_radii_px_.size() / 2);
-  std::nth_element(sorted_radii_px_.begin(), median, sorted_radii_px_.end());
-  return *median > config_.max_window_share * view.features().width_px;
+  return medianOf(sorted_radii_px_) > config_.max_window_share * view.features().width_px;
 }
 
 MatchMethod Associator::chooseMethod(const FrameView& view, LandmarkMap& map,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/median.hpp"
 #include "map/triangulation.hpp"
 
 namespace ardrone_vslam {
@@ -100,11 +101,10 @@ std::vector<double> LandmarkLocator::trustIn(const std::vector<Observation>& obs
   residuals.reserve(observations.size());
   for (const Observation& s : observations) residuals.push_back(residual(s, camera_map, sigma_a));
   std::vector<double> sorted = residuals;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
   constexpr double kMedianOfLength = 1.177;  // of a 2-vector of unit sigma per axis
   constexpr double kPerfectFit = 1e-9;
-  const double limit = config_.outlier_sigmas * std::max(*middle / kMedianOfLength, kPerfectFit);
+  const double limit =
+      config_.outlier_sigmas * std::max(medianOf(sorted) / kMedianOfLength, kPerfectFit);
   for (double& r : residuals) {
     const double squared = r / limit * (r / limit);
     r = 1 / ((1 + squared) * (1 + squared));  // Geman and McClure's weight

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "linear/median.hpp"
 #include "linear/scalars.hpp"
 #include "map_update/observation_rays.hpp"
 #include "map_update/relocation.hpp"
@@ -137,9 +138,7 @@ std::optional<MapSearch::Observation> MapSearch::look(const ImageFeatures& featu
   }
   entry.anchor = static_cast<std::size_t>(
       std::max_element(seen_of_anchor.begin(), seen_of_anchor.end()) - seen_of_anchor.begin());
-  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
-  std::nth_element(distances_m.begin(), middle, distances_m.end());
-  observation.distance_m = *middle;
+  observation.distance_m = medianOf(distances_m);
   if (cover(features, *consensus, observation.distance_m) < kLeastCover) return std::nullopt;
   return observation;
 }

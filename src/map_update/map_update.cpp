@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/median.hpp"
 #include "linear/scalars.hpp"
 #include "map_update/relocation.hpp"
 
@@ -29,9 +30,7 @@ double medianWindow_rad(const std::vector<MapObservation>& observations) {
   std::vector<double> windows_rad;
   windows_rad.reserve(observations.size());
   for (const MapObservation& s : observations) windows_rad.push_back(s.window_rad);
-  const auto middle = windows_rad.begin() + static_cast<std::ptrdiff_t>(windows_rad.size() / 2);
-  std::nth_element(windows_rad.begin(), middle, windows_rad.end());
-  return *middle;
+  return medianOf(windows_rad);
 }
 
 /// How well the newest attitude is known relative to the observed landmarks' anchors, per axis.

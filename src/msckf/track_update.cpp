@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/median.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -212,9 +213,7 @@ void TrackUpdate::collectUsed(const std::vector<Candidate>& candidates,
     distances_m.push_back((point->position_map - state.newest().position_map).norm());
   }
   if (used_.empty()) return;
-  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
-  std::nth_element(distances_m.begin(), middle, distances_m.end());
-  point_distance_m_ = *middle;
+  point_distance_m_ = medianOf(distances_m);
 }
 
 }  // namespace ardrone_vslam

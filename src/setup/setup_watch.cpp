@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/median.hpp"
 #include "linear/scalars.hpp"
 #include "odometry/image_rays.hpp"
 #include "setup/setup_hypotheses.hpp"
@@ -138,9 +139,7 @@ void SetupWatch::State::compare(const ImageRays& then, const ImageRays& now,
 double SetupWatch::State::medianMotion_px(double focal_length_px) {
   moved_.clear();
   for (const BearingPair& pair : pairs_) moved_.push_back((pair.now - pair.then).norm());
-  const auto middle = moved_.begin() + static_cast<std::ptrdiff_t>(moved_.size() / 2);
-  std::nth_element(moved_.begin(), middle, moved_.end());
-  return *middle * focal_length_px;
+  return medianOf(moved_) * focal_length_px;
 }
 
 ToldMotion SetupWatch::State::motionOf(const Eigen::Isometry3d& then,

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "linear/median.hpp"
 #include "window/rays.hpp"
 
 namespace ardrone_vslam {
@@ -60,9 +61,7 @@ TrackWindow::Motion TrackWindow::motionSince(const Clone& frame, const Clone& pr
   moved_px_.clear();
   for (const BearingPair& pair : common.pairs)
     moved_px_.push_back((R_then_now * pair.now - pair.then).norm() * features.focal_length_px);
-  const auto middle = moved_px_.begin() + static_cast<std::ptrdiff_t>(moved_px_.size() / 2);
-  std::nth_element(moved_px_.begin(), middle, moved_px_.end());
-  motion.median_px = *middle;
+  motion.median_px = medianOf(moved_px_);
   return motion;
 }
 

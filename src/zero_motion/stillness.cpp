@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/median.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -24,13 +25,6 @@ std::vector<double> left_rad(const std::vector<BearingPair>& pairs, const Eigen:
   return left;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // The turn that most tracks agree on: weights fall with what is left (Geman and McClure), and what
 // counts as much left shrinks to the corners' own noise.
 Eigen::Matrix3d agreedRotation(const std::vector<BearingPair>& pairs, Eigen::Matrix3d R,
@@ -38,7 +32,8 @@ Eigen::Matrix3d agreedRotation(const std::vector<BearingPair>& pairs, Eigen::Mat
   constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<double> left = left_rad(pairs, R);
-    const double scale = std::max(2 * median(left), kInlierSigmas * jump_rad);
+    std::vector<double> sorted = left;
+    const double scale = std::max(2 * medianOf(sorted), kInlierSigmas * jump_rad);
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -98,7 +93,9 @@ struct RotationAndShift {
 
 double medianLeft_rad(const std::vector<BearingPair>& pairs,
                       const Eigen::Matrix3d& R_reference_now) {
-  return median(left_rad(pairs, R_reference_now));
+  if (pairs.empty()) return 0;
+  std::vector<double> left = left_rad(pairs, R_reference_now);
+  return medianOf(left);
 }
 
 Stillness stillnessOf(const std::vector<BearingPair>& pairs, const OdometryRotation& odometry,

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "doctor/recording/doctor_stamps.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -59,9 +61,7 @@ std::vector<ImagePair::Track> common(const std::vector<Ray>& before, const std::
 double medianMotion_px(const ImagePair& pair) {
   std::vector<double> moved;
   for (const auto& track : pair.tracks) moved.push_back((track.now - track.before).norm());
-  const auto middle = moved.begin() + static_cast<std::ptrdiff_t>(moved.size() / 2);
-  std::nth_element(moved.begin(), middle, moved.end());
-  return *middle * pair.focal_length_px;
+  return medianOf(std::move(moved)) * pair.focal_length_px;
 }
 
 /// How far `seen` is from the way that a point at bearing `far` takes when it comes nearer, in
