@@ -3,11 +3,11 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # Not build/: rosrun looks into no folder of that name inside a package.
 build=${ARDRONE_VSLAM_BUILD:-$root/build_ros}
 
-# Installs what is missing, then builds everything; further arguments go to cmake.
+# Installs what is missing, then builds everything, or what the array `targets` names; further arguments go to cmake.
 build_package() {
   "$root/scripts/install_dependencies" ${install_options:-}
   cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release "$@"
-  cmake --build "$build" -j "$(nproc)"
+  cmake --build "$build" -j "$(nproc)" ${targets:+--target "${targets[@]}"}
 }
 
 # $1: the script's name.
