@@ -10,6 +10,7 @@ from sources import ROOT
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *sorted((ROOT / "benchmark").glob("*.md")), ROOT / "bags/README.md"]
 DATA_PATH = ROOT / "docs/data_path.md"
 MOST_LINES = 120
+README_WIDTH = 140  # of a line, so that a terminal shows it
 STORY = "## The story"
 
 
@@ -54,6 +55,10 @@ class PagesTest(unittest.TestCase):
     def test_first_pages_are_short(self):
         for page in (ROOT / "README.md", DATA_PATH):
             self.assertLessEqual(lines_of(page), MOST_LINES, page.relative_to(ROOT))
+
+    def test_readme_fits_a_terminal(self):
+        for number, line in enumerate((ROOT / "README.md").read_text(encoding="utf-8").splitlines(), 1):
+            self.assertLessEqual(len(line), README_WIDTH, f"README.md:{number}")
 
     def test_readme_says_on_its_first_screen_what_was_not_tried(self):
         first_screen = "".join((ROOT / "README.md").read_text(encoding="utf-8").splitlines(keepends=True)[:30])
