@@ -13,6 +13,7 @@ from .evaluation import Settings
 from .faults import InputFault, MachineFault, reason
 from .gather import rows_of_files, rows_of_folders
 from .table import as_text
+from .verdict import told_of
 
 EPILOG = """Trajectories: TUM (stamp tx ty tz qx qy qz qw), KITTI (12 numbers a line), bags with nav_msgs/Odometry, PoseStamped or
 PoseWithCovarianceStamped; the kind is told by the content. Folders: what replay, simulate_landmarks and record_run write, of several
@@ -96,6 +97,8 @@ def run(arguments, version):
     rows, notes = (rows_of_folders if arguments.folder else rows_of_files)(arguments, settings)
     notes += [note for row in rows for note in row.notes]
     print(as_text(rows, arguments.align))
+    for row, verdict in told_of(rows):
+        print(f"{row.name}: {verdict}")
     for note in notes:
         print(f"evaluate: {note}", file=sys.stderr)
     if arguments.json:

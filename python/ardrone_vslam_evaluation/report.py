@@ -17,6 +17,7 @@ from .plot_paths import draw_heights, draw_maps, draw_trajectories
 from .plot_rates import draw_error_against_rate, has_several_rates
 from .plot_style import LeftOut
 from .table import tables
+from .verdict import consistency_of, told_of
 
 
 @dataclass
@@ -112,6 +113,8 @@ def _facts(rows):
 def page(rows, figures, notes, align, version):
     title = ", ".join(row.name for row in rows if row.kind == "estimate")
     parts = [f"<h1>Evaluation: {html.escape(title)}</h1>"]
+    for row, verdict in told_of(rows):
+        parts.append(f"<p><b>{html.escape(row.name)}</b>: {html.escape(' '.join(filter(None, (verdict, consistency_of(row)))))}</p>")
     for name, headings, lines in tables(rows, align):
         parts.append(f"<h2>{html.escape(name)}</h2>\n{_table(headings, lines)}")
     if notes:

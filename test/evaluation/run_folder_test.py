@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Folders that simulate_landmarks writes, as replay does: the same numbers as tools/trajectory/metrics.cpp has."""
 
+import html
 import json
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -76,6 +78,20 @@ class RunFolderTest(unittest.TestCase):
                     self.assertIsNotNone(summary[name], name)
                     self.assertAlmostEqual(look_up(numbers, key), summary[name], delta=1e-6 * max(1, abs(summary[name])), msg=f"{run} {name}")
             self.assertAlmostEqual(1 - estimate["nees"]["inside_3_sigma"], summary["outside_3_sigma"], places=12)
+
+    def test_the_verdict_comes_first_and_of_several_seeds_the_table_tells(self):
+        folder = self.copied("summary.json", "fused.tum", "odometry.tum", "truth.tum", "frames.csv")
+        with open(f"{folder}/summary.json") as file:
+            summary = json.load(file)
+        page = self.page(folder)[1]
+        self.assertLess(page.index(html.escape(summary["verdict"])), page.index("<table"))
+        self.assertRegex(page, r"The covariance is .* \(NEES / 3\)\. Those of the fixes are .* \(NIS\)\.")
+        errors = f"the odometry is off by {summary['odometry_ate_rmse_m']:.2f} m, the fused pose by {summary['fused_ate_rmse_m']:.3f} m (RMSE)."
+        del summary["verdict"]
+        with open(f"{folder}/summary.json", "w") as file:  # as of the nodelets
+            json.dump(summary, file)
+        self.assertRegex(self.numbers(folder)[1], "(?m): It (helped|did not help|did harm): " + re.escape(errors) + "$")
+        self.assertNotIn("It helped", self.numbers(f"{self.runs}/msckf")[1])
 
     def test_all_plots_are_drawn(self):
         page = self.page(f"{self.runs}/msckf/seed_1")[1]

@@ -7,6 +7,7 @@
 #include "report/run_files.hpp"
 #include "report/run_print.hpp"
 #include "report/run_verdict.hpp"
+#include "report/run_words.hpp"
 #include "summary/seeds_summary.hpp"
 #include "trajectory/text_file.hpp"
 
@@ -37,6 +38,7 @@ std::vector<std::string> reportRuns(const Sequence& sequence,
                          options.estimator};
     summaries.push_back(summaryOf(results[i], evaluations.back(), label));
     summaries.back()["is_finished"] = results[i].is_finished;
+    summaries.back()["verdict"] = verdictOf(summaries.back());
   }
   nlohmann::ordered_json all;
   if (options.is_of_seeds) {
@@ -50,7 +52,12 @@ std::vector<std::string> reportRuns(const Sequence& sequence,
              results[i], evaluations[i], summaries[i]);
   }
   if (!results.front().is_finished) return faults;
-  options.is_of_seeds ? printSeeds(all, std::cout) : printSummary(summaries.front());
+  const nlohmann::ordered_json& first = summaries.front();
+  if (options.is_of_seeds) {
+    printSeeds(all, std::cout);
+  } else {
+    std::cout << inLines(first) << first["verdict"].get<std::string>() << '\n';
+  }
   return faults;
 }
 

@@ -2,7 +2,6 @@
 #include "report/run_print.hpp"
 
 #include <iomanip>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -11,10 +10,6 @@ namespace ardrone_vslam {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string shown(const Json& value) {
-  return value.is_null() ? "-" : value.dump();
-}
 
 /// What a run, or one of several, does not have is a dash.
 void printRow(const std::string& name, const Json& numbers, std::ostream& out) {
@@ -36,16 +31,6 @@ void printRow(const std::string& name, const Json& numbers, std::ostream& out) {
 }
 
 }  // namespace
-
-void printSummary(const Json& summary) {
-  for (const auto& item : summary.items()) {
-    if (!item.value().is_object()) std::cout << item.key() << ": " << shown(item.value()) << '\n';
-  }
-  std::cout << "stage_share:";
-  for (const auto& stage : summary["stage_share"].items())
-    std::cout << ' ' << stage.key() << ' ' << shown(stage.value());
-  std::cout << '\n';
-}
 
 void printSeeds(const Json& summary, std::ostream& out) {
   out << "  seed  odometry RMSE [m]  fused RMSE [m]  ratio  ratio_scale_removed\n";

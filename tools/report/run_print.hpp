@@ -6,9 +6,6 @@
 
 namespace ardrone_vslam {
 
-/// One run's numbers on stdout, a line for each.
-void printSummary(const nlohmann::ordered_json& summary);
-
 /// A table: a row for each seed, then median and worst. @param summary  of summaryOfSeeds
 void printSeeds(const nlohmann::ordered_json& summary, std::ostream& out);
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ardrone_vslam/instruction_set.hpp"
+#include "summary/flight_summary.hpp"
 #include "summary/map_summary.hpp"
 #include "summary/track_summary.hpp"
 #include "trajectory/metrics.hpp"
@@ -101,13 +102,6 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   addNees(e, summary);
   summary["frames_without_truth"] = e.frames_without_truth;
   summary["frames_error_not_finite"] = e.frames_error_not_finite;
-}
-
-void addLearnedNoise(const RunResult& run, Json& summary) {
-  const FrameResult last = run.frames.empty() ? FrameResult{} : run.frames.back().result;
-  const auto orUnknown = [](double x) { return x > 0 ? orNull(x) : Json(nullptr); };
-  summary["velocity_bias_learned_m_s"] = orUnknown(last.velocity_bias_sigma_m_s);
-  summary["yaw_walk_learned_over_configured"] = orUnknown(last.yaw_walk_factor);
 }
 
 void addScale(const RunResult& run, Json& summary) {
@@ -206,6 +200,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   Json summary;
   summary["sequence"] = label.sequence;
   summary["frames"] = run.frames.size();
+  addFlight(run, evaluation.truth.empty() ? evaluation.odometry : evaluation.truth, summary);
   summary["frames_dropped_slow"] = run.frames_dropped_slow;
   summary["camera_changes"] = run.camera_changes;
   summary["frames_without_odometry"] = run.frames_without_odometry;

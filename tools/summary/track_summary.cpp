@@ -16,6 +16,15 @@ Json share(double part, double of) {
 
 }  // namespace
 
+void addLearnedNoise(const RunResult& run, Json& summary) {
+  const FrameResult last = run.frames.empty() ? FrameResult{} : run.frames.back().result;
+  const auto orUnknown = [](double x) {
+    return x > 0 && std::isfinite(x) ? Json(x) : Json(nullptr);
+  };
+  summary["velocity_bias_learned_m_s"] = orUnknown(last.velocity_bias_sigma_m_s);
+  summary["yaw_walk_learned_over_configured"] = orUnknown(last.yaw_walk_factor);
+}
+
 void addTracks(const RunResult& run, Json& summary) {
   double tracks = 0;
   double aligned = 0;
