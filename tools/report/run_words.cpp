@@ -76,7 +76,7 @@ std::string covarianceLine(const Json& summary) {
                                                  : "honest";
   return std::string(word) + ": squared errors are " + rounded(nees, 2) +
          " times the expected ones, " + rounded(100 * valueOf(summary, "outside_3_sigma"), 1) +
-         " % of them beyond 3 sigma";
+         " % of the images beyond 3 sigma";
 }
 
 std::string statesLine(const Json& summary) {

@@ -43,8 +43,8 @@ TEST(RunWords, AFlightIsSixLinesAndASentence) {
             "images      100 in 9.9 s, 12.3 m travelled\n"
             "odometry    off by 1.91 m (RMSE)\n"
             "fused       off by 0.096 m (RMSE), at most by 0.33 m; 0.050 of the odometry's\n"
-            "covariance  honest: squared errors are 0.50 times the expected ones, 2.0 % of them "
-            "beyond 3 sigma\n"
+            "covariance  honest: squared errors are 0.50 times the expected ones, 2.0 % of the "
+            "images beyond 3 sigma\n"
             "states      building_map 5, tracking 45, localised 50 images; 9642 landmarks\n"
             "cost        2.26 ms an image, below 4.09 ms for 95 % of them\n");
   EXPECT_EQ(verdictOf(flight()),
