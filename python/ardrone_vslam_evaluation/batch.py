@@ -83,8 +83,8 @@ def selection_name(arguments):
     return "all" if os.environ.get("ARDRONE_VSLAM_DATA") else "all but the real sequences, as ARDRONE_VSLAM_DATA was not set"
 
 
-def judge(rows, before, margin):
-    """Prints. @return whether all is as good as before"""
+def judge(rows, before, margin, must_have):
+    """Prints. @param must_have  all rows are to be in the baseline. @return whether all is as good as before"""
     worse, better, compared = baseline.compare(rows, before, margin)
     print(f"Compared with the baseline: {compared} of {len(rows)} rows; {len(worse)} numbers worse, {len(better)} better by more than "
           f"{margin:.0%}.")
@@ -92,6 +92,10 @@ def judge(rows, before, margin):
         print(f"better: {text}")
     for text in worse:
         print(f"worse: {text}", file=sys.stderr)
+    if must_have and compared < len(rows):
+        print(f"evaluate_all: {len(rows) - compared} rows are not in the baseline (other options or defaults?), so nothing holds them; "
+              "write it anew by --update", file=sys.stderr)
+        return False
     return not worse
 
 
@@ -128,7 +132,8 @@ def run(arguments, source):
     for text in faults:
         print(f"evaluate_all: {text}", file=sys.stderr)
     if not arguments.update:
-        return judge(rows, before, arguments.margin) and not faults
+        must_have = not (arguments.selection or arguments.kitti or arguments.baseline) and arguments.seeds == batch_jobs.SEEDS
+        return judge(rows, before, arguments.margin, must_have) and not faults
     if not faults:
         write(os.path.join(source, "docs", "results.md"), table)
         write(path, baseline.as_json(rows))
