@@ -99,8 +99,9 @@ def wanted(name, context):
 
 def machine(context, revision):
     with open("/proc/cpuinfo") as file:
-        model = next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown")
-    return (f"{model}, {context['num_cpus']} cores, one thread; kernels: {context['instruction_set']}; "
+        told = dict(line.split(":", 1) for line in file.read().replace("\t", "").splitlines() if ":" in line)
+    model, family, number = (told.get(key, "unknown").strip() for key in ("model name", "cpu family", "model"))
+    return (f"{model} (family {family}, model {number}), {context['num_cpus']} cores, one thread; kernels: {context['instruction_set']}; "
             f"compiler {context['compiler']}; OpenCV {context['opencv']}; libbenchmark {context['libbenchmark']}; "
             f"frames: {context['frames']}; source: {revision}.")
 
