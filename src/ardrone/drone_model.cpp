@@ -52,8 +52,8 @@ Covariance motionJacobian(const State& x, const DroneMeasurement& measured, doub
   Eigen::Matrix<double, 3, kSize> A = Eigen::Matrix<double, 3, kSize>::Zero();
   A.middleCols<3>(kVelocity) = -x[kDrag] * R * kAcross * R.transpose();
   for (int axis = 0; axis < 2; ++axis) {
-    const Eigen::Matrix3d R_by = correctedBy(measured.R_odom_base, axis);
-    A.col(kTilt + axis) = R_by * push_base - x[kDrag] * R * kAcross * R_by.transpose() * velocity;
+    const Eigen::Matrix3d dR = correctedBy(measured.R_odom_base, axis);
+    A.col(kTilt + axis) = dR * push_base - x[kDrag] * R * kAcross * dR.transpose() * velocity;
   }
   A.col(kForceBias + 2) = -R.col(2);
   A.col(kDrag) = -R * kAcross * velocity_base;

@@ -148,7 +148,8 @@ const char* kindOf(OldName::Kind kind) {
 }
 
 void writeOldNames(std::ostringstream& out) {
-  out << "\n## Old names\n\nRefused, or warned of where unknown names are, with the new one. All "
+  out << "\n## Old names\n\nRefused, or warned of where unknown names are, with the new one; of "
+         "nodes and nodelets rosrun and roslaunch tell. All "
          "other parameters of earlier versions are refused with the reason why they are none any "
          "more.\n\n"
          "- old name, what it was, name now\n";
