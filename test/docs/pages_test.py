@@ -89,9 +89,10 @@ class PagesTest(unittest.TestCase):
 
 class FiguresTest(unittest.TestCase):
     def test_the_readme_says_what_the_benchmark_measured(self):
-        results = {cells[1]: cells for cells in (line.split("|") for line in (ROOT / "benchmark/RESULTS.md").read_text(encoding="utf-8").splitlines())
-                   if len(cells) > 7}
+        page = (ROOT / "benchmark/RESULTS.md").read_text(encoding="utf-8")
+        results = {cells[1]: cells for cells in (line.split("|") for line in page.splitlines()) if len(cells) > 7}
         readme = (ROOT / "README.md").read_text(encoding="utf-8")
+        self.assertIn(" ".join(re.search(r"^(\S.*) \(family \d+, model \d+\)", page, re.M)[0].split()), " ".join(readme.split()))
         for row, what in (("tracker_kitti", "image to 600 tracked features, KITTI"), ("fast9_kitti", "FAST-9, the same corners"),
                           ("exact_100k", "1000 descriptors among 100,000, exactly")):
             time, unit = results[f" {row} "][3].split()
