@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "driver/fake_driver_config.hpp"
+#include "driver/fake_driver_setup.hpp"
 
 #include <stdexcept>
 #include <vector>

@@ -9,9 +9,9 @@
 
 #include "ardrone_vslam/delayed_fusion.hpp"
 #include "config_files/config_file.hpp"
+#include "configs/fake_driver_config.hpp"
 #include "configs/node_config.hpp"
 #include "configs/onboard_config.hpp"
-#include "driver/fake_driver_config.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "driver/fake_driver_config.hpp"
+#include "driver/fake_driver_setup.hpp"
 #include "folders/camera_yaml.hpp"
 #include "sequences/drone_cameras.hpp"
 #include "test_paths.hpp"

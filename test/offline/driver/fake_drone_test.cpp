@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "driver/fake_driver_config.hpp"
+#include "driver/fake_driver_setup.hpp"
 
 namespace ardrone_vslam {
 namespace {

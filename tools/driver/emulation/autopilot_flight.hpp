@@ -7,7 +7,7 @@
 #include "driver/emulation/driver_emulation.hpp"
 #include "driver/emulation/driver_topics.hpp"
 #include "driver/emulation/video_stream.hpp"
-#include "driver/fake_driver_config.hpp"
+#include "driver/fake_driver_setup.hpp"
 #include "driver/fake_drone.hpp"
 
 namespace ardrone_vslam {

@@ -8,7 +8,7 @@
 
 #include "driver/driver_link.hpp"
 #include "driver/emulation/driver_topics.hpp"
-#include "driver/fake_driver_config.hpp"
+#include "driver/fake_driver_setup.hpp"
 #include "driver/fake_drone.hpp"
 #include "world/live_camera.hpp"
 
