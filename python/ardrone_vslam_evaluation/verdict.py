@@ -3,7 +3,7 @@
 
 from .table import families, look_up
 
-# As of replay (tools/report/run_words.cpp), which also knows why a flight gained nothing.
+# As of replay (tools/summary/run_words.cpp), which also knows why a flight gained nothing.
 BETTER, WORSE = 0.9, 1.1  # fused over odometry
 MODEST, OVERCONFIDENT = 0.3, 1.5  # NEES / 3
 

@@ -44,7 +44,7 @@ class SlowReplayTest(unittest.TestCase):
         self.assertEqual((summary["frames"], summary["frames_dropped_slow"]), (FRAMES, 0))
         summary, told = self.summary("slow", "--budget-ms", "100")
         self.assertEqual((summary["frames"], summary["frames_dropped_slow"]), (21, 19))  # every other one, and the last
-        self.assertIn("frames_dropped_slow: 19", told)
+        self.assertIn("m travelled; 19 dropped as too slow\n", told)
         self.assertEqual(self.summary("slower", "--budget-ms", "100", "--cpu-factor", "4")[0]["frames"], 6)
 
     def test_seeds_share_what_is_dropped(self):

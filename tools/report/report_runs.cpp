@@ -7,7 +7,7 @@
 #include "report/run_files.hpp"
 #include "report/run_print.hpp"
 #include "report/run_verdict.hpp"
-#include "report/run_words.hpp"
+#include "summary/run_words.hpp"
 #include "summary/seeds_summary.hpp"
 #include "trajectory/text_file.hpp"
 
@@ -38,7 +38,6 @@ std::vector<std::string> reportRuns(const Sequence& sequence,
                          options.estimator};
     summaries.push_back(summaryOf(results[i], evaluations.back(), label));
     summaries.back()["is_finished"] = results[i].is_finished;
-    summaries.back()["verdict"] = verdictOf(summaries.back());
   }
   nlohmann::ordered_json all;
   if (options.is_of_seeds) {

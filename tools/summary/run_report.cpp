@@ -11,6 +11,7 @@
 #include "ardrone_vslam/instruction_set.hpp"
 #include "summary/flight_summary.hpp"
 #include "summary/map_summary.hpp"
+#include "summary/run_words.hpp"
 #include "summary/track_summary.hpp"
 #include "trajectory/metrics.hpp"
 
@@ -236,6 +237,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   addLearnedNoise(run, summary);
   addScale(run, summary);
   addCost(run, summary);
+  summary["verdict"] = verdictOf(summary);
   return summary;
 }
 

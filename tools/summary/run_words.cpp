@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/run_words.hpp"
+#include "summary/run_words.hpp"
 
 #include <cmath>
 #include <iomanip>
@@ -86,6 +86,18 @@ std::string statesLine(const Json& summary) {
   return text + " images; " + rounded(valueOf(summary, "landmarks"), 0) + " landmarks";
 }
 
+/// What was given and has no pose.
+std::string lossesOf(const Json& summary) {
+  std::string text;
+  const auto add = [&](const char* key, const char* why) {
+    if (valueOf(summary, key) > 0) text += "; " + rounded(valueOf(summary, key), 0) + why;
+  };
+  add("frames_dropped_slow", " dropped as too slow");
+  add("frames_without_odometry", " left out without odometry");
+  add("frames_searching_map", " before the map was found");
+  return text;
+}
+
 }  // namespace
 
 std::string verdictOf(const Json& summary) {
@@ -109,7 +121,7 @@ std::string inLines(const Json& summary) {
   std::ostringstream text;
   text << "images      " << summary["frames"] << " in "
        << rounded(valueOf(summary, "duration_s"), 1) << " s, "
-       << rounded(valueOf(summary, "distance_m"), 1) << " m travelled\n"
+       << rounded(valueOf(summary, "distance_m"), 1) << " m travelled" << lossesOf(summary) << "\n"
        << "odometry    "
        << (is_known ? "off by " + metres(valueOf(summary, "odometry_ate_rmse_m")) + " (RMSE)"
                     : "error not known")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/run_words.hpp"
+#include "summary/run_words.hpp"
 
 #include <gtest/gtest.h>
 
