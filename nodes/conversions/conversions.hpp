@@ -86,6 +86,8 @@ PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isome
                                    const Frames& frames);
 /// Fills the state, its name and the reason.
 void toStatus(SlamState state, Status& status);
+/// Near a plain wall, say: the image tells nothing, whatever the state.
+bool hasHardlyACorner(const FrameResult& result);
 /// Fills the state and the counts of one frame; leaves stage times and totals alone.
 void toStatus(const FrameResult& result, const std::string& map_frame, Status& status);
 void toStatus(const OdometryFaultCounts& faults, Status& status);

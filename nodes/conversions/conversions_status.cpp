@@ -40,6 +40,11 @@ std::uint8_t stateOf(SlamState state) {
 
 }  // namespace
 
+bool hasHardlyACorner(const FrameResult& result) {
+  constexpr int kFewest = 8;  // fewer tell neither a motion nor that there is none
+  return result.features < kFewest;
+}
+
 void toStatus(SlamState state, Status& status) {
   status.state = stateOf(state);
   status.state_name = kSlamStateNames[static_cast<std::size_t>(state)];
@@ -51,9 +56,9 @@ void toStatus(const FrameResult& result, const std::string& map_frame, Status& s
   status.header.stamp = toRosTime(result.stamp_ns);
   status.header.frame_id = map_frame;
   toStatus(result.state, status);
-  if (result.features == 0) {
+  if (hasHardlyACorner(result)) {
     status.reason =
-        "the image has no corners: it is dark, over-exposed, blurred or without texture; " +
+        "the image has hardly a corner: it is dark, over-exposed, blurred or without texture; " +
         status.reason;
   }
   status.features = count(result.features);

@@ -22,6 +22,9 @@ void MapperStatus::publishAnswer(const FrameResult& result, const Features& feat
   const OdometryWatch& watch = parts_.odometry.watch();
   Status status;
   toStatus(result, parts_.odometry.frames().map, status);
+  const bool was_blind = is_blind_;
+  is_blind_ = hasHardlyACorner(result);
+  if (is_blind_ && !was_blind) warnings_.limited(status.reason);
   if (!parts_.slam.setup().fault().empty()) {
     status.reason = parts_.slam.setup().fault();
   } else if (watch.isStuck()) {

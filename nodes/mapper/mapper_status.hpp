@@ -46,7 +46,8 @@ class MapperStatus {
   Warnings& warnings_;
   ros::Publisher publisher_;
   diagnostic_updater::Updater diagnostics_;
-  Status latest_;  // as published last
+  Status latest_;          // as published last
+  bool is_blind_ = false;  // no corners; said once, when it begins
   int seconds_waiting_ = 0;
 };
 
