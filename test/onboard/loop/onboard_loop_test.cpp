@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <thread>
 
-#include "flight_fixture.hpp"
 #include "loop/map_file.hpp"
 #include "map/landmark_map.hpp"
+#include "onboard/flight_fixture.hpp"
 #include "protocol/udp.hpp"
 
 namespace ardrone_vslam::test {

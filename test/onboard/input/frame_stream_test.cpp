@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "flight_records.hpp"
+#include "onboard/flight_records.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

@@ -159,6 +159,17 @@ TEST(ResultConversion, EveryOtherStateHasAReason) {
   }
 }
 
+TEST(ResultConversion, NearAPlainWallTheReasonIsTheImage) {
+  for (const auto& [features, is_plain] : {std::pair(0, true), {7, true}, {8, false}}) {
+    FrameResult result = someResult();
+    result.state = SlamState::kTracking;
+    result.features = features;
+    Status status;
+    toStatus(result, "map", status);
+    EXPECT_EQ(status.reason.find("the image has hardly a corner") == 0, is_plain) << features;
+  }
+}
+
 TEST(ResultConversion, TheStatusOfAResultThatIsNotFiniteIsFinite) {
   FrameResult result = someResult();
   result.state = SlamState::kNotFinite;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "flight_records.hpp"
+#include "onboard/flight_records.hpp"
 #include "protocol/vslam_protocol.h"
 
 namespace ardrone_vslam::test {

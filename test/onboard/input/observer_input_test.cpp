@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "flight_records.hpp"
+#include "onboard/flight_records.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "telemetry_flight.hpp"
+#include "onboard/telemetry_flight.hpp"
 
 namespace ardrone_vslam::test {
 namespace {

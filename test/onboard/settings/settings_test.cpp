@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-#include "flight_records.hpp"
+#include "onboard/flight_records.hpp"
 #include "protocol/udp.hpp"
 #include "support/temporary_folder.hpp"
 #include "test_paths.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "onboard/telemetry_flight.hpp"
 #include "protocol/vslam_protocol.h"
-#include "telemetry_flight.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
