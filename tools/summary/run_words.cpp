@@ -56,7 +56,7 @@ std::string reasonFor(const Json& summary) {
   if (valueOf(summary, "odometry_ate_rmse_m") < kGood * valueOf(summary, "distance_m"))
     return "This odometry errs by " +
            rounded(100 * valueOf(summary, "odometry_ate_rmse_m") / valueOf(summary, "distance_m"),
-                   1) +
+                   2) +
            " % of the distance travelled, which leaves little to gain.";
   if (valueOf(summary, "heights_used") == 0 && isKnown(summary, "ratio_scale_removed") &&
       valueOf(summary, "ratio_scale_removed") < kBetter * valueOf(summary, "ratio"))
