@@ -57,9 +57,10 @@ void toStatus(const FrameResult& result, const std::string& map_frame, Status& s
   status.header.frame_id = map_frame;
   toStatus(result.state, status);
   if (hasHardlyACorner(result)) {
+    const std::string why_state = status.reason.empty() ? "" : "; " + status.reason;
     status.reason =
-        "the image has hardly a corner: it is dark, over-exposed, blurred or without texture; " +
-        status.reason;
+        "the image has hardly a corner: it is dark, over-exposed, blurred or without texture" +
+        why_state;
   }
   status.features = count(result.features);
   status.match_method = nameOf(result.match_method);

@@ -51,7 +51,7 @@ TEST(OnboardConversion, EveryStateOfTheCoreHasItsOwnNameAndSentence) {
     toStatus(pose, status);
     FrameResult result;
     result.state = static_cast<SlamState>(state);
-    result.features = 1;
+    result.features = 100;
     Status of_mapper;
     toStatus(result, "map", of_mapper);
     EXPECT_EQ(status.state, of_mapper.state);
