@@ -172,7 +172,8 @@ class BadMessages(unittest.TestCase):
         status = self.drone.status.wait(lambda s: s.header.stamp == stamp)
         self.assertEqual(status.features, 0)
         self.assertNotEqual(status.state, Status.LOCALISED)
-        self.assertIn("no corners", status.reason)
+        self.assertIn("hardly a corner", status.reason)
+        self.assert_said("hardly a corner")
         self.fly_well()
 
     # Odometry
