@@ -47,7 +47,7 @@ class MapperStatus {
   ros::Publisher publisher_;
   diagnostic_updater::Updater diagnostics_;
   Status latest_;          // as published last
-  bool is_blind_ = false;  // no corners; said once, when it begins
+  bool is_blind_ = false;  // hardly a corner; said when that begins
   int seconds_waiting_ = 0;
 };
 

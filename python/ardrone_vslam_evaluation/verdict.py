@@ -8,6 +8,10 @@ BETTER, WORSE = 0.9, 1.1  # fused over odometry
 MODEST, OVERCONFIDENT = 0.3, 1.5  # NEES / 3
 
 
+def metres(value_m):
+    return f"{value_m:.{3 if value_m < 0.1 else 2}f} m"
+
+
 def verdict_of(row):
     """Whether the fused pose was better than the odometry; None where that is not known."""
     told = row.run.summary.get("verdict") if row.run is not None else None
@@ -17,7 +21,7 @@ def verdict_of(row):
     if not ratio or fused_m is None:
         return None
     word = "It helped" if ratio <= BETTER else "It did not help" if ratio <= WORSE else "It did harm"
-    return f"{word}: the odometry is off by {fused_m / ratio:.2f} m, the fused pose by {fused_m:.3f} m (RMSE)."
+    return f"{word}: the odometry is off by {metres(fused_m / ratio)}, the fused pose by {metres(fused_m)} (RMSE)."
 
 
 def consistency_of(row):

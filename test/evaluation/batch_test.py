@@ -10,7 +10,7 @@ import unittest
 
 from paths import SOURCE
 
-from ardrone_vslam_evaluation import baseline, batch_jobs
+from ardrone_vslam_evaluation import baseline, batch, batch_jobs
 from ardrone_vslam_evaluation.batch_results import harm, of_seeds
 from ardrone_vslam_evaluation.batch_run import Programs, Task, fingerprint_of_folder, run_tasks
 from ardrone_vslam_evaluation.faults import InputFault
@@ -148,6 +148,12 @@ class BaselineTest(WithFolder):
         self.assertEqual(compare([row(frames=599)], [row()])[0], ["laps drone msckf: frames 600 -> 599"])
         self.assertEqual(compare([row(ratio=None)], [row()])[0], ["laps drone msckf: fused / odometry 0.300 -> none"])
         self.assertEqual(compare([row(ratio=0.5)], [row(ratio=None)])[0], [])
+
+    def test_rows_that_nothing_holds_are_a_failure_where_all_must_be_held(self):
+        before = {baseline.key_of(row()): row()}
+        self.assertTrue(batch.judge([row()], before, baseline.MARGIN, must_have=True))
+        self.assertFalse(batch.judge([row(), row("hover")], before, baseline.MARGIN, must_have=True))
+        self.assertTrue(batch.judge([row(), row("hover")], before, baseline.MARGIN, must_have=False))
 
     def test_rows_of_other_seeds_or_sequences_are_not_compared(self):
         self.assertEqual(compare([row(seeds="1:5", ratio=9), row("hover", ratio=9)], [row()]), ([], [], 0))

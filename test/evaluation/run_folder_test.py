@@ -4,7 +4,6 @@
 import html
 import json
 import os
-import re
 import shutil
 import subprocess
 import tempfile
@@ -86,11 +85,10 @@ class RunFolderTest(unittest.TestCase):
         page = self.page(folder)[1]
         self.assertLess(page.index(html.escape(summary["verdict"])), page.index("<table"))
         self.assertRegex(page, r"The covariance is .* \(NEES / 3\)\. Those of the fixes are .* \(NIS\)\.")
-        errors = f"the odometry is off by {summary['odometry_ate_rmse_m']:.2f} m, the fused pose by {summary['fused_ate_rmse_m']:.3f} m (RMSE)."
-        del summary["verdict"]
+        told = summary.pop("verdict").partition("(RMSE).")[0]
         with open(f"{folder}/summary.json", "w") as file:  # as of the nodelets
             json.dump(summary, file)
-        self.assertRegex(self.numbers(folder)[1], "(?m): It (helped|did not help|did harm): " + re.escape(errors) + "$")
+        self.assertIn(f": {told}(RMSE).\n", self.numbers(folder)[1])
         self.assertNotIn("It helped", self.numbers(f"{self.runs}/msckf")[1])
 
     def test_all_plots_are_drawn(self):

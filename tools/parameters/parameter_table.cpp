@@ -148,8 +148,8 @@ const char* kindOf(OldName::Kind kind) {
 }
 
 void writeOldNames(std::ostringstream& out) {
-  out << "\n## Old names\n\nRefused, or warned of where unknown names are, with the new one; of "
-         "nodes and nodelets rosrun and roslaunch tell. All "
+  out << "\n## Old names\n\nRefused, or warned of where unknown names are, with the new one. "
+         "Nodes and nodelets are not: ROS says that they are not found. All "
          "other parameters of earlier versions are refused with the reason why they are none any "
          "more.\n\n"
          "- old name, what it was, name now\n";
