@@ -91,8 +91,8 @@ TEST(FloorPoints, TellTheScaleWithoutAnyClimb) {
 TEST(FloorPoints, ATableBelowIsNoFalseScale) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const FloorFlight with = fly(seed, 0, true, true);
-    EXPECT_LT(std::abs(with.scale_off), 0.04) << seed;
-    EXPECT_LT(with.rmse_m, 0.05) << seed;  // measured: 0.03
+    EXPECT_LT(std::abs(with.scale_off), 0.032) << seed;  // of 20 seeds: at most 0.022
+    EXPECT_LT(with.rmse_m, 0.05) << seed;                // 0.036
   }
 }
 

@@ -76,7 +76,7 @@ TEST(OdometryStepWorld, AStepBeforeAnythingWasSeenAgainDoesNoHarmEither) {
     stepBy({0, -3, 1}, 100, odometry);
     const FlightRun run = test::fly(world, flight, odometry, test::msckfConfig());
     EXPECT_EQ(stepsIn(run), 1) << seed;
-    EXPECT_LT(run.fused.max_m, 0.5) << seed;
+    EXPECT_LT(run.fused.max_m, 0.5) << seed;  // of 20 seeds: at most 0.39
   }
 }
 
@@ -89,7 +89,7 @@ TEST(OdometryStepWorld, AStepThatInterpolationSpreadsOverImagesIsOne) {
     for (std::size_t i = 900; i < 903; ++i) stepBy({2.0 / 3, 0, 0}, i, odometry);
     const FlightRun run = test::fly(world, flight, odometry, test::msckfConfig());
     EXPECT_EQ(stepsIn(run), 3) << seed;
-    EXPECT_LT(worstFrom(900, flight, run), 0.4) << seed;
+    EXPECT_LT(worstFrom(900, flight, run), 0.25) << seed;  // of 20 seeds: at most 0.164
   }
 }
 
@@ -117,7 +117,7 @@ TEST(OdometryStepWorld, AfterAFreezeThePlaceIsFoundAgain) {
       for (std::size_t i = kFault; i < again; ++i) odometry[i].T_odom_base = then;
       stepBy(-lost_m, again, odometry);
       const FlightRun run = test::fly(world, flight, odometry, test::msckfConfig());
-      EXPECT_LT(worstFrom(again + 1, flight, run), 0.4) << seed << ", " << frozen;
+      EXPECT_LT(worstFrom(again + 1, flight, run), 0.37) << seed << ", " << frozen;  // 0.244
     }
   }
 }

@@ -99,12 +99,12 @@ TEST(SlamWorld, FirstPassesDoNoHarm) {
     PointWorld world = corridor(seed);
     const FlightRun run =
         test::fly(world, flight, test::observe(flight, {}, seed), test::thesisConfig());
-    EXPECT_LT(run.fused.rmse_m, 1.1 * run.odometry.rmse_m) << "seed " << seed;
+    EXPECT_LT(run.fused.rmse_m, 1.1 * run.odometry.rmse_m) << "seed " << seed;  // of 20: 1.04
   }
 }
 
 // Nothing but the mean over many landmarks stands against matches that are wrong by less than the
-// landmark threshold: single seeds reach 1.17.
+// landmark threshold: the worst of 20 seeds reaches 1.22, their median 0.97.
 TEST(SlamWorld, WrongFeaturesOnAFirstPassDoLittleHarm) {
   const Flight flight = test::straightFlight(300, 10, 1);
   for (const double wrong_share : {0.2, 0.4}) {

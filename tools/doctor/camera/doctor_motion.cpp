@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <optional>
 
 #include "ardrone_vslam/setup_watch.hpp"
 #include "doctor/camera/doctor_frames.hpp"
+#include "doctor/recording/doctor_stamps.hpp"
 #include "input_checks/checked.hpp"
 #include "input_checks/standstill_watch.hpp"
 
@@ -21,12 +21,6 @@ constexpr double kSure = 3;                     // times the difference of both 
 constexpr double kLongest_s = 600;              // of odometry that is kept
 constexpr double kSameTime_s = 0.03;            // offsets that do no harm
 constexpr double kWorse = 1.1;  // so much worse must tf's mounting explain the images
-
-std::string rounded(double value, int digits) {
-  std::ostringstream stream;
-  stream << std::fixed << std::setprecision(digits) << value;
-  return stream.str();
-}
 
 std::string degrees(double angle_rad) {
   return rounded(angle_rad * kDegPerRad, 0) + " degrees";
