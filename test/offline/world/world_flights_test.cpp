@@ -61,6 +61,7 @@ TEST_P(EachFlight, DerivativesAreThoseOfThePose) {
 }
 
 TEST_P(EachFlight, LeansAsItsAccelerationAsks) {
+  if (GetParam() == "drive") GTEST_SKIP() << "it has wheels";
   const auto drone = flight();
   for (double t = 0; t < info().duration_s; t += 0.31) {
     const FlightState now = drone->state(t);
@@ -132,6 +133,18 @@ TEST(Flights, TheCorridorIsFlownOutAndBackBackwards) {
   EXPECT_LT(turning->state(60).velocity_world_m_s.x(), -0.9);
   for (double t = 0; t < 71; t += 0.5) EXPECT_LT(std::abs(yawOf(flight->pose(t))), 0.1);
   EXPECT_GT(std::abs(yawOf(turning->pose(60))), M_PI - 0.1);
+}
+
+TEST(Flights, WhatDrivesStaysLevelAndGoesWhereItsNosePoints) {
+  const auto flight = makeFlight("drive", std::nullopt);
+  for (double t = 0; t < 60; t += 0.3) {
+    const FlightState now = flight->state(t);
+    EXPECT_NEAR(now.T_world_body.linear()(2, 2), 1, 1e-12);
+    const Eigen::Vector3d velocity =
+        now.T_world_body.linear().transpose() * now.velocity_world_m_s;
+    EXPECT_LT(velocity.tail<2>().norm(), 1e-5) << t;
+    EXPECT_GT(velocity.x(), -1e-6) << t;
+  }
 }
 
 TEST(Flights, PureYawTurnsWithoutMoving) {

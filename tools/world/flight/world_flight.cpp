@@ -48,8 +48,8 @@ Eigen::Isometry3d Flight::pose(double t_s) const {
                         after = position(t_s + kStep_s);
   const Eigen::Vector3d velocity = (after - before) / (2 * kStep_s);
   const Eigen::Vector3d acceleration = (after - 2 * now + before) / (kStep_s * kStep_s);
-  const Eigen::Vector3d thrust =
-      acceleration + kDrag_per_s * velocity + kGravity_m_s2 * Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d thrust = kGravity_m_s2 * Eigen::Vector3d::UnitZ();
+  if (!drives()) thrust += acceleration + kDrag_per_s * velocity;
   Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
   T_world_body.linear() = attitudeOf(thrust, yaw(t_s));
   T_world_body.translation() = now;
@@ -94,6 +94,8 @@ const std::vector<FlightInfo>& flights() {
        "fading"},
       {"table", "over a table and back, with a climb that is none of the table's", "furnished",
        "steady", 60},
+      {"drive", "a robot on wheels drives laps, its camera 0.3 m above the floor", "furnished",
+       "steady"},
       {"moving_objects", "laps among boxes that move, under a lamp that does", "moving", "moving"},
   };
   return all;
@@ -116,17 +118,19 @@ std::optional<double> hoverBegin_s(const std::string& flight) {
 std::unique_ptr<Flight> makeFlight(const std::string& name,
                                    const std::optional<FlightStart>& start) {
   flightInfo(name);
-  const bool is_fixed = name == "table" || name == "corridor" || name == "corridor_turn";
+  const bool is_corridor = name == "corridor" || name == "corridor_turn";
+  const bool is_fixed = is_corridor || name == "table" || name == "drive";
   if (start && is_fixed)
     throw std::invalid_argument("the flight " + name + " has a start of its own: leave start out");
   if (start) checkStart(*start);
   if (name == "laps_then_hover") return std::make_unique<LapsThenHover>(start);
   if (name == "mapping_turn") return std::make_unique<TurnThenLaps>(start);
+  if (name == "drive") return std::make_unique<Drive>();
   if (name == "fast_blur") return std::make_unique<FastLaps>(start);
   if (name == "hover") return std::make_unique<LegsFlight>(hoverFlight(start));
   if (name == "pure_yaw") return std::make_unique<LegsFlight>(pureYawFlight(start));
   if (name == "table") return std::make_unique<LegsFlight>(tableFlight());
-  if (is_fixed) return std::make_unique<LegsFlight>(corridorFlight(name == "corridor_turn"));
+  if (is_corridor) return std::make_unique<LegsFlight>(corridorFlight(name == "corridor_turn"));
   return std::make_unique<Laps>(start);
 }
 

@@ -37,7 +37,8 @@ struct FlightState {
 };
 
 /// How a quadrocopter moves. Each flight gives position and heading; roll and pitch follow from the
-/// accelerations and the drag, as the rotors' thrust is the only thing that moves it.
+/// accelerations and the drag, as the rotors' thrust is the only thing that moves it. What drives
+/// stays level.
 class Flight {
  public:
   virtual ~Flight() = default;
@@ -51,6 +52,7 @@ class Flight {
  protected:
   virtual Eigen::Vector3d position(double t_s) const = 0;  // m, world
   virtual double yaw(double t_s) const = 0;                // rad, not wrapped
+  virtual bool drives() const { return false; }
 };
 
 /// What make_world offers.

@@ -18,6 +18,7 @@ constexpr double kRotation_s = 22;  // of TurnThenLaps
 constexpr double kRotationRamp_s = 2;
 constexpr double kFastFrom_s = 20;  // of FastLaps
 constexpr double kFastRamp_s = 4;
+constexpr double kDriveHeight_m = 0.3;
 constexpr double kFaster = 1.5;  // laps a lap's time more
 
 double wrapAngle(double angle_rad) {
@@ -101,6 +102,14 @@ double FastLaps::yaw(double t_s) const {
 /// Runs on as t_s does, and faster from kFastFrom_s on.
 double FastLaps::lapTime(double t_s) {
   return t_s + kFaster * kFastRamp_s * smoothStepIntegral((t_s - kFastFrom_s) / kFastRamp_s);
+}
+
+Eigen::Vector3d Drive::position(double t_s) const {
+  return {kRadiusX_m * std::cos(phase(t_s)), kRadiusY_m * std::sin(phase(t_s)), kDriveHeight_m};
+}
+
+double Drive::yaw(double t_s) const {
+  return pathYaw(t_s);
 }
 
 }  // namespace ardrone_vslam

@@ -17,12 +17,13 @@ class Laps : public Flight {
  protected:
   Eigen::Vector3d position(double t_s) const override;
   double yaw(double t_s) const override;
-
- private:
+  /// Where it is on the ellipse [rad].
   double phase(double t_s) const;
-  Eigen::Vector3d pathPosition(double t_s) const;
   /// Direction of the ellipse's tangent: that of a circle, corrected; never wraps.
   double pathYaw(double t_s) const;
+
+ private:
+  Eigen::Vector3d pathPosition(double t_s) const;
 
   FlightStart start_;
   double first_phase_ = 0;
@@ -65,6 +66,17 @@ class FastLaps : public Laps {
 
  private:
   static double lapTime(double t_s);
+};
+
+/// A robot on wheels: it stays level and goes where its nose points.
+class Drive : public Laps {
+ public:
+  Drive() : Laps(std::nullopt) {}
+
+ protected:
+  Eigen::Vector3d position(double t_s) const override;
+  double yaw(double t_s) const override;
+  bool drives() const override { return true; }
 };
 
 }  // namespace ardrone_vslam
