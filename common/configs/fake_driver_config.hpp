@@ -15,7 +15,6 @@ struct FakeDriverConfig {
   std::string faults = "none";
   std::string odometry_profile = "drone";
   double rate = 20;
-  double wind = 0.2;
   int seed = 0;
   std::string tf_prefix;  ///< ROS's own parameter, for all nodes of a namespace
 };
@@ -43,10 +42,6 @@ void visitParameters(FakeDriverConfig& c, Visitor&& visit) {
                       "how the drone's measurements drift (config/odometry_profiles.yaml)"},
         c.odometry_profile);
   visit(ParameterInfo{"rate", "Hz", 0.1, 100, "images a second"}, c.rate);
-  visit(ParameterInfo{"wind", "m/s", 0, 3,
-                      "standard deviation of the air's speed: a fifth of it moves a hovering "
-                      "drone"},
-        c.wind);
   visit(ParameterInfo{"seed", "-", 0, 2147483647, "of the noise in all that is measured and seen"},
         c.seed);
 }

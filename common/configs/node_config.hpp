@@ -16,6 +16,25 @@ struct EnumNames<ImageTransport> {
   static constexpr std::array<const char*, 2> kNames{"raw", "compressed"};
 };
 
+/// Of the camera node.
+struct CameraNodeConfig {
+  std::string device = "/dev/video0";
+  std::string camera;  // empty: what camera_info_manager has kept
+  std::string camera_frame = "camera";
+  double rate = 30;
+};
+
+template <class Visitor>
+void visitParameters(CameraNodeConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"device", "name", 0, 0,
+                      "where images come from: /dev/videoN or N, the address of a stream, or the "
+                      "full path of a video file, which begins when somebody listens"},
+        c.device);
+  visit(ParameterInfo{"camera", "name", 0, 0, kCalibrationFile}, c.camera);
+  visit(ParameterInfo{"camera_frame", "name", 0, 0, kCameraFrame}, c.camera_frame);
+  visit(ParameterInfo{"rate", "Hz", 0.1, 100, "images a second"}, c.rate);
+}
+
 struct TrackerNodeConfig {
   ImageTransport image_transport = ImageTransport::kRaw;
   bool rectified = false;
@@ -137,8 +156,7 @@ void visitParameters(OnboardBridgeConfig& c, Visitor&& visit) {
                     "the clocks are apart"},
       c.same_clock);
   visit(ParameterInfo{"camera", "name", 0, 0, kCalibrationFile}, c.camera);
-  visit(ParameterInfo{"camera_frame", "name", 0, 0, "the camera's optical frame, of `features`"},
-        c.camera_frame);
+  visit(ParameterInfo{"camera_frame", "name", 0, 0, kCameraFrame}, c.camera_frame);
   visit(ParameterInfo{"map_frame", "name", 0, 0, effects::kMapFrame, turnFirst(22)}, c.map_frame);
   visit(ParameterInfo{"odom_frame", "name", 0, 0, effects::kOdomFrame, turnFirst(23)},
         c.odom_frame);

@@ -147,6 +147,7 @@ constexpr OldName kTable[] = {
     renamed("fake_driver", "observer_profile", "odometry_profile"),
     constant("fake_driver", "light", kSimulation),
     constant("fake_driver", "start", kSimulation),
+    constant("fake_driver", "wind", kSimulation),
     constant("fake_driver", "world_seed", kSimulation),
     constant("fake_driver", "readout", kSimulation),
     constant("fake_driver", "shutter", kSimulation),

@@ -38,7 +38,7 @@ check_runs() {
     found=$(rospack find ardrone_vslam)
     [ "$found" = "$2" ] || fail "rospack finds $found, not $2"
     rosmsg show ardrone_vslam/Status > /dev/null || fail "rosmsg does not know the messages"
-    for program in tracker_node mapper_node odometry_fusion_node onboard_bridge_node vslam_onboard replay make_bag make_world doctor fake_driver; do
+    for program in camera_node tracker_node mapper_node odometry_fusion_node onboard_bridge_node vslam_onboard replay make_bag make_world doctor fake_driver; do
       rosrun ardrone_vslam "$program" --version | grep -q ardrone_vslam || fail "rosrun $program --version"
     done
     for script in evaluate record_run measure_latency; do

@@ -69,7 +69,6 @@ FakeDroneOptions droneOf(const FakeDriverConfig& config) {
   if (hasAutopilot(config)) options.autopilot = config.autopilot;
   options.profile =
       loadOdometryProfile(config.odometry_profile, findConfigFile("odometry_profiles.yaml"));
-  options.wind_m_s = config.wind;
   options.seed = static_cast<std::uint64_t>(config.seed);
   return options;
 }

@@ -96,6 +96,7 @@ std::vector<Row> allRows() {
   collect<FakeDriverConfig>("fake_driver", rows);
   collect<OnboardConfig>("onboard", rows);
   collect<OnboardBridgeConfig>("onboard_bridge", rows);
+  collect<CameraNodeConfig>("camera", rows);
   return rows;
 }
 
@@ -168,15 +169,19 @@ std::string parameterTable() {
   out << kHead;
   const auto isOfProgram = [](const Row& row) {
     const std::string& first = row.sections.front();
-    return first == "fake_driver" || first == "onboard" || first == "onboard_bridge";
+    return first == "fake_driver" || first == "onboard" || first == "onboard_bridge" ||
+           first == "camera";
   };
   const auto part = [&isOfProgram](PagePart wanted) {
     return [&isOfProgram, wanted](const Row& row) {
       return row.place.part == wanted && !isOfProgram(row);
     };
   };
-  const auto program = [](const std::string& section) {
-    return [section](const Row& row) { return row.sections.front() == section; };
+  const auto program = [&isOfProgram](const std::string& section) {
+    return [&isOfProgram, section](const Row& row) {
+      const auto& all = row.sections;
+      return isOfProgram(row) && std::find(all.begin(), all.end(), section) != all.end();
+    };
   };
   writeTable("What to turn first", rows, out, part(PagePart::kUser));
   writeTable("Advanced", rows, out, part(PagePart::kAdvanced));
@@ -184,6 +189,7 @@ std::string parameterTable() {
   writeTable("fake_driver", rows, out, program("fake_driver"));
   writeTable("onboard: vslam_onboard (docs/onboard.md)", rows, out, program("onboard"));
   writeTable("onboard_bridge (docs/onboard.md)", rows, out, program("onboard_bridge"));
+  writeTable("camera: camera_node (docs/any_robot.md)", rows, out, program("camera"));
   writeOldNames(out);
   return out.str();
 }

@@ -231,15 +231,17 @@ TEST(ParameterTable, ThePageIsTheTable) {
 }
 
 /// @return the rows of a heading's table, or of all
-int rowsOf(const std::string& table, const std::string& heading = "") {
+/// A row that stands in the tables of two programs counts once.
+std::size_t rowsOf(const std::string& table, const std::string& heading = "") {
   std::istringstream lines(table);
   std::string section;
-  int rows = 0;
+  std::set<std::string> rows;
   for (std::string line; std::getline(lines, line);) {
     if (line.rfind("## ", 0) == 0) section = line.substr(3);
-    rows += line.rfind("| `", 0) == 0 && (heading.empty() || section == heading) ? 1 : 0;
+    const bool is_row = line.rfind("| `", 0) == 0;
+    if (is_row && (heading.empty() || section == heading)) rows.insert(line);
   }
-  return rows;
+  return rows.size();
 }
 
 /// The parameters of each rank of the page's first part.
@@ -273,9 +275,9 @@ TEST(ParameterTable, RanksOfWhatToTurnFirstAreOneByOneFromOne) {
 }
 
 TEST(ParameterTable, DoesNotGrow) {
-  EXPECT_LE(rowsOf(parameterTable()), 80) << "what nobody turns is a constant beside its use";
-  EXPECT_LE(rowsOf(parameterTable(), "What to turn first"), 25);
-  EXPECT_GE(rowsOf(parameterTable(), "What to turn first"), 20) << "the heading is another one";
+  EXPECT_LE(rowsOf(parameterTable()), 80U) << "what nobody turns is a constant beside its use";
+  EXPECT_LE(rowsOf(parameterTable(), "What to turn first"), 25U);
+  EXPECT_GE(rowsOf(parameterTable(), "What to turn first"), 20U) << "the heading is another one";
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ class Params(unittest.TestCase):
         self.assertIn("REQUIRED process [other/", ended.stdout)
 
     def test_help_and_version(self):
-        for executable in ["tracker_node", "mapper_node", "odometry_fusion_node", "onboard_bridge_node"]:
+        for executable in ["camera_node", "tracker_node", "mapper_node", "odometry_fusion_node", "onboard_bridge_node"]:
             for argument, code, said in [("--help", 0, "Usage"), ("--version", 0, "ardrone_vslam "),
                                          ("--bogus", 2, "--bogus")]:
                 process = start(executable, argument)
@@ -151,7 +151,7 @@ class Params(unittest.TestCase):
                 self.assertIn(said, output)
 
     def test_a_name_that_cannot_be_is_wrong_usage(self):
-        for executable in ["tracker_node", "mapper_node", "odometry_fusion_node", "onboard_bridge_node"]:
+        for executable in ["camera_node", "tracker_node", "mapper_node", "odometry_fusion_node", "onboard_bridge_node"]:
             for argument in ["__name:=a b", "image:=a b", "__ns:=/x y"]:
                 process = start(executable, argument)
                 output, _ = process.communicate(timeout=30)

@@ -60,6 +60,7 @@ TEST(NodeConfig, NoNameIsUsedTwiceInANode) {
   check(namesOf(MapperNodeConfig{}), namesOf(SlamConfig{}));
   check(namesOf(OdometryFusionNodeConfig{}), namesOf(DelayedFusionConfig{}));
   check(namesOf(OnboardBridgeConfig{}), {});
+  check(namesOf(CameraNodeConfig{}), {});
 }
 
 TEST(NodeConfig, TheBridgesLaunchFileSetsItsParameters) {
