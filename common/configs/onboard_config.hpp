@@ -9,10 +9,10 @@ namespace ardrone_vslam {
 
 /// Of `camera`, also onboard_bridge's.
 constexpr const char* kCalibrationFile =
-    "file of the camera's calibration, as camera_calibration writes it, for the size after "
-    "`halve`. vslam_onboard: relative to the configuration file. onboard_bridge: the same file, "
-    "for bearings and the image's size; empty: neither `features` nor `debug_image`. "
-    "camera: a full path; empty: what the service set_camera_info has kept in ~/.ros/camera_info";
+    "file of the camera's calibration, as camera_calibration writes it. For vslam_onboard: of the "
+    "size after `halve`, relative to the configuration file. For onboard_bridge: the same; empty: "
+    "neither `features` nor `debug_image`. For camera: its full path; empty: what the service "
+    "set_camera_info has kept";
 constexpr const char* kCameraFrame = "the camera's optical frame";
 
 /// The section `onboard` of a configuration file: what vslam_onboard reads beside `tracker` and

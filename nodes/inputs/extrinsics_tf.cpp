@@ -39,8 +39,9 @@ std::optional<Eigen::Isometry3d> ExtrinsicsTf::find(const std::string& base_fram
   } catch (const tf2::TransformException& e) {
     fault_ = "no transform from " + base_frame + " to " + camera_frame + " (" + e.what() +
              "): publish the camera's mounting, for example by `rosrun tf2_ros "
-             "static_transform_publisher x y z yaw pitch roll " +
-             base_frame + " " + camera_frame + "`";
+             "static_transform_publisher x y z -1.5708 0 -1.5708 " +
+             base_frame + " " + camera_frame +
+             "` (x y z: where it is [m]; these angles look ahead, docs/any_robot.md has others)";
   }
   return std::nullopt;
 }

@@ -81,6 +81,9 @@ void OdometryTopic::takeFrameNames(const nav_msgs::Odometry& odometry) {
 }
 
 std::string OdometryTopic::framesFault() const {
+  if (!frames_.odom.empty() && frames_.odom == frames_.map)
+    return "the frame of " + name() + " is called " + frames_.map +
+           " as well as the map's: set the parameter map_frame to another name, such as vslam_map";
   if (!frames_.odom.empty() && !frames_.base.empty()) return {};
   return name() + " names no " +
          (frames_.odom.empty() ? "frame_id; set the parameter odom_frame"

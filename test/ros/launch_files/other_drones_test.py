@@ -72,6 +72,14 @@ class OtherDronesTest(unittest.TestCase):
         status = drone.status.all()[-1]
         self.assertLess(status.heights_missing, status.images, "no range was used")
 
+    def test_one_name_for_two_frames_is_told(self):
+        drone = OtherDrone("/one_map_vslam", "/side", "/mavros/local_position/odom", "map", "base_link", "side_optical")
+        drone.mount_camera()
+        drone.connect()
+        drone.fly(1)
+        told = "is called map as well as the map's: set the parameter map_frame to another name"
+        self.assertIsNotNone(drone.status.wait(lambda status: told in status.reason), "the clash is not told")
+
 
 if __name__ == "__main__":
     rostest.rosrun("ardrone_vslam", "other_drones", OtherDronesTest)
