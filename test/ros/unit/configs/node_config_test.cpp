@@ -79,7 +79,7 @@ TEST(NodeConfig, TheBridgesLaunchFileSetsItsParameters) {
 
 TEST(NodeConfig, ShippedFilesLoad) {
   for (const auto* name :
-       {"kitti.yaml", "wheels_indoor.yaml", "ardrone_front.yaml", "ardrone.yaml"}) {
+       {"kitti.yaml", "wheels_indoor.yaml", "drone.yaml", "ardrone.yaml"}) {
     EXPECT_NO_THROW(loadConfig(std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/" + name, {}))
         << name;
   }
