@@ -14,7 +14,7 @@
 namespace ardrone_vslam::kernels {
 
 /// One form of every kernel. Why none of them is a library call: benchmark/RESULTS.md has the
-/// factors.
+/// factors. Of alignment and products it is not speed but the same bits on every processor.
 struct Kernels {
   decltype(&fastRowScalar) fast_row = fastRowScalar;
   int fast_group_px = 1;  ///< columns of a group that fast_row lists

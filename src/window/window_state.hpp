@@ -103,8 +103,9 @@ class WindowState {
   }
 
  private:
+  // Classes of their own, as they have one job each and the state would be too large with them.
   friend class Propagator;   // writes mean and covariance by the odometry
-  friend class MapEntrance;  // and moves them into a loaded map
+  friend class MapEntrance;  // moves them into a loaded map
 
   void inject(const Eigen::VectorXd& error);
   /// What an error of bias and scale, the columns, adds to the coordinates after a correction.

@@ -13,6 +13,7 @@
 #include "configs/fake_driver_config.hpp"
 #include "configs/node_config.hpp"
 #include "configs/onboard_config.hpp"
+#include "support/contains.hpp"
 #include "support/sequence_folders.hpp"
 #include "test_paths.hpp"
 
@@ -57,9 +58,7 @@ std::string fileBelow(const std::string& folder, const std::string& name) {
   return {};
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 std::vector<std::string> faultsOf(const std::string& yaml) {
   TemporaryFolder folder;

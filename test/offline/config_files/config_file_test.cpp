@@ -15,6 +15,7 @@
 #include "configs/node_config.hpp"
 #include "configs/onboard_config.hpp"
 #include "parameters/parameter_table.hpp"
+#include "support/contains.hpp"
 #include "support/sequence_folders.hpp"
 #include "test_paths.hpp"
 
@@ -40,9 +41,7 @@ class ConfigFile : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 TEST_F(ConfigFile, ReadsBothSectionsAndKeepsDefaults) {
   const PipelineConfig config = load(

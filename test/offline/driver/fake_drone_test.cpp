@@ -8,16 +8,14 @@
 #include <stdexcept>
 
 #include "driver/fake_driver_setup.hpp"
+#include "support/worlds.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 using State = DronePacket::State;
 
-const World& room() {
-  static const World world = makeWorld("room", "steady", 0);
-  return world;
-}
+using test::room;
 
 FakeDroneOptions calm() {
   FakeDroneOptions options;

@@ -7,13 +7,12 @@
 #include <stdexcept>
 #include <thread>
 
+#include "support/worlds.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
-const World& room() {
-  static const World world = makeWorld("room", "steady", 0);
-  return world;
-}
+using test::room;
 
 CameraShot shotAt(std::int64_t stamp_ns) {
   FlightState state;

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
+#include "support/contains.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ardrone_vslam {
@@ -35,9 +36,7 @@ std::string refusalOf(const std::string& device) {
   return "";
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 TEST(VideoSource, AFileComesImageByImageAtItsRateAndEnds) {
   ros::Time::init();
