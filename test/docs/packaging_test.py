@@ -71,7 +71,7 @@ class PackagingTest(unittest.TestCase):
 
     def test_plugin_is_found_without_an_environment(self):
         # Debian's pluginlib puts /usr/lib/x86_64-linux-gnu/ before it.
-        self.assertEqual(re.findall(r'<library path="([^"]*)"', text_of("nodelet_plugins.xml")), ["libardrone_vslam_nodelets"])
+        self.assertEqual(re.findall(r'<library path="([^"]*)"', text_of("nodelet_plugins.xml")), ["libardrone_vslam_nodelets", "libardrone_vslam_camera_nodelet"])
 
     def test_maintainer_is_package_xmls(self):
         maintainer = PACKAGE.find("maintainer")
