@@ -46,6 +46,21 @@ class Stop(unittest.TestCase):
         ended = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=TIMEOUT_S, check=False)
         self.assertIn("play_bag: /no/such.bag: there is no such file", ended.stdout)
 
+    def test_a_replay_of_a_bag_with_other_topics_says_which_it_has(self):
+        bag = os.path.join(rospkg.RosPack().get_path("ardrone_vslam"), "bags", "laps_20s.bag")
+        command = ["roslaunch", "ardrone_vslam", "replay.launch", "bag:=" + bag, "camera:=/front", "odometry:=/odom"]
+        ended = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=TIMEOUT_S, check=False)
+        self.assertIn("has no /front/image_raw, /front/camera_info, /odom; camera:=, image:= and odometry:= name the topics", ended.stdout)
+        self.assertIn("/camera/image_raw/compressed: compressed images (image_transport:=compressed); /odometry: odometry", ended.stdout)
+        command = [os.path.join(os.path.dirname(os.path.dirname(bag)), "scripts/play_bag"), "--needs=/odometry", "--needs=/camera/image_raw", "--bags=" + bag]
+        player = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        try:
+            self.assertIn("has no /camera/image_raw; camera:=", player.stderr.readline())
+            self.assertIsNone(player.poll(), "another node may give what one topic lacks, so it plays")
+        finally:
+            player.terminate()
+            player.communicate(timeout=TIMEOUT_S)
+
 
 if __name__ == "__main__":
     rostest.rosrun("ardrone_vslam", "stop", Stop)
