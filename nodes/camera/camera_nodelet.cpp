@@ -14,7 +14,9 @@
 namespace ardrone_vslam {
 namespace {
 
-void pause_ms(int time_ms) { std::this_thread::sleep_for(std::chrono::milliseconds(time_ms)); }
+void pause_ms(int time_ms) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(time_ms));
+}
 
 /// "/front/image_raw" -> "/front".
 std::string namespaceOf(const std::string& topic) {
@@ -71,8 +73,9 @@ void CameraNodelet::loadCalibration() {
   calibration_ = std::make_unique<camera_info_manager::CameraInfoManager>(
       ros::NodeHandle(camera), name, (is_path ? "file://" : "") + config_.camera);
   if (!calibration_->isCalibrated())
-    NODELET_WARN_STREAM("the camera is not calibrated, so the tracker waits: docs/any_robot.md "
-                        "tells how; the parameter camera names a calibration that is there");
+    NODELET_WARN_STREAM(
+        "the camera is not calibrated, so the tracker waits: docs/any_robot.md "
+        "tells how; the parameter camera names a calibration that is there");
 }
 
 void CameraNodelet::open() {
@@ -128,10 +131,9 @@ sensor_msgs::CameraInfo CameraNodelet::calibrationOf(const cv::Mat& image) {
   const auto height_px = static_cast<std::uint32_t>(image.rows);
   if (info.width == width_px && info.height == height_px) return info;
   if (calibration_->isCalibrated())
-    NODELET_WARN_STREAM_THROTTLE(5, "the calibration is for " << info.width << "x" << info.height
-                                                              << " but images are " << width_px
-                                                              << "x" << height_px
-                                                              << ": calibrate at this size");
+    NODELET_WARN_STREAM_THROTTLE(
+        5, "the calibration is for " << info.width << "x" << info.height << " but images are "
+                                     << width_px << "x" << height_px << ": calibrate at this size");
   info = {};
   info.width = width_px;
   info.height = height_px;

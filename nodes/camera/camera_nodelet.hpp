@@ -12,9 +12,9 @@
 #include <string>
 #include <thread>
 
-#include "video/video_source.hpp"
 #include "configs/node_config.hpp"
 #include "timing/timers.hpp"
+#include "video/video_source.hpp"
 
 namespace ardrone_vslam {
 

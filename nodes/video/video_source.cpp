@@ -11,9 +11,8 @@ namespace ardrone_vslam {
 namespace {
 
 bool isNumber(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isdigit(c) != 0;
-  });
+  return !text.empty() && std::all_of(text.begin(), text.end(),
+                                      [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
 std::string faultOf(const std::string& device, const std::string& fault) {
@@ -34,15 +33,16 @@ VideoSource::VideoSource(const std::string& device, const cv::Size& size, double
   const std::string path = isNumber(device) ? "/dev/video" + device : device;
   if (path.find("://") != std::string::npos) {
     if (!capture_.open(path, cv::CAP_FFMPEG))
-      throw std::runtime_error(faultOf(
-          device, "no video comes from this address; check it, and that its server runs"));
+      throw std::runtime_error(
+          faultOf(device, "no video comes from this address; check it, and that its server runs"));
     return;
   }
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status))
-    throw std::runtime_error(faultOf(
-        path, "is not there; `ls /dev/video*` shows this computer's cameras, a file needs its "
+    throw std::runtime_error(
+        faultOf(path,
+                "is not there; `ls /dev/video*` shows this computer's cameras, a file needs its "
                 "full path"));
   is_file_ = std::filesystem::is_regular_file(status);
   if (!is_file_) {
@@ -58,9 +58,10 @@ VideoSource::VideoSource(const std::string& device, const cv::Size& size, double
 
 void VideoSource::openCamera(const std::string& path, const cv::Size& size) {
   if (!capture_.open(path, cv::CAP_V4L2))
-    throw std::runtime_error(faultOf(
-        path, "is no camera that can be opened; does another program use it, and may this user "
-              "(group video)? Cameras often have a second device, for other data: try the next"));
+    throw std::runtime_error(
+        faultOf(path,
+                "is no camera that can be opened; does another program use it, and may this user "
+                "(group video)? Cameras often have a second device, for other data: try the next"));
   if (!size.empty()) {
     capture_.set(cv::CAP_PROP_FRAME_WIDTH, size.width);
     capture_.set(cv::CAP_PROP_FRAME_HEIGHT, size.height);

@@ -140,8 +140,7 @@ TEST(Flights, WhatDrivesStaysLevelAndGoesWhereItsNosePoints) {
   for (double t = 0; t < 60; t += 0.3) {
     const FlightState now = flight->state(t);
     EXPECT_NEAR(now.T_world_body.linear()(2, 2), 1, 1e-12);
-    const Eigen::Vector3d velocity =
-        now.T_world_body.linear().transpose() * now.velocity_world_m_s;
+    const Eigen::Vector3d velocity = now.T_world_body.linear().transpose() * now.velocity_world_m_s;
     EXPECT_LT(velocity.tail<2>().norm(), 1e-5) << t;
     EXPECT_GT(velocity.x(), -1e-6) << t;
   }

@@ -78,8 +78,7 @@ TEST(NodeConfig, TheBridgesLaunchFileSetsItsParameters) {
 }
 
 TEST(NodeConfig, ShippedFilesLoad) {
-  for (const auto* name :
-       {"kitti.yaml", "wheels_indoor.yaml", "drone.yaml", "ardrone.yaml"}) {
+  for (const auto* name : {"kitti.yaml", "wheels_indoor.yaml", "drone.yaml", "ardrone.yaml"}) {
     EXPECT_NO_THROW(loadConfig(std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/" + name, {}))
         << name;
   }
