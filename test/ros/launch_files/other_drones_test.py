@@ -73,7 +73,7 @@ class OtherDronesTest(unittest.TestCase):
         self.assertLess(status.heights_missing, status.images, "no range was used")
 
     def test_one_name_for_two_frames_is_told(self):
-        drone = OtherDrone("/one_map_vslam", "/side", "/mavros/local_position/odom", "map", "base_link", "side_optical")
+        drone = OtherDrone("/one_map_vslam", "/side", "/side/odom", "map", "base_link", "side_optical")
         drone.mount_camera()
         drone.connect()
         drone.fly(1)
