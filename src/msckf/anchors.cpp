@@ -55,7 +55,7 @@ void Anchors::joinNearest(WindowState& state) {
 std::vector<AnchorCorrection> Anchors::takeCorrections(const WindowState& state,
                                                        double point_distance_m,
                                                        double focal_length_px) {
-  constexpr double kUnseen_px = 0.3;
+  constexpr double kUnseen_px = 0.3 * kOldCornerSigma_px;  // a correction that no match can feel
   return re_anchoring_.take(state, point_distance_m, kUnseen_px / focal_length_px);
 }
 

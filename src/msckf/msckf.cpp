@@ -4,14 +4,16 @@
 #include <cmath>
 
 #include "linear/scalars.hpp"
+#include "odometry/image_rotation.hpp"
 #include "window/map_entry.hpp"
 #include "zero_motion/scene_limit.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kKeyframe_px = 15;  // so far an image moves on before tracks say anything new
-constexpr double kKeyframe_s = 2;    // a slow camera drifts meanwhile, so it gets one all the same
+// So far an image moves on before tracks say anything new: a parallax is known to a 15th then.
+constexpr double kKeyframe_px = 15 * kOldCornerSigma_px;
+constexpr double kKeyframe_s = 2;  // a slow camera drifts meanwhile, so it gets one all the same
 
 }  // namespace
 
