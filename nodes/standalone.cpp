@@ -6,7 +6,7 @@
 
 #include <iostream>
 
-#include "from_ros/ros_start.hpp"
+#include "with_ros/ros_start.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -12,10 +12,10 @@
 #include "doctor/collection/doctor_bag.hpp"
 #include "doctor/collection/doctor_live.hpp"
 #include "doctor/doctor_examination.hpp"
-#include "from_ros/ros_start.hpp"
 #include "program/progress_line.hpp"
 #include "program/tool_main.hpp"
 #include "trajectory/text_file.hpp"
+#include "with_ros/ros_start.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <exception>
 #include <string>
 
-#include "from_ros/params.hpp"
-#include "from_ros/ros_start.hpp"
+#include "with_ros/params.hpp"
+#include "with_ros/ros_start.hpp"
 
 namespace {
 

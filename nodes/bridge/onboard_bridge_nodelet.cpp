@@ -6,8 +6,8 @@
 
 #include "conversions/frame_names.hpp"
 #include "conversions/onboard_conversion.hpp"
-#include "from_ros/params.hpp"
 #include "protocol/clocks.hpp"
+#include "with_ros/params.hpp"
 #include "yaml/calibration.hpp"
 
 namespace ardrone_vslam {

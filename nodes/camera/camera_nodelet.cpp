@@ -9,7 +9,7 @@
 #include <chrono>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "from_ros/params.hpp"
+#include "with_ros/params.hpp"
 
 namespace ardrone_vslam {
 namespace {

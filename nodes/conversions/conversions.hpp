@@ -22,24 +22,18 @@
 #include "ardrone_vslam/odometry_faults.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/time_offset.hpp"
-#include "from_ros/camera_info_conversion.hpp"
 #include "input_checks/checked.hpp"
+#include "with_ros/camera_info_conversion.hpp"
+#include "with_ros/geometry_conversion.hpp"
 
 /// The only place that sees both messages and the core's types. Everything that comes in is checked
 /// here, so that the core is only ever given what its headers ask for.
 namespace ardrone_vslam {
 
-std::int64_t toNanoseconds(const ros::Time& time);
-ros::Time toRosTime(std::int64_t stamp_ns);
-
 // --- in -----------------------------------------------------------------------------------------
 
-/// Pose of base in odom with a normalised quaternion, within rangeFault's bounds. The covariance is
-/// the message's, also one that counts as not given (covarianceFault).
+/// As toUnboundedState, within rangeFault's bounds.
 Checked<OdometryState> toOdometryState(const nav_msgs::Odometry& odometry);
-
-/// The same with any finite position and twist: for the OdometryAdapter, which repairs some.
-Checked<OdometryState> toUnboundedState(const nav_msgs::Odometry& odometry);
 
 /// Its range is not looked at: HeightInput knows what is one.
 Checked<RangeReading> toRangeReading(const sensor_msgs::Range& message);
@@ -66,9 +60,6 @@ struct Frames {
   std::string odom;
   std::string base;
 };
-
-geometry_msgs::Pose toPose(const Eigen::Isometry3d& T_a_b);
-geometry_msgs::Transform toTransform(const Eigen::Isometry3d& T_a_b);
 
 /// The fused pose of base in map.
 geometry_msgs::PoseWithCovarianceStamped toPoseMessage(const FrameResult& result,

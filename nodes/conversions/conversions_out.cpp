@@ -22,10 +22,6 @@ std_msgs::Header headerOf(std::int64_t stamp_ns, const std::string& frame) {
   return header;
 }
 
-void toRowMajor(const Matrix6d& matrix, boost::array<double, 36>& row_major) {
-  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(row_major.data()) = matrix;
-}
-
 geometry_msgs::PoseWithCovariance toPoseWithCovariance(const FrameResult& result) {
   geometry_msgs::PoseWithCovariance pose;
   pose.pose = toPose(result.T_map_base);
@@ -86,29 +82,6 @@ void toMessage(const ImageFeatures& features, const std::string& camera_frame, F
   if (!message.descriptor.empty()) {
     std::memcpy(message.descriptor.data(), features.descriptor.data(), message.descriptor.size());
   }
-}
-
-geometry_msgs::Pose toPose(const Eigen::Isometry3d& T_a_b) {
-  const Eigen::Quaterniond q(T_a_b.linear());
-  geometry_msgs::Pose pose;
-  pose.position.x = T_a_b.translation().x();
-  pose.position.y = T_a_b.translation().y();
-  pose.position.z = T_a_b.translation().z();
-  pose.orientation.x = q.x();
-  pose.orientation.y = q.y();
-  pose.orientation.z = q.z();
-  pose.orientation.w = q.w();
-  return pose;
-}
-
-geometry_msgs::Transform toTransform(const Eigen::Isometry3d& T_a_b) {
-  const geometry_msgs::Pose pose = toPose(T_a_b);
-  geometry_msgs::Transform transform;
-  transform.translation.x = pose.position.x;
-  transform.translation.y = pose.position.y;
-  transform.translation.z = pose.position.z;
-  transform.rotation = pose.orientation;
-  return transform;
 }
 
 geometry_msgs::PoseWithCovarianceStamped toPoseMessage(const FrameResult& result,

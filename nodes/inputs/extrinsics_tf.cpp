@@ -7,19 +7,6 @@
 #include "conversions/conversions.hpp"
 
 namespace ardrone_vslam {
-namespace {
-
-Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
-  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
-  T_a_b.translation() << transform.translation.x, transform.translation.y, transform.translation.z;
-  T_a_b.linear() = Eigen::Quaterniond(transform.rotation.w, transform.rotation.x,
-                                      transform.rotation.y, transform.rotation.z)
-                       .normalized()
-                       .toRotationMatrix();
-  return T_a_b;
-}
-
-}  // namespace
 
 ExtrinsicsTf::ExtrinsicsTf(const ros::NodeHandle& nh) : tf_(nh) {}
 
@@ -31,10 +18,11 @@ std::optional<Eigen::Isometry3d> ExtrinsicsTf::find(const std::string& base_fram
   const auto known = T_base_cam_.find(camera_frame);
   if (known != T_base_cam_.end()) return known->second;
   try {
-    const Eigen::Isometry3d T_base_cam = toIsometry(
+    const auto T_base_cam = toIsometry(
         tf_.buffer().core().lookupTransform(base_frame, camera_frame, ros::Time(0)).transform);
-    const std::string wrong = extrinsicsFault(T_base_cam);
-    if (wrong.empty()) return T_base_cam_[camera_frame] = T_base_cam;
+    const std::string wrong =
+        T_base_cam.value ? extrinsicsFault(*T_base_cam.value) : T_base_cam.fault;
+    if (wrong.empty()) return T_base_cam_[camera_frame] = *T_base_cam.value;
     fault_ = "transform from " + base_frame + " to " + camera_frame + ": " + wrong;
   } catch (const tf2::TransformException& e) {
     fault_ = "no transform from " + base_frame + " to " + camera_frame + " (" + e.what() +
@@ -53,7 +41,7 @@ std::optional<Eigen::Isometry3d> ExtrinsicsTf::T_odom_base(const std::string& od
   for (const ros::Time& time : {toRosTime(stamp_ns), ros::Time(0)}) {
     if (!tf.canTransform(odom_frame, base_frame, time)) continue;
     try {
-      return toIsometry(tf.lookupTransform(odom_frame, base_frame, time).transform);
+      return toIsometry(tf.lookupTransform(odom_frame, base_frame, time).transform).value;
     } catch (const tf2::TransformException&) {  // forgotten meanwhile
     }
   }

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "conversions/conversions.hpp"
-#include "from_ros/navdata_conversion.hpp"
 #include "timing/stamp_guard.hpp"
+#include "with_ros/navdata_conversion.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "conversions/conversions.hpp"
 #include "conversions/frame_names.hpp"
-#include "from_ros/navdata_conversion.hpp"
 #include "inputs/frame_matcher.hpp"
+#include "with_ros/navdata_conversion.hpp"
 
 namespace ardrone_vslam {
 namespace {

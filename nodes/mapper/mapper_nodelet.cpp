@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "conversions/frame_names.hpp"
-#include "from_ros/params.hpp"
+#include "with_ros/params.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "from_ros/params.hpp"
+#include "with_ros/params.hpp"
 
 namespace ardrone_vslam {
 

@@ -9,11 +9,11 @@
 
 #include "ardrone_vslam/tracker.hpp"
 #include "configs/node_config.hpp"
-#include "from_ros/camera_info_conversion.hpp"
 #include "images/image_input.hpp"
 #include "timing/stage_clock.hpp"
 #include "timing/warning_limiter.hpp"
 #include "tracker/image_receiver.hpp"
+#include "with_ros/camera_info_conversion.hpp"
 
 namespace ardrone_vslam {
 

@@ -10,8 +10,8 @@
 
 #include "ardrone_vslam/instruction_set.hpp"
 #include "conversions/conversions.hpp"
-#include "from_ros/params.hpp"
 #include "outputs/debug_image.hpp"
+#include "with_ros/params.hpp"
 
 namespace ardrone_vslam {
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "odometry/image_rotation.hpp"
+
 namespace ardrone_vslam {
 namespace {
 

@@ -90,7 +90,7 @@ inline void rotateCameras(const std::string& from, const std::string& to,
       const auto& q = transform.transform.rotation;
       Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
       T.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z) * turn;
-      transform.transform.rotation = toPoseMessage(T).orientation;
+      transform.transform.rotation = toPose(T).orientation;
     }
     copy.write(instance.getTopic(), instance.getTime(), *tf);
   }

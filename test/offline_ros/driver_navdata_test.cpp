@@ -4,7 +4,7 @@
 
 #include "bags/bag_sequence.hpp"
 #include "driver_recording.hpp"
-#include "from_ros/navdata_conversion.hpp"
+#include "with_ros/navdata_conversion.hpp"
 
 namespace ardrone_vslam {
 namespace {

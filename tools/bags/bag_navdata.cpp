@@ -7,7 +7,7 @@
 #include "bags/bag_poses.hpp"
 #include "bags/messages/bag_messages.hpp"
 #include "bags/messages/bag_read_message.hpp"
-#include "from_ros/navdata_conversion.hpp"
+#include "with_ros/navdata_conversion.hpp"
 
 namespace ardrone_vslam {
 namespace {

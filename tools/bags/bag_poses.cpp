@@ -35,13 +35,13 @@ constexpr const char* kNotInOrder =
 
 std::optional<TruthPose> toTruthPose(const rosbag::MessageInstance& instance) {
   if (const auto pose = readMessage<geometry_msgs::PoseStamped>(instance)) {
-    return TruthPose{toNanoseconds(pose->header.stamp), fromPoseMessage(pose->pose)};
+    return TruthPose{toNanoseconds(pose->header.stamp), toIsometry(pose->pose).value};
   }
   if (const auto pose = readMessage<geometry_msgs::PoseWithCovarianceStamped>(instance)) {
-    return TruthPose{toNanoseconds(pose->header.stamp), fromPoseMessage(pose->pose.pose)};
+    return TruthPose{toNanoseconds(pose->header.stamp), toIsometry(pose->pose.pose).value};
   }
   if (const auto odometry = readMessage<nav_msgs::Odometry>(instance)) {
-    return TruthPose{toNanoseconds(odometry->header.stamp), fromPoseMessage(odometry->pose.pose)};
+    return TruthPose{toNanoseconds(odometry->header.stamp), toIsometry(odometry->pose.pose).value};
   }
   return std::nullopt;
 }
@@ -74,16 +74,17 @@ std::string withoutSlash(const std::string& frame) {
 BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic, BagFindings& findings) {
   BagOdometry odometry;
   if (topic.empty()) return odometry;
-  std::size_t not_finite = 0;
+  std::size_t refused = 0;
+  std::string first_fault;
   std::size_t too_far = 0;
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = readMessage<nav_msgs::Odometry>(instance);
     if (!message) continue;
     if (odometry.base_frame.empty()) odometry.base_frame = withoutSlash(message->child_frame_id);
-    const auto state = fromOdometryMessage(*message);
+    const auto [state, fault] = toUnboundedState(*message);
     if (!state) {
-      ++not_finite;
+      if (refused++ == 0) first_fault = fault;
     } else if (OdometryAdapter::isBeyondAllJumps(*state)) {
       ++too_far;
     } else {
@@ -91,9 +92,8 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic, BagFi
     }
   }
   const std::size_t out_of_order = keepAscent(Ascent::kMayRepeat, odometry.states);
-  findings.lose(not_finite, view.size(), topic,
-                "messages dropped: pose, twist or a covariance is not finite, or the quaternion is "
-                "not a unit; correct the odometry's source");
+  findings.lose(refused, view.size(), topic,
+                "messages dropped (the first: " + first_fault + "); correct the odometry's source");
   findings.lose(
       too_far, view.size(), topic,
       "messages dropped: " + std::string(kTooFarFault) + "; correct the odometry's source");
@@ -150,19 +150,6 @@ Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic, BagFindin
   return Trajectory(std::move(truth));
 }
 
-namespace {
-
-geometry_msgs::Pose poseOf(const geometry_msgs::TransformStamped& message) {
-  geometry_msgs::Pose pose;
-  pose.position.x = message.transform.translation.x;
-  pose.position.y = message.transform.translation.y;
-  pose.position.z = message.transform.translation.z;
-  pose.orientation = message.transform.rotation;
-  return pose;
-}
-
-}  // namespace
-
 Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base_frame,
                                  const std::string& camera_frame) {
   // The camera is fixed to base: its last transform holds for all time, static or not.
@@ -176,14 +163,14 @@ Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base
       const std::string child = withoutSlash(transform.child_frame_id);
       parents[child] = withoutSlash(transform.header.frame_id);
       // tf2 would print some lines for each.
-      if (fromPoseMessage(poseOf(transform))) buffer.setTransform(transform, "bag", true);
+      if (toIsometry(transform.transform).value) buffer.setTransform(transform, "bag", true);
     }
   }
   std::string base = withoutSlash(base_frame);
   if (base.empty()) base = parents[camera_frame];
   try {
     const auto message = buffer.lookupTransform(base, camera_frame, ros::Time(0));
-    if (const auto T_base_cam = fromPoseMessage(poseOf(message))) {
+    if (const auto T_base_cam = toIsometry(message.transform).value) {
       const std::string fault = extrinsicsFault(*T_base_cam);
       if (fault.empty()) return *T_base_cam;
       throw std::runtime_error(bag.getFileName() + ": tf from the base frame '" + base +

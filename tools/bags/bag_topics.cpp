@@ -4,6 +4,7 @@
 #include <rosbag/view.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <functional>
 #include <stdexcept>
 #include <vector>
@@ -31,10 +32,6 @@ bool contains(const std::vector<std::string>& list, const std::string& text) {
   return std::find(list.begin(), list.end(), text) != list.end();
 }
 
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 std::string listOf(const std::vector<std::string>& names) {
   std::string list;
   for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
@@ -56,7 +53,7 @@ std::string parentName(const std::string& topic) {
 
 /// Namespace of an image topic, raw or compressed.
 std::string cameraOf(const std::string& topic) {
-  return parentName(endsWith(topic, "/compressed") ? parentName(topic) : topic);
+  return parentName(boost::algorithm::ends_with(topic, "/compressed") ? parentName(topic) : topic);
 }
 
 /// Of ardrone_autonomy's topics the one of whichever camera streams; empty when there is none.
@@ -175,7 +172,8 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
   topics.image = chooser.choose(image, options.image_topic, [&types](const std::string& topic) {
     // Of one image recorded in both ways the raw one is taken.
     const bool is_second = types.at(topic) == kCompressed && types.count(parentName(topic)) != 0;
-    return !is_second && !endsWith(topic, "/compressedDepth") && !endsWith(topic, "/debug_image");
+    return !is_second && !boost::algorithm::ends_with(topic, "/compressedDepth") &&
+           !boost::algorithm::ends_with(topic, "/debug_image");
   });
   if (topics.image.empty()) chooser.refuseMissing(image, "record the camera's images");
   topics.is_compressed = types.at(topics.image) == kCompressed;
@@ -195,8 +193,9 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
     topics.odometry =
         chooser.choose(odometry, options.odometry_topic, [&topics](const std::string& topic) {
           // What the mapper publishes is no odometry.
-          return topic != topics.truth && !endsWith(topic, "odometry_fused") &&
-                 !endsWith(topic, "odometry_live") && !endsWith(topic, "observer_odometry");
+          return topic != topics.truth && !boost::algorithm::ends_with(topic, "odometry_fused") &&
+                 !boost::algorithm::ends_with(topic, "odometry_live") &&
+                 !boost::algorithm::ends_with(topic, "observer_odometry");
         });
   if (options.use_range) {
     topics.range = chooser.choose({"range", "--range-topic", {kRange}}, options.range_topic, any);

@@ -125,7 +125,7 @@ class BagWriter {
     geometry_msgs::PoseStamped message;
     message.header.stamp = toRosTime(pose.stamp_ns);
     message.header.frame_id = options_.frames.map;
-    message.pose = toPoseMessage(pose.T_frame_body);
+    message.pose = toPose(pose.T_frame_body);
     bag_.write(options_.topics.truth, message.header.stamp, message);
   }
 

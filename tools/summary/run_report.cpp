@@ -114,7 +114,7 @@ void addScale(const RunResult& run, Json& summary) {
     });
   };
   summary["fused_scale_error"] = is_estimated ? orNull(last.scale_error) : Json(nullptr);
-  summary["fused_scale_deviation"] = is_estimated ? orNull(last.scale_sigma) : Json(nullptr);
+  summary["fused_scale_sigma"] = is_estimated ? orNull(last.scale_sigma) : Json(nullptr);
   // More is better: isWorseWhenLarger names it, as every count of which that is so.
   summary["heights_used"] = count(HeightOutcome::kApplied);
   summary["heights_rejected"] = count(HeightOutcome::kRejected);
@@ -211,7 +211,7 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["image_time_offset_s"] = run.image_time_offset_s;
   summary["image_time_offset_found_s"] = secondsAfterFirst(run, run.time_offset_found_ns);
   summary["image_time_offset_estimate_s"] = is_known ? Json(offset.offset_s) : Json();
-  summary["image_time_offset_deviation_s"] = is_known ? Json(offset.sigma_s) : Json();
+  summary["image_time_offset_sigma_s"] = is_known ? Json(offset.sigma_s) : Json();
   summary["image_time_offset_unknown"] = is_known ? Json() : Json(explain(offset.state));
   summary["setup_fault"] = nameOf(run.setup.fault);
   summary["setup_confirmed"] = run.setup.is_confirmed;

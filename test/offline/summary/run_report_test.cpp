@@ -95,7 +95,7 @@ TEST(RunReport, PosesAreOfTheImagesExposures) {
   summary = summaryOf(run, e, {});
   EXPECT_EQ(summary["image_time_offset_found_s"], 1.5);
   EXPECT_EQ(summary["image_time_offset_estimate_s"], 0.3);
-  EXPECT_EQ(summary["image_time_offset_deviation_s"], 0.002);
+  EXPECT_EQ(summary["image_time_offset_sigma_s"], 0.002);
 }
 
 TEST(RunReport, SummaryHasAllThatIsAskedFor) {

@@ -20,94 +20,94 @@ from drone import TIMEOUT_S, Drone, Recorder  # noqa: E402
 
 
 class MissingOdometry(unittest.TestCase):
-    def keep_sending(self, drone, with_odometry, until):
-        """Sends images until a status fulfils the condition. @return it, or None"""
+    """The tests are one flight, in the order of their numbers."""
+
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("missing_odometry_test")
+        cls.drone = Drone()
+        cls.diagnostics = Recorder("/diagnostics", DiagnosticArray)
+        cls.drone.connect()
+
+    def keep_sending(self, with_odometry, until):
+        """Sends images until a status fulfils the condition. @return it"""
         end_s = time.monotonic() + TIMEOUT_S
         while time.monotonic() < end_s:
-            drone.next()
+            self.drone.next()
             if with_odometry:
-                drone.send(drone.odometry())
-            drone.send(drone.image(), drone.info())
-            found = drone.status.wait(until, 0.1)
+                self.drone.send(self.drone.odometry())
+            self.drone.send(self.drone.image(), self.drone.info())
+            found = self.drone.status.wait(until, 0.1)
             if found:
                 return found
-        return None
+        self.fail("no such status came")
 
-    def test_each_is_named(self):
-        rospy.init_node("missing_odometry_test")
-        drone = Drone()
-        diagnostics = Recorder("/diagnostics", DiagnosticArray)
-        drone.connect()
+    def expect_diagnosis(self, level, told):
+        """Waits for one of the mapper's of this level that fulfils the condition."""
+        self.assertIsNotNone(self.diagnostics.wait(lambda array: any(
+            "mapper" in s.name and s.level == level and told(s) for s in array.status)))
 
-        status = drone.status.wait(lambda s: s.state == Status.WAITING_FOR_FEATURES)
+    def expect_log(self, text):
+        self.assertIsNotNone(self.drone.log.wait(lambda log: text in log.msg))
+
+    def test_1_features(self):
+        status = self.drone.status.wait(lambda s: s.state == Status.WAITING_FOR_FEATURES)
         self.assertIsNotNone(status)
         self.assertIn("/vslam/features", status.reason)
         self.assertIn("tracker", status.reason)
 
+    def test_2_odometry(self):
         status = self.keep_sending(
-            drone, False, lambda s: s.state == Status.WAITING_FOR_ODOMETRY and
-            s.dropped_no_odometry > 0)
-        self.assertIsNotNone(status)
+            False, lambda s: s.state == Status.WAITING_FOR_ODOMETRY and s.dropped_no_odometry > 0)
         self.assertEqual(status.state_name, "waiting_for_odometry")
         self.assertIn("no odometry has come on /odometry", status.reason)
         self.assertIn("remap", status.reason)
         self.assertEqual(status.images, 0)
+        self.expect_diagnosis(DiagnosticStatus.ERROR, lambda s: "no odometry" in s.message)
 
-        def is_error(array):
-            return any("mapper" in s.name and s.level == DiagnosticStatus.ERROR and
-                       "no odometry" in s.message for s in array.status)
-        self.assertIsNotNone(diagnostics.wait(is_error))
-
+    def test_3_extrinsics(self):
         status = self.keep_sending(
-            drone, True, lambda s: s.state == Status.WAITING_FOR_EXTRINSICS and
-            s.dropped_no_extrinsics > 0)
-        self.assertIsNotNone(status)
+            True, lambda s: s.state == Status.WAITING_FOR_EXTRINSICS and s.dropped_no_extrinsics > 0)
         self.assertIn("base_link to camera_optical", status.reason)
         self.assertIn("static_transform_publisher", status.reason)
         self.assertEqual(status.images, 0)
 
-        drone.mount_camera(forward_m=1e300)
-        status = self.keep_sending(drone, True, lambda s: "beyond 100 m" in s.reason)
-        self.assertIsNotNone(status)
+        self.drone.mount_camera(forward_m=1e300)
+        status = self.keep_sending(True, lambda s: "beyond 100 m" in s.reason)
         self.assertEqual(status.state, Status.WAITING_FOR_EXTRINSICS)
         self.assertIn("base_link to camera_optical", status.reason)
         self.assertEqual(status.images, 0)
 
-        drone.mount_camera()
-        self.assertIsNotNone(self.keep_sending(drone, True, lambda s: s.images > 0))
-        self.assertIsNotNone(drone.fly(1)[0])
+    def test_4_all_is_there(self):
+        self.drone.mount_camera()
+        self.keep_sending(True, lambda s: s.images > 0)
+        self.assertIsNotNone(self.drone.fly(1)[0])
+        self.keep_sending(True, lambda _: any(
+            "mapper" in s.name and s.level == DiagnosticStatus.OK
+            for array in self.diagnostics.all() for s in array.status))
 
-        def is_well(array):
-            return any("mapper" in s.name and s.level == DiagnosticStatus.OK for s in array.status)
-        self.assertIsNotNone(self.keep_sending(drone, True, lambda _: any(
-            is_well(array) for array in diagnostics.all())))
-
-        for _ in range(25):  # 2.5 s by its stamps, as if in millimetres
-            drone.next()
-            odometry = drone.odometry()
+    def test_5_odometry_in_millimetres(self):
+        for _ in range(25):  # 2.5 s by its stamps
+            self.drone.next()
+            odometry = self.drone.odometry()
             odometry.pose.pose.position.x = 300 * odometry.header.stamp.to_sec()
-            drone.send(odometry)
+            self.drone.send(odometry)
+        self.expect_diagnosis(DiagnosticStatus.WARN, lambda s: any(
+            v.key == "odometry speed" and "metres are expected" in v.value for v in s.values))
+        self.expect_log("/odometry moves at 300 m/s")
 
-        def is_told(array):
-            return any("mapper" in s.name and s.level == DiagnosticStatus.WARN and
-                       any(v.key == "odometry speed" and "metres are expected" in v.value for v in s.values)
-                       for s in array.status)
-        self.assertIsNotNone(diagnostics.wait(is_told))
-        self.assertIsNotNone(drone.log.wait(lambda log: "/odometry moves at 300 m/s" in log.msg))
-
-        # tf has a prefix that the odometry lacks, and the driver sends it in a burst.
+    def test_6_prefix_of_tf(self):
+        """tf has a prefix that the odometry lacks, and the driver sends it in a burst."""
         tf = rospy.Publisher("/tf", TFMessage, queue_size=10, latch=True)
         transform = TransformStamped()
-        transform.header.stamp = drone.stamp()
+        transform.header.stamp = self.drone.stamp()
         transform.header.frame_id, transform.child_frame_id = "drone1/odom", "base_link"
         transform.transform.rotation.w = 1.0
         tf.publish(TFMessage([transform] * 6))
-        self.assertIsNotNone(drone.log.wait(lambda log: "set tf_prefix to drone1" in log.msg))
-
-        def is_counted(array):
-            return any(v.key == "tf transforms with a stamp that was there" and v.value == "5"
-                       for s in array.status for v in s.values)
-        self.assertIsNotNone(diagnostics.wait(is_counted))
+        self.expect_log("set tf_prefix to drone1")
+        self.assertIsNotNone(self.diagnostics.wait(lambda array: any(
+            v.key == "tf transforms with a stamp that was there" and v.value == "5"
+            for s in array.status for v in s.values)))
 
 
 if __name__ == "__main__":

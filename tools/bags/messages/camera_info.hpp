@@ -6,7 +6,7 @@
 #include <string>
 
 #include "ardrone_vslam/camera_model.hpp"
-#include "from_ros/camera_info_conversion.hpp"
+#include "with_ros/camera_info_conversion.hpp"
 
 namespace ardrone_vslam {
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <cstdio>
 
@@ -34,14 +35,12 @@ std::string prefixed(const DoctorRecording& recording, const std::string& frame)
   return found;
 }
 
-bool endsWith(const std::string& name, const std::string& end) {
-  return name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
-}
-
 /// Where such a camera most likely sits.
 Eigen::Isometry3d usualExtrinsics(const std::string& camera_frame) {
-  if (endsWith(camera_frame, "ardrone_base_frontcam")) return cameraNamed("front").T_body_cam;
-  if (endsWith(camera_frame, "ardrone_base_bottomcam")) return cameraNamed("bottom").T_body_cam;
+  if (boost::algorithm::ends_with(camera_frame, "ardrone_base_frontcam"))
+    return cameraNamed("front").T_body_cam;
+  if (boost::algorithm::ends_with(camera_frame, "ardrone_base_bottomcam"))
+    return cameraNamed("bottom").T_body_cam;
   return forwardCamera();
 }
 

@@ -6,8 +6,8 @@
 #include "bags/bag_poses.hpp"
 #include "bags/messages/bag_messages.hpp"
 #include "bags/messages/grey_image.hpp"
-#include "from_ros/camera_info_conversion.hpp"
-#include "from_ros/navdata_conversion.hpp"
+#include "with_ros/camera_info_conversion.hpp"
+#include "with_ros/navdata_conversion.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -72,7 +72,7 @@ void DoctorCollector::see(const nav_msgs::Odometry& message, std::int64_t receiv
     recording_.base_frame = withoutSlash(message.child_frame_id);
   }
   recording_.odometry.push_back(
-      {{toNanoseconds(message.header.stamp), received_ns}, fromOdometryMessage(message)});
+      {{toNanoseconds(message.header.stamp), received_ns}, toUnboundedState(message).value});
 }
 
 void DoctorCollector::see(const Navdata& message, std::int64_t received_ns) {
@@ -89,12 +89,7 @@ void DoctorCollector::see(const sensor_msgs::Imu& message, std::int64_t received
 
 void DoctorCollector::see(const tf2_msgs::TFMessage& message) {
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
-    geometry_msgs::Pose pose;
-    pose.position.x = transform.transform.translation.x;
-    pose.position.y = transform.transform.translation.y;
-    pose.position.z = transform.transform.translation.z;
-    pose.orientation = transform.transform.rotation;
-    const auto T_parent_child = fromPoseMessage(pose);
+    const auto T_parent_child = toIsometry(transform.transform).value;
     if (!T_parent_child) continue;
     DoctorTransform& edge = recording_.transforms[withoutSlash(transform.child_frame_id)];
     const std::string parent = withoutSlash(transform.header.frame_id);

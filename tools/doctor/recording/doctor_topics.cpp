@@ -2,6 +2,7 @@
 #include "doctor/recording/doctor_topics.hpp"
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <functional>
 #include <stdexcept>
 #include <vector>
@@ -17,10 +18,6 @@ const char* const kNavdata = "ardrone_autonomy/Navdata";
 const char* const kOwnNavdata = "ardrone_vslam/Navdata";  // another name, the same fields
 const char* const kImu = "sensor_msgs/Imu";
 const char* const kTwist = "geometry_msgs/Twist";
-
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 std::string parentName(const std::string& topic) {
   const auto slash = topic.rfind('/');
@@ -106,8 +103,10 @@ std::string best(DoctorRecording& recording, const Role& role, const std::string
 
 /// What the mapper publishes is no odometry, nor is the truth.
 bool isOdometry(const std::string& topic) {
-  return topic.find("truth") == std::string::npos && !endsWith(topic, "odometry_fused") &&
-         !endsWith(topic, "odometry_live") && !endsWith(topic, "observer_odometry");
+  return topic.find("truth") == std::string::npos &&
+         !boost::algorithm::ends_with(topic, "odometry_fused") &&
+         !boost::algorithm::ends_with(topic, "odometry_live") &&
+         !boost::algorithm::ends_with(topic, "observer_odometry");
 }
 
 }  // namespace
@@ -120,7 +119,8 @@ void chooseTopics(const DoctorTopicNames& names, DoctorRecording& recording) {
   recording.image_topic = best(recording, image, names.image, [&topics](const std::string& topic) {
     const bool is_second =
         topics.at(topic).type == kCompressed && topics.count(parentName(topic)) > 0;
-    return !is_second && !endsWith(topic, "/compressedDepth") && !endsWith(topic, "/debug_image");
+    return !is_second && !boost::algorithm::ends_with(topic, "/compressedDepth") &&
+           !boost::algorithm::ends_with(topic, "/debug_image");
   });
   const std::string raw =
       isCompressed(recording) ? parentName(recording.image_topic) : recording.image_topic;

@@ -128,7 +128,7 @@ class DriverBagWriter {
     geometry_msgs::PoseStamped message;
     message.header.stamp = toRosTime(pose.stamp_ns);
     message.header.frame_id = BagFrameNames().map;
-    message.pose = toPoseMessage(pose.T_frame_body);
+    message.pose = toPose(pose.T_frame_body);
     bag_.write(BagTopicNames().truth, message.header.stamp, message);
   }
 

@@ -15,14 +15,6 @@ namespace {
 constexpr double kDegPerRad = 180 / M_PI;
 constexpr double kDriverGravity_m_s2 = 9.8;  // the driver's, to turn g into m/s^2
 
-geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector) {
-  geometry_msgs::Vector3 message;
-  message.x = vector.x();
-  message.y = vector.y();
-  message.z = vector.z();
-  return message;
-}
-
 /// The drone counts 2048 s (11 bits of seconds, 21 of microseconds); the driver makes a float.
 float driverClock_us(double clock_s) {
   constexpr double kWrap_s = 2048;
@@ -66,7 +58,7 @@ sensor_msgs::Imu toImu(const DronePacket& packet, const Navdata& navdata) {
   imu.angular_velocity = toVector(packet.angular_rate_base_rad_s);
   Eigen::Isometry3d attitude = Eigen::Isometry3d::Identity();
   attitude.linear() = packet.R_odom_base;
-  imu.orientation = toPoseMessage(attitude).orientation;
+  imu.orientation = toPose(attitude).orientation;
   imu.linear_acceleration_covariance = {0.1, 0, 0, 0, 0.1, 0, 0, 0, 0.1};
   imu.angular_velocity_covariance = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   imu.orientation_covariance = {1, 0, 0, 0, 1, 0, 0, 0, 1e5};
@@ -129,7 +121,7 @@ DriverMessages DriverEmulation::receive(const DronePacket& packet, std::int64_t 
   T_odom_base.translation() = position_odom_m_;
   T_odom_base.translation().z() = reportedHeight_m(messages.navdata);
   nav_msgs::Odometry& odometry = messages.odometry;
-  odometry.pose.pose = toPoseMessage(T_odom_base);
+  odometry.pose.pose = toPose(T_odom_base);
   odometry.twist.twist.linear = toVector(packet.velocity_base_m_s);
   if (!has(DriverFault::kZeroCovariance)) {
     odometry.twist.twist.angular = toVector(packet.angular_rate_base_rad_s);

@@ -57,7 +57,7 @@ void DriverTopics::publishTruth(const Eigen::Isometry3d& T_map_base, std::int64_
   geometry_msgs::PoseStamped message;
   message.header.stamp = toRosTime(stamp_ns);
   message.header.frame_id = map_frame_;
-  message.pose = toPoseMessage(T_map_base);
+  message.pose = toPose(T_map_base);
   truth_.publish(message);
 }
 

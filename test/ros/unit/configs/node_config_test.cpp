@@ -9,10 +9,10 @@
 
 #include "ardrone_vslam/delayed_fusion.hpp"
 #include "config_files/config_file.hpp"
-#include "from_ros/params.hpp"
 #include "support/read_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "test_paths.hpp"
+#include "with_ros/params.hpp"
 
 namespace ardrone_vslam {
 namespace {

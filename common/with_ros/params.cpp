@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "from_ros/params.hpp"
+#include "with_ros/params.hpp"
 
 #include <ros/names.h>
 #include <ros/param.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "from_ros/ros_start.hpp"
+#include "with_ros/ros_start.hpp"
 
 #include <ros/exceptions.h>
 #include <ros/init.h>

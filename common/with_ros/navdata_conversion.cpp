@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "from_ros/navdata_conversion.hpp"
+#include "with_ros/navdata_conversion.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "from_ros/camera_info_conversion.hpp"
+#include "with_ros/camera_info_conversion.hpp"
 
 namespace ardrone_vslam {
 namespace {
