@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -25,6 +27,17 @@ struct Information {
     std::vector<int> consecutive(static_cast<std::size_t>(end - first));
     std::iota(consecutive.begin(), consecutive.end(), first);
     return Information(std::move(consecutive));
+  }
+
+  /// Adds what is measured of N coordinates. `at`: where in this they stand.
+  template <int N>
+  void add(const std::array<int, std::size_t{N}>& at, const Eigen::Matrix<double, N, N>& HtWH,
+           const Eigen::Matrix<double, N, 1>& HtWr) {
+    const Eigen::Map<const Eigen::Matrix<int, N, 1>> to(at.data());
+    for (int col = 0; col < N; ++col) {
+      for (int row = 0; row < N; ++row) matrix(to[row], to[col]) += HtWH(row, col);
+      vector[to[col]] += HtWr[col];
+    }
   }
 
   /// Number of coordinates.

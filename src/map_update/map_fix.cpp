@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/selection.hpp"
 #include "map_update/observation_rays.hpp"
 #include "window/rays.hpp"
 
@@ -131,9 +132,8 @@ MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_rig,
     const Eigen::Matrix2d noise = angle_sigma_rad * angle_sigma_rad * Eigen::Matrix2d::Identity() +
                                   ray->point * s.covariance_m2 * ray->point.transpose();
     const Eigen::Matrix<double, 14, 2> weighted = H.transpose() * noise.inverse();
-    const auto to = coordinates.of(s.anchor);
-    fix.information.matrix(to, to) += weighted * H;
-    fix.information.vector(to) += weighted * (ray->residual + ray->pose * moved);
+    fix.information.add<14>(coordinates.of(s.anchor), weighted * H,
+                            weighted * (ray->residual + ray->pose * moved));
   }
   const double share =
       std::min(1.0, static_cast<double>(independent) /
@@ -149,7 +149,7 @@ MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_rig,
   fix.covariance = on_pose.inverse();
   const Eigen::MatrixXd J = fix.covariance * fix.information.matrix.middleRows<6>(1);
   fix.offset = fix.covariance * fix.information.vector.segment<6>(1);
-  const Eigen::MatrixXd P = state.covariance()(coordinates.all, coordinates.all);
+  const Eigen::MatrixXd P = rowsOf(colsOf(state.covariance(), coordinates.all), coordinates.all);
   fix.drift = J * P * J.transpose();
   return fix;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "window/common_drift.hpp"
 
+#include "linear/selection.hpp"
 #include "linear/tiled_product.hpp"
 #include "window/window_state.hpp"
 
@@ -53,7 +54,7 @@ Eigen::MatrixXf covarianceTimes(const WindowState& state, const std::vector<int>
 
 Eigen::MatrixXf ownCovarianceTimes(const WindowState& state, const std::vector<int>& of,
                                    const Eigen::MatrixXd& B) {
-  const Eigen::MatrixXd rows = state.covariance()(of, Eigen::all);
+  const Eigen::MatrixXd rows = rowsOf(state.covariance(), of);
   return rowsTimes(rows, state, of, B);
 }
 

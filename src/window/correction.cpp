@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 
 #include "linear/information_root.hpp"
+#include "linear/selection.hpp"
 #include "linear/tiled_product.hpp"
 #include "window/common_drift.hpp"
 #include "window/window_state.hpp"
@@ -32,7 +33,7 @@ Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 template <class Scalar>
 std::optional<Eigen::VectorXd> finish(const InformationRoot& root, const std::vector<int>& measured,
                                       Matrix<Scalar>& G) {
-  const Matrix<Scalar> of_measured = G(measured, Eigen::all);
+  const Matrix<Scalar> of_measured = rowsOf(G, measured);
   Matrix<Scalar> M = product(root.rows.cast<Scalar>().transpose(), of_measured);
   M.diagonal().array() += 1;
   const Eigen::LLT<Eigen::Ref<Matrix<Scalar>>> inner(M);
@@ -47,13 +48,13 @@ std::optional<Eigen::VectorXd> finish(const InformationRoot& root, const std::ve
 std::optional<Correction> Correction::by(const Information& information, const WindowState& state) {
   const std::vector<int>& w = information.coordinates;
   const auto P = state.covariance();
-  const InformationRoot root(information, P.diagonal()(w));
+  const InformationRoot root(information, rowsOf(P.diagonal(), w));
   Correction result;
   if (root.measured.size() == 0) return result;
   result.single_ = covarianceTimes(state, w, root.rows);
   auto error = finish(root, w, result.single_);
   if (!error || !(result.single_.rowwise().squaredNorm().maxCoeff() < kMostInSingle)) {
-    result.doubles_ = P(Eigen::all, w) * root.rows;
+    result.doubles_ = colsOf(P, w) * root.rows;
     error = finish(root, w, result.doubles_);
   }
   if (!error || !error->allFinite()) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/selection.hpp"
 #include "window/common_drift.hpp"
 #include "window/correction.hpp"
 #include "window/window_state.hpp"
@@ -16,7 +17,8 @@ std::optional<Eigen::VectorXd> WindowState::preview(const Information& informati
   Eigen::MatrixXf M = ownCovarianceTimes(*this, w, information.matrix);
   M.diagonal().array() += 1;
   const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXf>> inner(M);
-  const Eigen::VectorXf right = (covariance()(w, w) * information.vector).cast<float>();
+  const Eigen::VectorXf right =
+      (rowsOf(colsOf(covariance(), w), w) * information.vector).cast<float>();
   const Eigen::VectorXd error = inner.solve(right).cast<double>();
   if (!error.allFinite()) return std::nullopt;
   return error;

@@ -68,6 +68,11 @@ class RecipesTest(unittest.TestCase):
         self.assertEqual(trial.returncode, 0, trial.stderr)
         self.assertIn("== ENTRYPOINT", trial.stdout)
 
+    def test_page_has_the_releases_that_are_tried(self):
+        suites = re.search(r"^SUITES = \{(.*)\}", (ROOT / "scripts/try_releases").read_text(), re.MULTILINE)[1]
+        rows = re.findall(r"^\| Debian (\d+) \|", (ROOT / "docs/install.md").read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertEqual(re.findall(r'"(\d+)":', suites), rows)
+
 
 if __name__ == "__main__":
     unittest.main()

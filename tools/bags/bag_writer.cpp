@@ -66,7 +66,7 @@ class BagWriter {
   void writeAll(const std::string& info) {
     writeLatched(info);
     std::size_t image = 0, odometry = 0, truth = 0, range = 0;
-    constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
+    static constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
     const auto stampOr = [](const auto& list, std::size_t i) {
       return i < list.size() ? list[i].stamp_ns : kNever_ns;
     };

@@ -39,7 +39,7 @@ TEST_F(ScriptUsage, EachSaysItsVersionAndRefusesUnknownOptions) {
   for (const std::string name :
        {"test", "demo", "benchmark", "install_dependencies", "evaluate", "evaluate_all",
         "reproduce", "record_run", "measure_latency", "build_docs", "try_containerfile",
-        "cross_build", "cross_sysroot", "drone_cost", "check_style"}) {
+        "cross_build", "cross_sysroot", "drone_cost", "check_style", "try_releases"}) {
     EXPECT_EQ(script(name + " --version"), 0) << name << output();
     expectOutput({name + " (ardrone_vslam) 0."});
     EXPECT_EQ(script(name + " --no-such-option"), 2) << name;

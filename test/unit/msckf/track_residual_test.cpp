@@ -89,7 +89,7 @@ TEST(TrackResidual, DistanceAndInformationAreThoseOfTheProjectedRows) {
   EXPECT_LT((information.vector - 0.5 * H.transpose() * r).norm(),
             1e-12 * (H.transpose() * r).norm() + 1e-9);
   Eigen::VectorXd error(size);
-  for (double& e : error) e = 0.01 * random.normal();
+  for (Eigen::Index i = 0; i < error.size(); ++i) error[i] = 0.01 * random.normal();
   EXPECT_NEAR(track->squaredRest(error, first), (r - H * error).squaredNorm(), 1e-9);
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/selection.hpp"
 #include "support/odometry_states.hpp"
 #include "support/odometry_window.hpp"
 
@@ -32,7 +33,8 @@ std::vector<int> uncertainCoordinates(const WindowState& state) {
 /// so much of the scale's variance that the correction is made in doubles.
 void moveMean(WindowState& state, const Eigen::VectorXd& change) {
   Information information(uncertainCoordinates(state));
-  const Eigen::MatrixXd P = state.covariance()(information.coordinates, information.coordinates);
+  const Eigen::MatrixXd P =
+      rowsOf(colsOf(state.covariance(), information.coordinates), information.coordinates);
   information.matrix.diagonal().setConstant(1e-3);
   information.matrix(WindowState::kScale, WindowState::kScale) = 0.1;
   information.vector = P.llt().solve(change) + information.matrix * change;
@@ -99,8 +101,8 @@ void expectErrorsCarriedAsTheMeanIs(const OdometryWindow& before) {
   for (const int first : {static_cast<int>(WindowState::kAttitude),
                           static_cast<int>(WindowState::kExtrinsics), newest, newest + 3})
     for (int k = 0; k < 3; ++k) outputs.push_back(first + k);
-  const Eigen::MatrixXd expected = transition * before.covariance()(inputs, kept);
-  const Eigen::MatrixXd actual = after.covariance()(outputs, kept);
+  const Eigen::MatrixXd expected = transition * rowsOf(colsOf(before.covariance(), kept), inputs);
+  const Eigen::MatrixXd actual = rowsOf(colsOf(after.covariance(), kept), outputs);
   const char* const kNames[] = {"attitude of odom", "mounting", "position", "attitude"};
   for (Eigen::Index k = 0; k < kOutputs; ++k) {
     ASSERT_GT(expected.row(k).norm(), 1e-6);
