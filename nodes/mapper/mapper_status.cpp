@@ -60,11 +60,9 @@ void MapperStatus::publish(Status& status) {
 }
 
 void MapperStatus::endSecond(bool has_features, bool has_answer) {
-  if (has_answer) {
-    seconds_waiting_ = 0;
-  } else {
-    publishWaiting(has_features);
-  }
+  const bool waits = !clock_.endSecond() && !has_answer;
+  seconds_waiting_ = waits ? seconds_waiting_ + 1 : 0;
+  if (!has_answer) publishWaiting(has_features);
   diagnostics_.force_update();
 }
 
@@ -87,7 +85,7 @@ void MapperStatus::publishWaiting(bool has_features) {
     status.state_name = "waiting_for_odometry";
     status.reason = whyNoOdometry();
   }
-  if (isReminderDue(++seconds_waiting_)) warnings_.say(status.state_name + ": " + status.reason);
+  if (isReminderDue(seconds_waiting_)) warnings_.say(status.state_name + ": " + status.reason);
   if (parts_.slam.hasMap())
     status.landmarks = static_cast<std::uint32_t>(parts_.slam.slam().landmarks().size());
   publish(status);

@@ -10,6 +10,7 @@
 #include "mapper/features_topic.hpp"
 #include "mapper/live_slam.hpp"
 #include "mapper/odometry_topic.hpp"
+#include "timing/clock_watch.hpp"
 
 namespace ardrone_vslam {
 
@@ -49,6 +50,7 @@ class MapperStatus {
   Status latest_;          // as published last
   bool is_blind_ = false;  // hardly a corner; said when that begins
   int seconds_waiting_ = 0;
+  ClockWatch clock_;
 };
 
 }  // namespace ardrone_vslam

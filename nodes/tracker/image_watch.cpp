@@ -8,7 +8,10 @@ namespace ardrone_vslam {
 void ImageWatch::endSecond() {
   const ImageQueue::Counts counts = receiver_.counts();
   waiting_for_ = missing(counts);
-  seconds_waiting_ = waiting_for_.empty() ? 0 : seconds_waiting_ + 1;
+  const bool waits = !clock_.endSecond() && !waiting_for_.empty();
+  seconds_waiting_ = waits ? seconds_waiting_ + 1 : 0;
+  const std::string clock_fault = clock_.fault();
+  if (!clock_fault.empty()) warnings_.say(clock_fault);
   if (isReminderDue(seconds_waiting_)) warnings_.say(waiting_for_);
   warnOfLosses(counts);
   before_ = counts;

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "timing/clock_watch.hpp"
 #include "timing/warning_limiter.hpp"
 #include "tracker/image_receiver.hpp"
 
@@ -31,6 +32,7 @@ class ImageWatch {
   Warnings& warnings_;
   ImageQueue::Counts before_;  // a second ago
   int seconds_waiting_ = 0;
+  ClockWatch clock_;
   ros::master::V_TopicInfo published_;  // when last looked up, while images are missing
   std::string waiting_for_;
   std::string loss_;
