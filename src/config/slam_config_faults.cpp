@@ -37,7 +37,9 @@ std::vector<std::string> faultsBetween(const SlamConfig& config) {
         "floor_points needs a height: set use_range and give the topic range, use_navdata_height "
         "and the topic altitude, or known_height_m");
   if (config.estimator == EstimatorKind::kMsckf && config.planar)
-    faults.emplace_back("planar needs estimator thesis (or odometry): the MSCKF has no 2-D mode");
+    faults.emplace_back(
+        "planar needs estimator thesis (or odometry); the MSCKF keeps a robot on the floor by "
+        "known_height_m");
   if (config.estimator != EstimatorKind::kThesis) return faults;
   if (floor_points) heights.push_back({"floor_points", "false"});
   for (const Setting& unused : heights)
