@@ -29,7 +29,7 @@ def main():
         rows = {row["method"]: row for row in csv.DictReader(file)}
     decades = round(np.log10(LARGEST_PX / SMALLEST_PX))
     colours = plt.get_cmap("viridis", decades * COLOURS_A_DECADE)
-    figure, panels = plt.subplots(2, 2, figsize=(10, 6.2), layout="constrained", sharex=True, sharey=True)
+    figure, panels = plt.subplots(2, 2, figsize=(10, 6.2), constrained_layout=True, sharex=True, sharey=True)
     for axes, method in zip(panels.flat, ("closed_form_3", "closed_form_4", "closed_form_9", "table")):
         row = rows[method]
         errors = np.array(row["errors_px"].split(), float).reshape(int(row["height_px"]), int(row["width_px"]))

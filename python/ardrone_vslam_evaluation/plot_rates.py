@@ -50,7 +50,8 @@ def draw_error_against_rate(rows):
     axes.set_yscale("log")
     ticks = sorted({rate_hz for by_rate in known.values() for rate_hz in by_rate} | {THESIS_HZ})
     clear = [tick for i, tick in enumerate(ticks) if i == 0 or tick > 1.15 * ticks[i - 1]]
-    axes.set_xticks(clear, [f"{tick:.3g}" for tick in clear])
+    axes.set_xticks(clear)
+    axes.set_xticklabels([f"{tick:.3g}" for tick in clear])
     axes.set_xticks([], minor=True)
     axes.set_xlabel("images used a second")
     axes.set_ylabel("position error, RMSE without alignment [m]")

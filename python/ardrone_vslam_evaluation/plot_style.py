@@ -57,7 +57,7 @@ def panels(count, height_in, columns=2, title=None, **options):
     """So many axes, at most `columns` side by side; one alone takes the whole width."""
     columns = min(columns, count)
     lines = math.ceil(count / columns)
-    figure, axes = plt.subplots(lines, columns, figsize=(WIDTH_IN, height_in * lines), squeeze=False, layout="constrained", **options)
+    figure, axes = plt.subplots(lines, columns, figsize=(WIDTH_IN, height_in * lines), squeeze=False, constrained_layout=True, **options)
     if title:
         figure.suptitle(title, fontsize=10)
     for empty in axes.flat[count:]:

@@ -39,7 +39,8 @@ def prepare(axes, panel):
     values = panel.values()
     default = next(i for i, value in enumerate(values) if is_same(value, panel.default))
     axes.axvline(default, color=TRUTH, linewidth=0.9, linestyle=":")
-    axes.set_xticks(range(len(values)), values, fontsize=7)
+    axes.set_xticks(range(len(values)))
+    axes.set_xticklabels(values, fontsize=7)
     axes.set_xlim(-0.4, len(values) - 0.6)
     axes.set_title(panel.name + (f" [{panel.unit}]" if panel.unit not in ("", "-", "switch", "choice") else ""), fontsize=8)
     axes.tick_params(axis="y", labelsize=7)
@@ -83,7 +84,8 @@ def draw_errors(group, results, colours):
         one.axhline(1, color=TRUTH, linewidth=0.6)
         one.set_yscale("log")
         one.set_ylim(*LIMITS)
-        one.set_yticks(TICKS, [f"{tick:g}" for tick in TICKS])
+        one.set_yticks(TICKS)
+        one.set_yticklabels([f"{tick:g}" for tick in TICKS])
         one.set_yticks([], minor=True)
     marks = {f"over {OVERCONFIDENT_SHARE:.0%} of the images outside 3 sigma": plt.Line2D([], [], color=TRUTH, marker="o", markersize=4.5, linestyle="",
                                                                                      markerfacecolor="white"),
