@@ -156,7 +156,8 @@ def draw_passes(rows, path):
     share.plot(found, [100 * rows[f"passes{p}_kitti"]["ours_items"] / all_corners for p in found], "o-")
     share.set(xlabel="sampling passes", ylabel="%", xscale="log", ylim=(0, 105), title="share of the corners found")
     for axes in (time, speed, share):
-        axes.set_xticks(found, [str(p) for p in found])
+        axes.set_xticks(found)
+        axes.set_xticklabels([str(p) for p in found])
         axes.grid(alpha=0.3)
     figure.tight_layout()
     figure.savefig(path, dpi=110)

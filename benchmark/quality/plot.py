@@ -77,7 +77,8 @@ def graf_figure(chart):
     for axes, (measure, name) in zip(row, MEASURES):
         draw_chart(axes, chart, measure)
         finish(axes, f"graf: {name}")
-        axes.set_xticks(chart["x"], [f"1-{number:.0f}" for number in chart["x"]])
+        axes.set_xticks(chart["x"])
+        axes.set_xticklabels([f"1-{number:.0f}" for number in chart["x"]])
         axes.set_xlabel("images")
     row[0].set_ylabel("%")
     return with_legend(figure, row[0])
@@ -107,7 +108,8 @@ def passes_figure(passes, motions):
         finish(lower)
         for axes in (upper, lower):
             axes.set_xscale("log", base=2)
-            axes.set_xticks(chart["x"], [f"{number:.0f}" for number in chart["x"]])
+            axes.set_xticks(chart["x"])
+            axes.set_xticklabels([f"{number:.0f}" for number in chart["x"]])
         lower.set_xlabel(chart["axis"])
     grid[0][0].set_ylabel("share of 16 passes' [%]")
     grid[1][0].set_ylabel("precision [%]")

@@ -8,6 +8,7 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr double kQuaternionTolerance = 0.1;  // of the norm; drivers round to a few digits
+constexpr double kTfTolerance = 10e-3;        // of the squared norm, as in tf2 (buffer_core.cpp)
 
 /// @return the fault
 std::string faultOf(const geometry_msgs::TwistWithCovariance& twist) {
@@ -90,6 +91,12 @@ Checked<Eigen::Isometry3d> toIsometry(const geometry_msgs::Transform& transform)
   pose.position.y = transform.translation.y;
   pose.position.z = transform.translation.z;
   pose.orientation = transform.rotation;
+  const auto& q = transform.rotation;
+  const double squared_norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  if (!(std::abs(squared_norm - 1) < kTfTolerance)) {
+    return {std::nullopt, text("its rotation has norm ", std::sqrt(squared_norm),
+                               " and tf takes unit quaternions")};
+  }
   return toIsometry(pose);
 }
 

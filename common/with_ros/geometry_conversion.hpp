@@ -3,10 +3,12 @@
 
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Transform.h>
+#include <geometry_msgs/Vector3.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/time.h>
 
 #include <Eigen/Geometry>
+#include <boost/array.hpp>
 #include <cstdint>
 
 #include "ardrone_vslam/odometry_buffer.hpp"
@@ -27,6 +29,7 @@ geometry_msgs::Transform toTransform(const Eigen::Isometry3d& T_a_b);
 
 /// Its quaternion is normalised; a norm off by 10 % or more is a fault.
 Checked<Eigen::Isometry3d> toIsometry(const geometry_msgs::Pose& pose);
+/// The same within what tf2 takes, which is half a per cent: it refuses the others, with lines.
 Checked<Eigen::Isometry3d> toIsometry(const geometry_msgs::Transform& transform);
 
 /// Pose of base in odom, however far away (rangeFault): for the nodelets and for the tools that

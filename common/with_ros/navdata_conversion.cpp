@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "with_ros/geometry_conversion.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr const char* kNoStamp = "its stamp is zero; set header.stamp";
 Checked<NavdataReading> toNavdataReading(const Navdata& m) {
   if (m.header.stamp.isZero()) return {std::nullopt, kNoStamp};
   NavdataReading reading;
-  reading.stamp_ns = static_cast<std::int64_t>(m.header.stamp.toNSec());
+  reading.stamp_ns = toNanoseconds(m.header.stamp);
   reading.measured.R_odom_base =
       (Eigen::AngleAxisd(static_cast<double>(m.rotZ) * kRadPerDeg, Eigen::Vector3d::UnitZ()) *
        Eigen::AngleAxisd(static_cast<double>(m.rotY) * kRadPerDeg, Eigen::Vector3d::UnitY()) *
@@ -36,15 +38,15 @@ Checked<RangeReading> toHeightReading(const Navdata& m) {
   if (m.header.stamp.isZero()) return {std::nullopt, kNoStamp};
   constexpr double kSonarReach_m = 6;  // beyond it the drone guesses
   constexpr double kLowest_m = 0.1;    // 0 on the ground
-  return {RangeReading{static_cast<std::int64_t>(m.header.stamp.toNSec()), m.altd * kPerThousand,
-                       kLowest_m, kSonarReach_m, true},
+  return {RangeReading{toNanoseconds(m.header.stamp), m.altd * kPerThousand, kLowest_m,
+                       kSonarReach_m, true},
           {}};
 }
 
 Checked<DroneImu> toDroneImu(const sensor_msgs::Imu& m) {
   if (m.header.stamp.isZero()) return {std::nullopt, kNoStamp};
   DroneImu imu;
-  imu.stamp_ns = static_cast<std::int64_t>(m.header.stamp.toNSec());
+  imu.stamp_ns = toNanoseconds(m.header.stamp);
   imu.angular_rate_base_rad_s << m.angular_velocity.x, m.angular_velocity.y, m.angular_velocity.z;
   imu.force_base_m_s2 << m.linear_acceleration.x, m.linear_acceleration.y, m.linear_acceleration.z;
   return {imu, {}};

@@ -26,8 +26,9 @@
 #include "with_ros/camera_info_conversion.hpp"
 #include "with_ros/geometry_conversion.hpp"
 
-/// The only place that sees both messages and the core's types. Everything that comes in is checked
-/// here, so that the core is only ever given what its headers ask for.
+/// The only place of the nodelets, with geometry_conversion.hpp and its neighbours, that sees both
+/// messages and the core's types. Everything that comes in is checked here, so that the core is
+/// only ever given what its headers ask for.
 namespace ardrone_vslam {
 
 // --- in -----------------------------------------------------------------------------------------

@@ -45,9 +45,10 @@ std::string FusionStatus::waitingFor() const {
 
 void FusionStatus::endSecond() {
   const std::string waiting = waitingFor();
-  if (waiting != waited_for_) seconds_waiting_ = 0;
+  const bool stands = clock_.endSecond();
+  if (stands || waiting != waited_for_) seconds_waiting_ = 0;
   waited_for_ = waiting;
-  if (!waiting.empty()) ++seconds_waiting_;
+  if (!stands && !waiting.empty()) ++seconds_waiting_;
   if (isReminderDue(seconds_waiting_)) warnings_.say(waiting);
   diagnostics_.force_update();
   has_odometry_ = false;

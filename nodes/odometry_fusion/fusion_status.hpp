@@ -7,6 +7,7 @@
 #include <string>
 
 #include "odometry_fusion/correction_queue.hpp"
+#include "timing/clock_watch.hpp"
 #include "timing/warning_limiter.hpp"
 
 namespace ardrone_vslam {
@@ -47,6 +48,7 @@ class FusionStatus {
   bool has_correction_ = false;
   std::string waited_for_;  // in the second before
   int seconds_waiting_ = 0;
+  ClockWatch clock_;
   std::uint64_t corrections_refused_ = 0;
   std::uint64_t odometry_refused_ = 0;
   std::uint64_t restarts_ = 0;

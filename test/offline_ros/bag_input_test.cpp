@@ -245,6 +245,13 @@ TEST(BagInput, OdometryThatIsWrongIsDroppedAndCounted) {
   expectWarning(*far, {"/odom", "1 messages dropped", "more than 1e7 m"});
 
   recipe = BagRecipe();
+  recipe.odometry[3].pose.pose.orientation.w *= 1.05;  // few digits, as the nodelets: kept
+  recipe.odometry[4].pose.pose.orientation.w *= 1.5;
+  const auto skewed = TestBag(recipe).open();
+  EXPECT_EQ(skewed->odometry().size(), 4u);
+  expectWarning(*skewed, {"/odom", "1 messages dropped", "has norm 1.5"});
+
+  recipe = BagRecipe();
   for (auto& message : recipe.odometry) message.pose.pose.position.x = 3;
   expectWarning(*TestBag(recipe).open(), {"/odom", "5 poses are equal", "zero odometry"});
 }

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "bags/check/topic_names.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -44,11 +46,6 @@ std::string listOf(const TopicTypes& types) {
     list += (list.empty() ? "" : ", ") + topic.first + " (" + topic.second + ")";
   }
   return list;
-}
-
-std::string parentName(const std::string& topic) {
-  const auto slash = topic.rfind('/');
-  return slash == std::string::npos ? std::string() : topic.substr(0, slash);
 }
 
 /// Namespace of an image topic, raw or compressed.
@@ -170,10 +167,7 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
   ChosenTopics topics;
   const Role image{"images", "--image-topic", {kImage, kCompressed}, true};
   topics.image = chooser.choose(image, options.image_topic, [&types](const std::string& topic) {
-    // Of one image recorded in both ways the raw one is taken.
-    const bool is_second = types.at(topic) == kCompressed && types.count(parentName(topic)) != 0;
-    return !is_second && !boost::algorithm::ends_with(topic, "/compressedDepth") &&
-           !boost::algorithm::ends_with(topic, "/debug_image");
+    return mayBeCameraImage(topic, types.at(topic) == kCompressed, types);
   });
   if (topics.image.empty()) chooser.refuseMissing(image, "record the camera's images");
   topics.is_compressed = types.at(topics.image) == kCompressed;
@@ -192,10 +186,7 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
   if (!options.is_odometry_of_navdata)
     topics.odometry =
         chooser.choose(odometry, options.odometry_topic, [&topics](const std::string& topic) {
-          // What the mapper publishes is no odometry.
-          return topic != topics.truth && !boost::algorithm::ends_with(topic, "odometry_fused") &&
-                 !boost::algorithm::ends_with(topic, "odometry_live") &&
-                 !boost::algorithm::ends_with(topic, "observer_odometry");
+          return topic != topics.truth && !isFusedOdometry(topic);
         });
   if (options.use_range) {
     topics.range = chooser.choose({"range", "--range-topic", {kRange}}, options.range_topic, any);

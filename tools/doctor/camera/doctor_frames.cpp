@@ -24,8 +24,7 @@ std::string prefixed(const DoctorRecording& recording, const std::string& frame)
   std::string found;
   const std::string end = "/" + frame;
   const auto look = [&](const std::string& name) {
-    const bool fits =
-        name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+    const bool fits = boost::algorithm::ends_with(name, end) && name != end;
     if (fits && name != found) found = found.empty() ? name : std::string();
   };
   for (const auto& edge : recording.transforms) {

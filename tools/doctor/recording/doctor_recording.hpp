@@ -50,7 +50,7 @@ struct DoctorCameraInfo {
 
 struct DoctorOdometry {
   DoctorTime time;
-  std::optional<OdometryState> state;  ///< nothing: a number is not finite or no rotation
+  std::optional<OdometryState> state;  ///< nothing: not finite, no rotation, or no stamp
 };
 
 /// A packet of the drone; nothing without a stamp.

@@ -2,10 +2,11 @@
 #include "doctor/recording/doctor_topics.hpp"
 
 #include <algorithm>
-#include <boost/algorithm/string/predicate.hpp>
 #include <functional>
 #include <stdexcept>
 #include <vector>
+
+#include "bags/check/topic_names.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -18,11 +19,6 @@ const char* const kNavdata = "ardrone_autonomy/Navdata";
 const char* const kOwnNavdata = "ardrone_vslam/Navdata";  // another name, the same fields
 const char* const kImu = "sensor_msgs/Imu";
 const char* const kTwist = "geometry_msgs/Twist";
-
-std::string parentName(const std::string& topic) {
-  const auto slash = topic.rfind('/');
-  return slash == std::string::npos ? std::string() : topic.substr(0, slash);
-}
 
 bool isOneOf(const std::vector<std::string>& types, const std::string& type) {
   return std::find(types.begin(), types.end(), type) != types.end();
@@ -103,10 +99,7 @@ std::string best(DoctorRecording& recording, const Role& role, const std::string
 
 /// What the mapper publishes is no odometry, nor is the truth.
 bool isOdometry(const std::string& topic) {
-  return topic.find("truth") == std::string::npos &&
-         !boost::algorithm::ends_with(topic, "odometry_fused") &&
-         !boost::algorithm::ends_with(topic, "odometry_live") &&
-         !boost::algorithm::ends_with(topic, "observer_odometry");
+  return topic.find("truth") == std::string::npos && !isFusedOdometry(topic);
 }
 
 }  // namespace
@@ -117,10 +110,7 @@ void chooseTopics(const DoctorTopicNames& names, DoctorRecording& recording) {
   recording.replay_options.clear();
   const Role image{"--image-topic", {kImage, kCompressed}};
   recording.image_topic = best(recording, image, names.image, [&topics](const std::string& topic) {
-    const bool is_second =
-        topics.at(topic).type == kCompressed && topics.count(parentName(topic)) > 0;
-    return !is_second && !boost::algorithm::ends_with(topic, "/compressedDepth") &&
-           !boost::algorithm::ends_with(topic, "/debug_image");
+    return mayBeCameraImage(topic, topics.at(topic).type == kCompressed, topics);
   });
   const std::string raw =
       isCompressed(recording) ? parentName(recording.image_topic) : recording.image_topic;
