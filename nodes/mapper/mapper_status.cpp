@@ -60,13 +60,12 @@ void MapperStatus::publish(Status& status) {
 }
 
 void MapperStatus::endSecond(bool has_features, bool has_answer) {
-  const bool waits = !clock_.endSecond() && !has_answer;
-  seconds_waiting_ = waits ? seconds_waiting_ + 1 : 0;
-  if (!has_answer) publishWaiting(has_features);
+  const bool reminds = reminder_.isDue(!has_answer);
+  if (!has_answer) publishWaiting(has_features, reminds);
   diagnostics_.force_update();
 }
 
-void MapperStatus::publishWaiting(bool has_features) {
+void MapperStatus::publishWaiting(bool has_features, bool reminds) {
   Status status;
   status.header.stamp = ros::Time::now();
   status.header.frame_id = parts_.odometry.frames().map;
@@ -85,7 +84,7 @@ void MapperStatus::publishWaiting(bool has_features) {
     status.state_name = "waiting_for_odometry";
     status.reason = whyNoOdometry();
   }
-  if (isReminderDue(seconds_waiting_)) warnings_.say(status.state_name + ": " + status.reason);
+  if (reminds) warnings_.say(status.state_name + ": " + status.reason);
   if (parts_.slam.hasMap())
     status.landmarks = static_cast<std::uint32_t>(parts_.slam.slam().landmarks().size());
   publish(status);

@@ -35,7 +35,7 @@ class MapperStatus {
   void endSecond(bool has_features, bool has_answer);
 
  private:
-  void publishWaiting(bool has_features);
+  void publishWaiting(bool has_features, bool reminds);
   std::string whyNoOdometry() const;
   void publish(Status& status);
   void fillStages(const Features& features, Status& status) const;
@@ -49,8 +49,7 @@ class MapperStatus {
   diagnostic_updater::Updater diagnostics_;
   Status latest_;          // as published last
   bool is_blind_ = false;  // hardly a corner; said when that begins
-  int seconds_waiting_ = 0;
-  ClockWatch clock_;
+  Reminder reminder_;
 };
 
 }  // namespace ardrone_vslam

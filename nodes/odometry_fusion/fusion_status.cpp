@@ -45,11 +45,9 @@ std::string FusionStatus::waitingFor() const {
 
 void FusionStatus::endSecond() {
   const std::string waiting = waitingFor();
-  const bool stands = clock_.endSecond();
-  if (stands || waiting != waited_for_) seconds_waiting_ = 0;
+  if (waiting != waited_for_) reminder_ = Reminder();
   waited_for_ = waiting;
-  if (!stands && !waiting.empty()) ++seconds_waiting_;
-  if (isReminderDue(seconds_waiting_)) warnings_.say(waiting);
+  if (reminder_.isDue(!waiting.empty())) warnings_.say(waiting);
   diagnostics_.force_update();
   has_odometry_ = false;
   has_correction_ = false;

@@ -47,8 +47,7 @@ class FusionStatus {
   bool has_odometry_ = false;  // within this second
   bool has_correction_ = false;
   std::string waited_for_;  // in the second before
-  int seconds_waiting_ = 0;
-  ClockWatch clock_;
+  Reminder reminder_;
   std::uint64_t corrections_refused_ = 0;
   std::uint64_t odometry_refused_ = 0;
   std::uint64_t restarts_ = 0;

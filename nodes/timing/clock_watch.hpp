@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "timing/warning_limiter.hpp"
+
 namespace ardrone_vslam {
 
 /// Whether ROS time stands still, with /use_sim_time: before a bag begins, while it is paused and
@@ -32,6 +34,21 @@ class ClockWatch {
  private:
   ros::Time before_;
   int seconds_ = 0;
+};
+
+/// When to remind of what one waits for (isReminderDue): not while ROS time stands still.
+class Reminder {
+ public:
+  /// To be called once a second, with whether one waits for anything.
+  bool isDue(bool waits) {
+    const bool counts = !clock_.endSecond() && waits;
+    seconds_waiting_ = counts ? seconds_waiting_ + 1 : 0;
+    return isReminderDue(seconds_waiting_);
+  }
+
+ private:
+  ClockWatch clock_;
+  int seconds_waiting_ = 0;
 };
 
 }  // namespace ardrone_vslam

@@ -45,5 +45,17 @@ TEST_F(ClockWatchTest, TheWallsClockNeverStands) {
   EXPECT_FALSE(watch_.endSecond());
 }
 
+TEST_F(ClockWatchTest, AReminderIsDueAfterThreeSecondsInWhichTheClockMoves) {
+  Reminder reminder;
+  ros::Time::setNow(ros::Time(7));
+  for (int second = 0; second < 40; ++second) EXPECT_FALSE(reminder.isDue(true)) << second;
+  for (int second = 1; second <= 30; ++second) {
+    ros::Time::setNow(ros::Time(7 + second));
+    EXPECT_EQ(reminder.isDue(true), second == 3 || second == 30) << second;
+  }
+  ros::Time::setNow(ros::Time(60));
+  EXPECT_FALSE(reminder.isDue(false));
+}
+
 }  // namespace
 }  // namespace ardrone_vslam
