@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "odometry/image_rotation.hpp"
-
 namespace ardrone_vslam {
 namespace {
 
@@ -57,8 +55,9 @@ void Anchors::joinNearest(WindowState& state) {
 std::vector<AnchorCorrection> Anchors::takeCorrections(const WindowState& state,
                                                        double point_distance_m,
                                                        double focal_length_px) {
-  constexpr double kUnseen_px = 0.3 * kOldCornerSigma_px;  // a correction that no match can feel
-  return re_anchoring_.take(state, point_distance_m, kUnseen_px / focal_length_px);
+  constexpr double kUnseenSigmas = 0.3;  // of a match's corner: less, none of them can feel
+  return re_anchoring_.take(state, point_distance_m,
+                            kUnseenSigmas * config_.track_sigma_px / focal_length_px);
 }
 
 std::vector<AnchorDrift> driftsOf(const WindowState& state) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "linear/scalars.hpp"
-#include "odometry/image_rotation.hpp"
 #include "window/map_entry.hpp"
 #include "zero_motion/scene_limit.hpp"
 
@@ -12,7 +11,7 @@ namespace ardrone_vslam {
 namespace {
 
 // So far an image moves on before tracks say anything new: a parallax is known to a 15th then.
-constexpr double kKeyframe_px = 15 * kOldCornerSigma_px;
+constexpr double kKeyframeSigmas = 15;  // of a track's corner
 constexpr double kKeyframe_s = 2;  // a slow camera drifts meanwhile, so it gets one all the same
 
 }  // namespace
@@ -128,7 +127,8 @@ bool Msckf::needsKeyframe(const ImageFeatures& features) {
       seconds(newest().stamp_ns - last.stamp_ns) > kKeyframe_s)
     return true;
   const TrackWindow::Motion moved = tracks_.motionSince(last, newest(), features, order_);
-  return moved.lost > moved.common || moved.common == 0 || moved.median_px > kKeyframe_px;
+  return moved.lost > moved.common || moved.common == 0 ||
+         moved.median_px > kKeyframeSigmas * config_.track_sigma_px;
 }
 
 void Msckf::dropOldest() {

@@ -17,8 +17,6 @@ struct BearingPair {
 
 /// Sigma of a corner between two images [px], per axis.
 constexpr double kCornerSigma_px = 0.7;
-/// The same, of corners that are not aligned, or seconds apart: track_sigma_px's default.
-constexpr double kOldCornerSigma_px = 1;
 /// More pairs cost time and say little, as neighbours err alike.
 constexpr std::size_t kMostPairs = 120;
 

@@ -13,12 +13,12 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::int64_t kStep_ns = 60'000'000;         // from one image kept to the next
-constexpr std::int64_t kBetween_ns = 150'000'000;     // from one comparison to the next
-constexpr std::int64_t kSpan_ns = 270'000'000;        // a pair's images are so far apart, or less;
-constexpr std::int64_t kLongest_ns = 1'500'000'000;   // slow cameras' so far
-constexpr std::size_t kImages = 16;                   // kept: those of kSpan_ns and of the offsets
-constexpr double kLeast_px = 3 * kOldCornerSigma_px;  // the tracks' median way: less is noise
+constexpr std::int64_t kStep_ns = 60'000'000;        // from one image kept to the next
+constexpr std::int64_t kBetween_ns = 150'000'000;    // from one comparison to the next
+constexpr std::int64_t kSpan_ns = 270'000'000;       // a pair's images are so far apart, or less;
+constexpr std::int64_t kLongest_ns = 1'500'000'000;  // slow cameras' so far
+constexpr std::size_t kImages = 16;                  // kept: those of kSpan_ns and of the offsets
+constexpr double kLeast_px = 3;  // the tracks' median way, four of kCornerSigma_px: less is noise
 constexpr double kStill = 1e-6;  // odometry that moves less, in m and rad, is frozen
 
 std::int64_t offsetOf_ns(std::size_t offset) {

@@ -11,6 +11,7 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr double kOldCornerSigma_px = 1;  // between images that are seconds apart
 constexpr double kAttitudeNoise_rad = 1e-4;
 // Way over depth: further, parallax tells the way.
 constexpr double kParallaxTells = 0.02;
