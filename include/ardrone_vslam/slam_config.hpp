@@ -226,9 +226,11 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"image_time_offset_s", "s", -5, 5, kImageTimeOffset, turnFirst(2)},
         c.image_time_offset_s);
   visit(
-      ParameterInfo{"planar", "switch", 0, 0,
-                    "2-D mode: all z are zero, for a front camera when height and tilt are unknown",
-                    ofPart(PagePart::kThesis)},
+      ParameterInfo{
+          "planar", "switch", 0, 0,
+          "base moves in a plane: a robot on a level floor. Its z is held; with estimator "
+          "thesis all z are zero, for a front camera when height and tilt are unknown",
+          turnFirst(6)},
       c.planar);
   visitParameters(c.odometry, visit);
   visitParameters(c.odometry_adapter, visit);

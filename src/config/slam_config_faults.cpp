@@ -36,10 +36,11 @@ std::vector<std::string> faultsBetween(const SlamConfig& config) {
     faults.emplace_back(
         "floor_points needs a height: set use_range and give the topic range, use_navdata_height "
         "and the topic altitude, or known_height_m");
-  if (config.estimator == EstimatorKind::kMsckf && config.planar)
-    faults.emplace_back(
-        "planar needs estimator thesis (or odometry); the MSCKF keeps a robot on the floor by "
-        "known_height_m");
+  if (config.estimator == EstimatorKind::kMsckf && config.planar && !heights.empty())
+    faults.push_back("planar and " + heights.front().name +
+                     " exclude each other, as planar says that the height is constant: set planar "
+                     "to false, or " +
+                     heights.front().name + " to " + heights.front().off);
   if (config.estimator != EstimatorKind::kThesis) return faults;
   if (floor_points) heights.push_back({"floor_points", "false"});
   for (const Setting& unused : heights)

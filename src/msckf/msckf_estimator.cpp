@@ -12,6 +12,8 @@ namespace {
 // Odometry drifts otherwise than it claims: after so long without a fix the pose's sigma counts
 // twice in the search, after twice as long three times.
 constexpr double kWidening_s = 10;
+// Above the floor, with `planar`: any constant says that z stays.
+constexpr double kPlanarHeight_m = 0;
 
 }  // namespace
 
@@ -42,6 +44,7 @@ void MsckfEstimator::predict(const OdometryState& odometry,
   T_odom_base_ = odometry.T_odom_base;
   OdometryState moved = odometry;  // for the filter, odom is the frame that it works in
   moved.T_odom_base = T_filter_odom_ * odometry.T_odom_base;
+  if (config_.planar) moved.height_m = kPlanarHeight_m;
   std::optional<OdometryStep> moved_step = step;
   if (moved_step) {
     moved_step->jump_odom_m = T_filter_odom_.linear() * step->jump_odom_m;

@@ -49,6 +49,8 @@ struct Slam::State {
   LandmarkMap map;
   std::unique_ptr<MapSearch> search;  // until the flight has been found
   MapCamera seen_by;                  // the last frame
+  /// The thesis's 2-D mode; the MSCKF's `planar` is a measurement of z.
+  bool hasFlatRays() const { return config.planar && config.estimator != EstimatorKind::kMsckf; }
   FrameResult result;
   Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
 
@@ -60,7 +62,7 @@ struct Slam::State {
     estimator->enterMap(*entry, search->map(), view, map);
     search.reset();
     camera = estimator->camera();
-    view.reset(features, camera.T_map_cam, config.planar);
+    view.reset(features, camera.T_map_cam, hasFlatRays());
   }
 };
 
@@ -137,7 +139,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   const std::optional<OdometryStep> step = s.step_watch.see(odometry);
   estimator.predict(odometry, step);
   CameraPose camera = estimator.camera();
-  s.view.reset(features, camera.T_map_cam, s.config.planar);
+  s.view.reset(features, camera.T_map_cam, s.hasFlatRays());
   s.seen_by = {features.width_px, features.height_px, features.focal_length_px};
   if (s.search) {
     enter(Stage::kAssociate);

@@ -59,6 +59,20 @@ TEST(SlamConfig, OneHeightIsEnough) {
   expectFault(config, {"use_range and use_navdata_height exclude each other"});
 }
 
+TEST(SlamConfig, PlanarIsAHeightOfTheMsckfAndAModeOfTheThesisFilter) {
+  SlamConfig config;
+  config.planar = true;
+  EXPECT_TRUE(faultsOf(config).empty());
+  config.msckf.height.floor_points = true;
+  expectFault(config, {"floor_points needs a height"});
+  config.msckf.height.floor_points = false;
+  config.height_input.use_range = true;
+  expectFault(config, {"planar and use_range exclude each other", "use_range to false"});
+  config.height_input.use_range = false;
+  config.estimator = EstimatorKind::kThesis;
+  EXPECT_TRUE(faultsOf(config).empty());
+}
+
 TEST(SlamConfig, FloorPointsNeedAHeightAndTheMsckf) {
   SlamConfig config;
   config.msckf.height.floor_points = true;
