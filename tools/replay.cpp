@@ -223,10 +223,11 @@ PipelineConfig configOf(const Options& given) {
 
 void checkOdometry(const Options& o, const PipelineConfig& config) {
   if (!o.odometry_profile.empty()) profileOfOption(o.odometry_profile);
-  if (config.mapper.odometry_adapter.mode != OdometryMode::kNavdata) return;
-  if (std::filesystem::is_directory(o.input) || !o.odometry_profile.empty()) {
+  const OdometryMode mode = config.mapper.odometry_adapter.mode;
+  const bool is_of_bags = mode == OdometryMode::kNavdata || mode == OdometryMode::kImu;
+  if (is_of_bags && (std::filesystem::is_directory(o.input) || !o.odometry_profile.empty())) {
     throw UsageError(o.input +
-                     ": odometry_mode navdata needs a bag with the AR.Drone's navdata, and no "
+                     ": odometry_mode navdata and imu are of bags, without "
                      "--odometry-profile; set it to pose or twist");
   }
 }
@@ -234,10 +235,9 @@ void checkOdometry(const Options& o, const PipelineConfig& config) {
 void checkHeights(const Sequence& sequence, const HeightInputConfig& heights) {
   if (!sequence.ranges().empty()) return;
   if (heights.use_navdata_height) {
-    std::cerr
-        << "replay: " << sequence.name()
-        << ": holds no heights of an AR.Drone's navdata (use_navdata_height); the scale stays "
-           "the odometry's\n";
+    std::cerr << "replay: " << sequence.name()
+              << ": holds no heights of an AR.Drone's navdata (use_navdata_height); the scale "
+                 "stays the odometry's\n";
   }
   if (heights.use_range) {
     throw std::runtime_error(sequence.name() +

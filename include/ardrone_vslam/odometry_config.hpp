@@ -86,14 +86,15 @@ void visitParameters(OdometryBufferConfig& c, Visitor&& visit) {
 
 /// What of the odometry is believed.
 enum class OdometryMode {
-  kPose,    ///< the odometry's pose
-  kTwist,   ///< its twist, integrated anew, and its orientation
-  kNavdata  ///< the drone's own packets (DroneObserver)
+  kPose,     ///< the odometry's pose
+  kTwist,    ///< its twist, integrated anew, and its orientation
+  kNavdata,  ///< the drone's own packets (DroneObserver)
+  kImu       ///< its displacements, along an IMU's attitude (ImuOdometry)
 };
 
 template <>
 struct EnumNames<OdometryMode> {
-  static constexpr std::array<const char*, 3> kNames{"pose", "twist", "navdata"};
+  static constexpr std::array<const char*, 4> kNames{"pose", "twist", "navdata", "imu"};
 };
 
 /// Where z comes from with OdometryMode::kTwist.
@@ -121,7 +122,8 @@ void visitParameters(OdometryAdapterConfig& c, Visitor&& visit) {
                     "from the twist (axes of base) and the orientation, for drivers that integrate "
                     "wrongly (ardrone_autonomy's yaw is mirrored). With navdata the package's own "
                     "observer of the AR.Drone's topics `navdata` and `imu` takes the odometry's "
-                    "place. `mapper` and `odometry_fusion` need the same",
+                    "place. With imu the attitude is that of the topic `imu`, and the odometry's "
+                    "displacements are laid along it. `mapper` and `odometry_fusion` need the same",
                     turnFirst(3)},
       c.mode);
   visit(ParameterInfo{"odometry_height", "choice", 0, 0,
@@ -150,9 +152,8 @@ void visitParameters(HeightInputConfig& c, Visitor&& visit) {
                       turnFirst(5)},
         c.use_navdata_height);
   visit(ParameterInfo{"known_height_m", "m", 0, 1000,
-                      "constant height of base above a level floor (a robot on wheels; 0.001 for "
-                      "a base on the floor): holds z, tells nothing of the scale; 0: not known",
-                      turnFirst(6)},
+                      "constant height of base above a level floor, for `floor_points`: as "
+                      "`planar`, it holds z and tells nothing of the scale; 0: not known"},
         c.known_height_m);
 }
 

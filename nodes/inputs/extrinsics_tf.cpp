@@ -34,14 +34,14 @@ std::optional<Eigen::Isometry3d> ExtrinsicsTf::find(const std::string& base_fram
   return std::nullopt;
 }
 
-std::optional<Eigen::Isometry3d> ExtrinsicsTf::T_odom_base(const std::string& odom_frame,
-                                                           const std::string& base_frame,
-                                                           std::int64_t stamp_ns) const {
+std::optional<Eigen::Isometry3d> ExtrinsicsTf::latest(const std::string& a_frame,
+                                                      const std::string& b_frame,
+                                                      std::int64_t stamp_ns) const {
   const tf2::BufferCore& tf = tf_.buffer().core();
   for (const ros::Time& time : {toRosTime(stamp_ns), ros::Time(0)}) {
-    if (!tf.canTransform(odom_frame, base_frame, time)) continue;
+    if (!tf.canTransform(a_frame, b_frame, time)) continue;
     try {
-      return toIsometry(tf.lookupTransform(odom_frame, base_frame, time).transform).value;
+      return toIsometry(tf.lookupTransform(a_frame, b_frame, time).transform).value;
     } catch (const tf2::TransformException&) {  // forgotten meanwhile
     }
   }

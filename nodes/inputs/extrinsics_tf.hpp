@@ -29,10 +29,10 @@ class ExtrinsicsTf {
   /// What is missing and how to mend it; empty once the extrinsics are known.
   const std::string& fault() const { return fault_; }
 
-  /// Of the drone, as tf itself has it at this time, else the latest; nothing: it does not know.
-  std::optional<Eigen::Isometry3d> T_odom_base(const std::string& odom_frame,
-                                               const std::string& base_frame,
-                                               std::int64_t stamp_ns) const;
+  /// T_a_b of any two frames, as tf has it at this time, else the latest; nothing: it does not
+  /// know.
+  std::optional<Eigen::Isometry3d> latest(const std::string& a_frame, const std::string& b_frame,
+                                          std::int64_t stamp_ns) const;
 
   TfBuffer& tf() { return tf_.buffer(); }
   const TfBuffer& tf() const { return tf_.buffer(); }

@@ -103,7 +103,7 @@ void MapperNodelet::start() {
   timers_.every(nh, MapperOutputs::kMapPeriod_s, [this] {
     if (slam_->hasMap()) outputs_->publishMap(slam_->slam().landmarks(), odometry_->frames().map);
   });
-  odometry_->subscribe(nh);
+  odometry_->subscribe(nh, *extrinsics_);
   features_->subscribe(nh, settings_.node.queue_size);
 }
 
@@ -177,7 +177,7 @@ Eigen::Isometry3d MapperNodelet::mapToOdomOfTf(const FrameResult& result) const 
   Eigen::Isometry3d T_map_odom = slam_->slam().T_map_odom();
   if (settings_.slam.odometry_adapter.mode == OdometryMode::kPose) return T_map_odom;
   const Frames& frames = odometry_->frames();
-  const auto T_odom_base = extrinsics_->T_odom_base(frames.odom, frames.base, result.stamp_ns);
+  const auto T_odom_base = extrinsics_->latest(frames.odom, frames.base, result.stamp_ns);
   return T_odom_base ? result.T_map_base * T_odom_base->inverse() : T_map_odom;
 }
 

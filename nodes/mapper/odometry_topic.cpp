@@ -4,14 +4,16 @@
 #include <utility>
 
 #include "conversions/frame_names.hpp"
+#include "inputs/imu_input.hpp"
+#include "inputs/navdata_input.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr std::uint32_t kQueue = 2000;  // 10 s at 200 Hz, while the mapper is busy
 
-bool isMadeOfNavdata(const MapperSettings& settings) {
-  return settings.slam.odometry_adapter.mode == OdometryMode::kNavdata;
+OdometryMode modeOf(const MapperSettings& settings) {
+  return settings.slam.odometry_adapter.mode;
 }
 
 }  // namespace
@@ -22,24 +24,31 @@ OdometryTopic::OdometryTopic(const ros::NodeHandle& nh, const MapperSettings& se
       matcher_(matcher),
       warnings_(warnings),
       calls_(std::move(calls)),
-      name_(nh.resolveName(isMadeOfNavdata(settings) ? "navdata" : "odometry")),
+      name_(nh.resolveName(modeOf(settings) == OdometryMode::kNavdata ? "navdata" : "odometry")),
       watch_(name_, warnings),
       intake_(settings.slam.odometry_adapter) {
   frames_.map = withTfPrefix(settings.tf_prefix, settings.node.map_frame);
 }
 
-void OdometryTopic::subscribe(ros::NodeHandle& nh) {
-  if (!isMadeOfNavdata(settings_)) {
+void OdometryTopic::subscribe(ros::NodeHandle& nh, const ExtrinsicsTf& tf) {
+  const OdometryMaker::Frames frames{settings_.node.odom_frame, settings_.node.base_frame,
+                                     settings_.tf_prefix};
+  const auto taken = [this](const nav_msgs::OdometryConstPtr& odometry) { onOdometry(odometry); };
+  const auto refused = [this](const std::string& topic, const std::string& fault) {
+    refuse(topic, fault);
+  };
+  if (modeOf(settings_) == OdometryMode::kNavdata) {
+    maker_ = std::make_unique<NavdataInput>(nh, frames, taken, refused);
+  } else if (modeOf(settings_) == OdometryMode::kImu) {
+    maker_ = std::make_unique<ImuInput>(nh, frames, tf, taken, refused);
+  } else {
     subscriber_ = nh.subscribe("odometry", kQueue, &OdometryTopic::onOdometry, this,
                                ros::TransportHints().tcpNoDelay());
-    return;
   }
-  navdata_ = std::make_unique<NavdataInput>(
-      nh,
-      NavdataInput::Frames{settings_.node.odom_frame, settings_.node.base_frame,
-                           settings_.tf_prefix},
-      [this](const nav_msgs::OdometryConstPtr& odometry) { onOdometry(odometry); },
-      [this](const std::string& topic, const std::string& fault) { refuse(topic, fault); });
+}
+
+bool OdometryTopic::isNavdata() const {
+  return modeOf(settings_) == OdometryMode::kNavdata;
 }
 
 void OdometryTopic::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
@@ -120,7 +129,7 @@ void OdometryTopic::refuse(const std::string& topic, const std::string& fault) {
 
 OdometryFaultCounts OdometryTopic::faults() const {
   OdometryFaultCounts faults = intake_.faults();
-  if (navdata_) add(navdata_->faults(), faults);
+  if (maker_) add(maker_->faults(), faults);
   return faults;
 }
 

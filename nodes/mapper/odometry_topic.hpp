@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "inputs/extrinsics_tf.hpp"
 #include "inputs/frame_matcher.hpp"
-#include "inputs/navdata_input.hpp"
 #include "inputs/odometry_intake.hpp"
+#include "inputs/odometry_maker.hpp"
 #include "mapper/mapper_settings.hpp"
 #include "mapper/odometry_watch.hpp"
 
@@ -29,11 +30,12 @@ class OdometryTopic {
   /// @throws ConfigError
   OdometryTopic(const ros::NodeHandle& nh, const MapperSettings& settings, FrameMatcher& matcher,
                 Warnings& warnings, Calls calls);
-  /// Callbacks run in the queue of `nh`, at once.
-  void subscribe(ros::NodeHandle& nh);
+  /// Callbacks run in the queue of `nh`, at once. @param tf  outlives this
+  void subscribe(ros::NodeHandle& nh, const ExtrinsicsTf& tf);
 
   const std::string& name() const { return name_; }
-  bool isNavdata() const { return navdata_ != nullptr; }
+  /// Whether the package makes it of navdata, of which name() is then the topic.
+  bool isNavdata() const;
   /// Those of odom and base are empty until the first odometry.
   const Frames& frames() const { return frames_; }
   /// Which of them the odometry does not name, and what helps; else empty.
@@ -61,8 +63,8 @@ class OdometryTopic {
   std::string name_;
   OdometryWatch watch_;
   OdometryIntake intake_;
-  std::unique_ptr<NavdataInput> navdata_;  // odometry_mode navdata
-  ros::Subscriber subscriber_;             // without navdata
+  std::unique_ptr<OdometryMaker> maker_;  // odometry_mode navdata or imu
+  ros::Subscriber subscriber_;            // without a maker
   Frames frames_;
   std::uint64_t refused_ = 0;
 };

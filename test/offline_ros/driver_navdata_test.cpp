@@ -67,7 +67,7 @@ BagReadOptions frontCamera() {
 TEST(DriverNavdata, TakesTheOdometrysPlaceInABag) {
   const DriverRecording recording(driverFaultsNamed({"released"}), "truth");
   BagReadOptions options = frontCamera();
-  options.is_odometry_of_navdata = true;
+  options.odometry_mode = OdometryMode::kNavdata;
   const auto bag = openBag(recording.path(), options);
   const auto& states = bag->odometry();
   ASSERT_EQ(states.size(), recording.read<Navdata>("/ardrone/navdata").size());
@@ -102,7 +102,7 @@ TEST(DriverNavdata, HeightsAreReadWhereTheyAreAskedFor) {
 TEST(DriverNavdata, ABagWithoutIsRefusedByName) {
   const DriverRecording recording({});
   BagReadOptions options = frontCamera();
-  options.is_odometry_of_navdata = true;
+  options.odometry_mode = OdometryMode::kNavdata;
   options.navdata_topic = "/ardrone/odometry";
   try {
     openBag(recording.path(), options);

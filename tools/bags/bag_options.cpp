@@ -19,7 +19,7 @@ void BagOptions::addTo(CLI::App& app) {
   add("--navdata-topic", bag_.navdata_topic,
       "of a bag, with odometry_mode navdata or use_navdata_height; default: the only one there is");
   add("--imu-topic", bag_.imu_topic,
-      "of a bag, with odometry_mode navdata; default: the only one there is, if any");
+      "of a bag, with odometry_mode navdata or imu; default: the only one there is, if any");
   add("--command-topic", bag_.command_topic,
       "cmd_vel in a bag, with odometry_mode navdata; default: the only Twist there is, if any");
   add("--truth-topic", bag_.truth_topic, "of a bag; default: the one called truth");
@@ -48,7 +48,7 @@ BagReadOptions BagOptions::read(const PipelineConfig& config) const {
   options.rescale_calibration = config.rescale_calibration;
   options.use_range = config.mapper.height_input.use_range;
   options.use_navdata_height = config.mapper.height_input.use_navdata_height;
-  options.is_odometry_of_navdata = config.mapper.odometry_adapter.mode == OdometryMode::kNavdata;
+  options.odometry_mode = config.mapper.odometry_adapter.mode;
   if (options.base_frame.empty()) options.base_frame = config.base_frame;
   if (!camera_yaml_.empty()) options.camera = readCameraYaml(camera_yaml_);
   return options;

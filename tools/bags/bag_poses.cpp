@@ -151,8 +151,8 @@ Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic, BagFindin
 }
 
 Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base_frame,
-                                 const std::string& camera_frame) {
-  // The camera is fixed to base: its last transform holds for all time, static or not.
+                                 const std::string& sensor_frame, const std::string& sensor) {
+  // It is fixed to base: its last transform holds for all time, static or not.
   tf2::BufferCore buffer;
   std::map<std::string, std::string> parents;
   rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}));
@@ -167,22 +167,22 @@ Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base
     }
   }
   std::string base = withoutSlash(base_frame);
-  if (base.empty()) base = parents[camera_frame];
+  if (base.empty()) base = parents[sensor_frame];
   try {
-    const auto message = buffer.lookupTransform(base, camera_frame, ros::Time(0));
-    if (const auto T_base_cam = toIsometry(message.transform).value) {
-      const std::string fault = extrinsicsFault(*T_base_cam);
-      if (fault.empty()) return *T_base_cam;
+    const auto message = buffer.lookupTransform(base, sensor_frame, ros::Time(0));
+    if (const auto T_base_sensor = toIsometry(message.transform).value) {
+      const std::string fault = extrinsicsFault(*T_base_sensor);
+      if (fault.empty()) return *T_base_sensor;
       throw std::runtime_error(bag.getFileName() + ": tf from the base frame '" + base +
-                               "' to the camera frame '" + camera_frame + "': " + fault);
+                               "' to the " + sensor + " frame '" + sensor_frame + "': " + fault);
     }
   } catch (const tf2::TransformException&) {
   }
   throw std::runtime_error(
-      bag.getFileName() + ": tf has no transform from the base frame '" + base +
-      "' to the camera frame '" + camera_frame +
-      "'; record /tf_static (tf2_ros static_transform_publisher base -> camera), or name the "
-      "frames by --base-frame and --camera-frame");
+      bag.getFileName() + ": tf has no transform from the base frame '" + base + "' to the " +
+      sensor + " frame '" + sensor_frame +
+      "'; record /tf_static (tf2_ros static_transform_publisher base -> " + sensor +
+      "), or name the frames by --base-frame and, of a camera, --camera-frame");
 }
 
 }  // namespace ardrone_vslam

@@ -28,6 +28,12 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic, BagFi
 /// commands, as the mapper nodelet does. `findings` says how many messages it refused.
 BagOdometry readNavdata(const rosbag::Bag& bag, const ChosenTopics& topics, BagFindings& findings);
 
+/// Puts an IMU's attitude into the odometry, as the mapper nodelet does (ImuOdometry). `findings`
+/// says how many messages of either were of no use.
+/// @throws std::runtime_error when tf does not say how the IMU is mounted
+void useImu(const rosbag::Bag& bag, const std::string& topic, BagOdometry& odometry,
+            BagFindings& findings);
+
 /// All whose stamps are in order, the ones without an echo, too.
 std::vector<RangeReading> readRanges(const rosbag::Bag& bag, const std::string& topic,
                                      BagFindings& findings);
@@ -38,10 +44,11 @@ std::vector<RangeReading> readNavdataHeights(const rosbag::Bag& bag, const std::
 /// are out of order are dropped; `findings` says how many.
 Trajectory readTruth(const rosbag::Bag& bag, const std::string& topic, BagFindings& findings);
 
-/// base -> camera from tf_static and tf, wherever in the tree the two are. An empty base frame is
-/// taken as the camera's parent. @throws std::runtime_error naming the frames and the remedy
+/// base -> sensor from tf_static and tf, wherever in the tree the two are. An empty base frame is
+/// taken as the sensor's parent. @param sensor  camera or IMU, for messages
+/// @throws std::runtime_error naming the frames and the remedy
 Eigen::Isometry3d readExtrinsics(const rosbag::Bag& bag, const std::string& base_frame,
-                                 const std::string& camera_frame);
+                                 const std::string& sensor_frame, const std::string& sensor);
 
 /// A frame's name without the leading slash of old tf.
 std::string withoutSlash(const std::string& frame);

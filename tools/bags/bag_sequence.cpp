@@ -44,13 +44,11 @@ class BagFile : public BagSequence {
     const ChosenTopics topics = chooseTopics(path, topicTypes(bag_), options);
     BagCameras cameras(bag_, topics.camera_info, options, findings_);
     images_ = std::make_unique<BagImages>(bag_, topics, cameras, findings_);
-    BagOdometry odometry = options.is_odometry_of_navdata
-                               ? readNavdata(bag_, topics, findings_)
-                               : readOdometry(bag_, topics.odometry, findings_);
+    BagOdometry odometry = readOdometry(topics, options);
     ranges_ = options.use_range ? readRanges(bag_, topics.range, findings_)
                                 : readNavdataHeights(bag_, topics.navdata);
     truth_ = readTruth(bag_, topics.truth, findings_);
-    const std::string base = options.base_frame.empty() ? odometry.base_frame : options.base_frame;
+    const std::string base = odometry.base_frame;
     if (base.empty() && !odometry.states.empty() && !options.T_base_cam) {
       throw std::runtime_error(path + ", " + topics.odometry +
                                ": names no child_frame_id; name the base frame by --base-frame or "
@@ -61,8 +59,9 @@ class BagFile : public BagSequence {
           options.camera_frame.empty() ? cameras.frame(i) : withoutSlash(options.camera_frame);
       const bool is_used = !cameras.frame(i).empty();
       cameras_.push_back({cameras.intrinsics(i), options.T_base_cam ? *options.T_base_cam
-                                                 : is_used ? readExtrinsics(bag_, base, frame)
-                                                           : Eigen::Isometry3d::Identity()});
+                                                 : is_used
+                                                     ? readExtrinsics(bag_, base, frame, "camera")
+                                                     : Eigen::Isometry3d::Identity()});
     }
     odometry_ = std::move(odometry.states);
     odometry_faults_ = odometry.faults;
@@ -89,6 +88,16 @@ class BagFile : public BagSequence {
   const BagFindings& findings() const override { return findings_; }
 
  private:
+  /// With the options' base frame, if they name one.
+  BagOdometry readOdometry(const ChosenTopics& topics, const BagReadOptions& options) {
+    BagOdometry odometry = options.odometry_mode == OdometryMode::kNavdata
+                               ? readNavdata(bag_, topics, findings_)
+                               : ardrone_vslam::readOdometry(bag_, topics.odometry, findings_);
+    if (!options.base_frame.empty()) odometry.base_frame = options.base_frame;
+    if (options.odometry_mode == OdometryMode::kImu) useImu(bag_, topics.imu, odometry, findings_);
+    return odometry;
+  }
+
   const SequenceCamera& first() const { return cameras_.at(images_->cameraOf(0)); }
 
   std::string name_;

@@ -17,10 +17,11 @@ struct BagReadOptions {
   std::string image_topic;  ///< sensor_msgs/Image or CompressedImage
   std::string camera_info_topic;
   std::string odometry_topic;  ///< nav_msgs/Odometry
-  /// odometry_mode navdata: instead of odometry, the package's own observer of these.
-  bool is_odometry_of_navdata = false;
+  /// With navdata the package's own observer takes the odometry's place, with imu the attitude is
+  /// the IMU's. The others are not the reader's.
+  OdometryMode odometry_mode = OdometryMode::kPose;
   std::string navdata_topic;  ///< ardrone_autonomy/Navdata; read as odometry or for heights
-  std::string imu_topic;      ///< sensor_msgs/Imu; there may be none
+  std::string imu_topic;      ///< sensor_msgs/Imu; with navdata there may be none
   std::string command_topic;  ///< geometry_msgs/Twist; there may be none
   std::string truth_topic;    ///< PoseStamped, PoseWithCovarianceStamped or Odometry, of base
   std::string range_topic;    ///< sensor_msgs/Range; read only with use_range

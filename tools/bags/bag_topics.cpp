@@ -135,17 +135,25 @@ bool any(const std::string&) {
   return true;
 }
 
+/// Without it the AR.Drone's observer does with less.
+void chooseImu(const TopicChooser& chooser, const BagReadOptions& options, ChosenTopics& topics) {
+  const Role imu{"IMU", "--imu-topic", {kImu}};
+  topics.imu = chooser.choose(imu, options.imu_topic, any);
+  if (topics.imu.empty() && options.odometry_mode == OdometryMode::kImu)
+    chooser.refuseMissing(imu, "record the IMU's, or set odometry_mode to pose");
+}
+
 /// The driver's own type and this package's differ in their name only.
 void chooseNavdata(const TopicChooser& chooser, const BagReadOptions& options,
                    ChosenTopics& topics) {
   const Role navdata{
       "navdata", "--navdata-topic", {"ardrone_autonomy/Navdata", "ardrone_vslam/Navdata"}};
   topics.navdata = chooser.choose(navdata, options.navdata_topic, any);
-  if (!options.is_odometry_of_navdata) return;  // only for heights, without which it goes on
+  if (options.odometry_mode != OdometryMode::kNavdata)
+    return;  // only for heights, without which it goes on
   if (topics.navdata.empty()) {
     chooser.refuseMissing(navdata, "record the driver's, or set odometry_mode to twist or pose");
   }
-  topics.imu = chooser.choose({"IMU", "--imu-topic", {kImu}}, options.imu_topic, any);
   topics.command =
       chooser.choose({"commands", "--command-topic", {kTwist}}, options.command_topic, any);
 }
@@ -180,10 +188,12 @@ ChosenTopics chooseTopics(const std::string& path, const TopicTypes& types,
   topics.truth = chooser.choose(truth, options.truth_topic, [](const std::string& topic) {
     return topic.find("truth") != std::string::npos;
   });
-  if (options.is_odometry_of_navdata || options.use_navdata_height)
-    chooseNavdata(chooser, options, topics);
+  const bool is_of_navdata = options.odometry_mode == OdometryMode::kNavdata;
+  if (is_of_navdata || options.odometry_mode == OdometryMode::kImu)
+    chooseImu(chooser, options, topics);
+  if (is_of_navdata || options.use_navdata_height) chooseNavdata(chooser, options, topics);
   const Role odometry{"odometry", "--odometry-topic", {kOdometry}};
-  if (!options.is_odometry_of_navdata)
+  if (!is_of_navdata)
     topics.odometry =
         chooser.choose(odometry, options.odometry_topic, [&topics](const std::string& topic) {
           return topic != topics.truth && !isFusedOdometry(topic);

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+
+#include <functional>
+#include <string>
+
+#include "ardrone_vslam/odometry_faults.hpp"
+
+namespace ardrone_vslam {
+
+/// Odometry that the package makes itself of other topics. It is published (`observer_odometry`)
+/// and handed on as if it had been received.
+class OdometryMaker {
+ public:
+  struct Frames {
+    std::string odom = "";  ///< empty: the maker's own choice
+    std::string base = "";  ///< empty: that of the messages
+    std::string tf_prefix = "";
+  };
+  using Take = std::function<void(const nav_msgs::OdometryConstPtr&)>;
+  /// Of a message that is not used: its topic, and why.
+  using Refuse = std::function<void(const std::string& topic, const std::string& fault)>;
+
+  virtual ~OdometryMaker() = default;
+  /// What was wrong with the messages so far, by cause.
+  virtual OdometryFaultCounts faults() const { return {}; }
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ardrone_vslam/imu_odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace ardrone_vslam {
+namespace {
+
+using Push = OdometryBuffer::Push;
+
+constexpr std::size_t kMostKept = 10000;            // of each input, whatever their stamps are
+constexpr std::int64_t kNewRun_ns = 1'000'000'000;  // stamps further back are a new run
+
+double heading_rad(const Eigen::Matrix3d& R_world_base) {
+  return std::atan2(R_world_base(1, 0), R_world_base(0, 0));
+}
+
+}  // namespace
+
+Push ImuOdometry::push(const ImuAttitude& attitude, std::vector<OdometryState>& ready) {
+  if (!attitude.R_world_base.coeffs().allFinite()) return Push::kNotFinite;
+  if (!attitudes_.empty() && attitude.stamp_ns <= attitudes_.back().stamp_ns) {
+    if (attitude.stamp_ns == attitudes_.back().stamp_ns) return Push::kDuplicateStamp;
+    if (attitude.stamp_ns > attitudes_.back().stamp_ns - kNewRun_ns) return Push::kBackwardStamp;
+    beginAnew(attitude.stamp_ns);
+  }
+  attitudes_.push_back(attitude);
+  takeReady(ready);
+  while (attitudes_.size() > kMostKept ||
+         attitudes_.back().stamp_ns - attitudes_.front().stamp_ns > 2 * kLongestWait_ns)
+    attitudes_.pop_front();
+  return Push::kAccepted;
+}
+
+Push ImuOdometry::push(const OdometryState& odometry, std::vector<OdometryState>& ready) {
+  if (!odometry.T_odom_base.matrix().allFinite()) return Push::kNotFinite;
+  const OdometryState* before = !waiting_.empty() ? &waiting_.back() : last_ ? &*last_ : nullptr;
+  if (before && odometry.stamp_ns < before->stamp_ns) {
+    if (odometry.stamp_ns > before->stamp_ns - kNewRun_ns) return Push::kBackwardStamp;
+    beginAnew(odometry.stamp_ns);
+  }
+  waiting_.push_back(odometry);
+  takeReady(ready);
+  return Push::kAccepted;
+}
+
+/// Of the two inputs one finds first that time began anew; the other may have come before it.
+void ImuOdometry::beginAnew(std::int64_t stamp_ns) {
+  const auto isOfOldRun = [stamp_ns](const auto& one) {
+    return one.stamp_ns >= stamp_ns + kNewRun_ns;
+  };
+  attitudes_.erase(std::remove_if(attitudes_.begin(), attitudes_.end(), isOfOldRun),
+                   attitudes_.end());
+  waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), isOfOldRun), waiting_.end());
+  if (last_ && isOfOldRun(*last_)) last_.reset();
+}
+
+void ImuOdometry::takeReady(std::vector<OdometryState>& ready) {
+  while (!waiting_.empty()) {
+    const OdometryState& next = waiting_.front();
+    const bool is_known = !attitudes_.empty() && attitudes_.back().stamp_ns >= next.stamp_ns;
+    if (!is_known && waiting_.size() <= kMostKept &&
+        waiting_.back().stamp_ns - next.stamp_ns <= kLongestWait_ns)
+      return;
+    const auto attitude = is_known ? attitudeAt(next.stamp_ns) : std::nullopt;
+    if (attitude) {
+      ready.push_back(laid(next, *attitude));
+      last_ = next;
+    } else {
+      ++without_attitude_;
+    }
+    waiting_.pop_front();
+  }
+}
+
+std::optional<Eigen::Quaterniond> ImuOdometry::attitudeAt(std::int64_t stamp_ns) const {
+  const auto after =
+      std::lower_bound(attitudes_.begin(), attitudes_.end(), stamp_ns,
+                       [](const ImuAttitude& a, std::int64_t t) { return a.stamp_ns < t; });
+  if (after->stamp_ns == stamp_ns) return after->R_world_base;
+  if (after == attitudes_.begin()) return std::nullopt;
+  const ImuAttitude& before = *std::prev(after);
+  const std::int64_t gap_ns = after->stamp_ns - before.stamp_ns;
+  if (gap_ns > kLongestGap_ns) return std::nullopt;
+  const double share =
+      static_cast<double>(stamp_ns - before.stamp_ns) / static_cast<double>(gap_ns);
+  return before.R_world_base.slerp(share, after->R_world_base);
+}
+
+OdometryState ImuOdometry::laid(const OdometryState& odometry,
+                                const Eigen::Quaterniond& R_world_base) {
+  const Eigen::Matrix3d reported = odometry.T_odom_base.linear();
+  if (!last_) {
+    R_odom_world_ =
+        Eigen::AngleAxisd(heading_rad(reported) - heading_rad(R_world_base.toRotationMatrix()),
+                          Eigen::Vector3d::UnitZ());
+    T_odom_base_.translation() = odometry.T_odom_base.translation();
+  }
+  const Eigen::Matrix3d attitude = (R_odom_world_ * R_world_base).toRotationMatrix();
+  if (last_) {
+    const Eigen::Isometry3d& before = last_->T_odom_base;
+    const Eigen::Vector3d way_m = odometry.T_odom_base.translation() - before.translation();
+    // Base turns on the way: its axes at both ends count alike.
+    T_odom_base_.translation() +=
+        0.5 * (T_odom_base_.linear() * (before.linear().transpose() * way_m) +
+               attitude * (reported.transpose() * way_m));
+  }
+  T_odom_base_.linear() = attitude;
+  OdometryState state = odometry;
+  state.T_odom_base = T_odom_base_;
+  return state;
+}
+
+}  // namespace ardrone_vslam
