@@ -32,8 +32,9 @@ function(ardrone_vslam_room room)
 endfunction()
 
 # The headers and templates of Eigen, ROS and OpenCV cost more than what includes them: each folder's are read once.
+# Before 3.18 CMake knows no groups, and would mix the folders.
 function(ardrone_vslam_unity target)
-  if(ARDRONE_VSLAM_UNITY_BUILD)
+  if(ARDRONE_VSLAM_UNITY_BUILD AND NOT CMAKE_VERSION VERSION_LESS 3.18)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     foreach(source ${ARGN})
       get_filename_component(folder ${source} DIRECTORY)
