@@ -37,12 +37,20 @@ class ImuOdometry {
 
   /// States that were dropped, as there is no attitude at their stamp.
   std::uint64_t withoutAttitude() const { return without_attitude_; }
+  /// States that were dropped before the first answer, as the two disagree on what is up by more
+  /// than kMostTilt_deg: a world whose z points down, or a mounting that is wrong.
+  std::uint64_t tilted() const { return tilted_; }
+  static constexpr double kMostTilt_deg = 60;
 
  private:
-  void beginAnew(std::int64_t stamp_ns);
+  template <class Input, class Other>
+  void beginAnew(std::int64_t stamp_ns, std::int64_t old_ns, std::deque<Input>& own,
+                 std::deque<Other>& other);
   void takeReady(std::vector<OdometryState>& ready);
   /// Nothing: there is none, and none will come. @pre its stamp is not after the last attitude's
   std::optional<Eigen::Quaterniond> attitudeAt(std::int64_t stamp_ns) const;
+  void use(const OdometryState& odometry, const Eigen::Quaterniond& R_world_base,
+           std::vector<OdometryState>& ready);
   OdometryState laid(const OdometryState& odometry, const Eigen::Quaterniond& R_world_base);
 
   std::deque<ImuAttitude> attitudes_;
@@ -51,6 +59,7 @@ class ImuOdometry {
   Eigen::Isometry3d T_odom_base_ = Eigen::Isometry3d::Identity();     ///< the last answer
   Eigen::Quaterniond R_odom_world_ = Eigen::Quaterniond::Identity();  ///< about z alone
   std::uint64_t without_attitude_ = 0;
+  std::uint64_t tilted_ = 0;
 };
 
 }  // namespace ardrone_vslam

@@ -33,6 +33,10 @@ void ImuInput::onOdometry(const nav_msgs::OdometryConstPtr& message) {
   if (!state.value) return refuse_(odometry_sub_.getTopic(), state.fault);
   if (frames_.odom.empty()) frames_.odom = message->header.frame_id;
   if (frames_.base.empty()) frames_.base = message->child_frame_id;
+  if (frames_.base.empty())
+    return refuse_(odometry_sub_.getTopic(),
+                   "it names no child_frame_id, so that the IMU's mounting is unknown "
+                   "(odometry_mode imu): set the parameter base_frame");
   const std::string fault = explain(odometry_.push(*state.value, ready_), *state.value);
   if (!fault.empty()) refuse_(odometry_sub_.getTopic(), fault);
   publishReady();
@@ -72,11 +76,12 @@ void ImuInput::publishReady() {
     take_(odometry);
   }
   ready_.clear();
-  const std::uint64_t dropped = odometry_.withoutAttitude();
-  for (; dropped_ < dropped; ++dropped_)
+  for (; without_ < odometry_.withoutAttitude(); ++without_)
     refuse_(odometry_sub_.getTopic(),
             "no attitude was at its stamp on " + imu_sub_.getTopic() +
-                " (odometry_mode imu): remap imu to the IMU's topic, and give both one clock");
+                " (odometry_mode imu): remap imu to the IMU's topic, give both one clock, and at "
+                "least 10 messages a second");
+  for (; tilted_ < odometry_.tilted(); ++tilted_) refuse_(imu_sub_.getTopic(), kTiltedImuFault);
 }
 
 }  // namespace ardrone_vslam

@@ -24,7 +24,7 @@ Push ImuOdometry::push(const ImuAttitude& attitude, std::vector<OdometryState>& 
   if (!attitudes_.empty() && attitude.stamp_ns <= attitudes_.back().stamp_ns) {
     if (attitude.stamp_ns == attitudes_.back().stamp_ns) return Push::kDuplicateStamp;
     if (attitude.stamp_ns > attitudes_.back().stamp_ns - kNewRun_ns) return Push::kBackwardStamp;
-    beginAnew(attitude.stamp_ns);
+    beginAnew(attitude.stamp_ns, attitudes_.back().stamp_ns, attitudes_, waiting_);
   }
   attitudes_.push_back(attitude);
   takeReady(ready);
@@ -39,22 +39,25 @@ Push ImuOdometry::push(const OdometryState& odometry, std::vector<OdometryState>
   const OdometryState* before = !waiting_.empty() ? &waiting_.back() : last_ ? &*last_ : nullptr;
   if (before && odometry.stamp_ns < before->stamp_ns) {
     if (odometry.stamp_ns > before->stamp_ns - kNewRun_ns) return Push::kBackwardStamp;
-    beginAnew(odometry.stamp_ns);
+    beginAnew(odometry.stamp_ns, before->stamp_ns, waiting_, attitudes_);
   }
   waiting_.push_back(odometry);
   takeReady(ready);
   return Push::kAccepted;
 }
 
-/// Of the two inputs one finds first that time began anew; the other may have come before it.
-void ImuOdometry::beginAnew(std::int64_t stamp_ns) {
-  const auto isOfOldRun = [stamp_ns](const auto& one) {
-    return one.stamp_ns >= stamp_ns + kNewRun_ns;
+/// Of the two inputs one finds first that time began anew; what the other has is of the new run
+/// where its newest is nearer to the new stamp than to the old newest.
+template <class Input, class Other>
+void ImuOdometry::beginAnew(std::int64_t stamp_ns, std::int64_t old_ns, std::deque<Input>& own,
+                            std::deque<Other>& other) {
+  const auto dropFrom = [stamp_ns](auto& inputs) {
+    while (!inputs.empty() && inputs.back().stamp_ns >= stamp_ns) inputs.pop_back();
   };
-  attitudes_.erase(std::remove_if(attitudes_.begin(), attitudes_.end(), isOfOldRun),
-                   attitudes_.end());
-  waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), isOfOldRun), waiting_.end());
-  if (last_ && isOfOldRun(*last_)) last_.reset();
+  dropFrom(own);
+  const std::int64_t middle_ns = stamp_ns + (old_ns - stamp_ns) / 2;
+  if (!other.empty() && other.back().stamp_ns > middle_ns) dropFrom(other);
+  if (last_ && last_->stamp_ns >= stamp_ns) last_.reset();
 }
 
 void ImuOdometry::takeReady(std::vector<OdometryState>& ready) {
@@ -66,13 +69,24 @@ void ImuOdometry::takeReady(std::vector<OdometryState>& ready) {
       return;
     const auto attitude = is_known ? attitudeAt(next.stamp_ns) : std::nullopt;
     if (attitude) {
-      ready.push_back(laid(next, *attitude));
-      last_ = next;
+      use(next, *attitude, ready);
     } else {
       ++without_attitude_;
     }
     waiting_.pop_front();
   }
+}
+
+void ImuOdometry::use(const OdometryState& odometry, const Eigen::Quaterniond& R_world_base,
+                      std::vector<OdometryState>& ready) {
+  const Eigen::Vector3d up_by_imu = R_world_base.inverse() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d up = odometry.T_odom_base.linear().row(2);
+  if (!last_ && up.dot(up_by_imu) < std::cos(kMostTilt_deg * M_PI / 180)) {
+    ++tilted_;
+    return;
+  }
+  ready.push_back(laid(odometry, R_world_base));
+  last_ = odometry;
 }
 
 std::optional<Eigen::Quaterniond> ImuOdometry::attitudeAt(std::int64_t stamp_ns) const {

@@ -95,5 +95,21 @@ TEST(BagImu, MessagesOfNoUseAreDroppedAndCounted) {
   EXPECT_TRUE(findings.has_lost_much);
 }
 
+TEST(BagImu, AWorldWhoseZPointsDownIsNamed) {
+  ImuBag bag;
+  for (sensor_msgs::Imu& message : bag.imu) {  // turned by 180 degrees about the world's x
+    const geometry_msgs::Quaternion q = message.orientation;
+    message.orientation.x = q.w;
+    message.orientation.y = -q.z;
+    message.orientation.z = q.y;
+    message.orientation.w = -q.x;
+  }
+  const TestBag file = bag.write();
+  const auto sequence = file.open(withImu());
+  EXPECT_TRUE(sequence->odometry().empty());
+  ASSERT_EQ(sequence->findings().warnings.size(), 1U);
+  EXPECT_NE(sequence->findings().warnings[0].find("not north-east-down"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ardrone_vslam

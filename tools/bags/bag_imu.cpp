@@ -62,8 +62,12 @@ void useImu(const rosbag::Bag& bag, const std::string& topic, BagOdometry& odome
     while (next != attitudes.all.end() && next->stamp_ns <= state.stamp_ns + kAhead_ns)
       imu_odometry.push(*next++, ready);
   }
-  findings.lose(odometry.states.size() - ready.size(), odometry.states.size(), topic,
-                "odometry messages dropped: no attitude was at their stamps");
+  const std::size_t all = odometry.states.size();
+  findings.lose(imu_odometry.tilted(), all, topic,
+                std::string("odometry messages dropped: ") + kTiltedImuFault);
+  findings.lose(all - ready.size() - imu_odometry.tilted(), all, topic,
+                "odometry messages dropped: no attitude was at their stamps; it must come at least "
+                "10 times a second");
   odometry.states = std::move(ready);
 }
 

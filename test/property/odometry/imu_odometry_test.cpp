@@ -174,5 +174,39 @@ TEST(ImuOdometry, OneWrongStampCostsLittleAndABagThatPlaysAgainBeginsAnew) {
   EXPECT_EQ(imu_odometry.push(imuAt(kAttitudes - 2), ready), Push::kBackwardStamp);
 }
 
+TEST(ImuOdometry, AfterAJumpBackByOneAndAHalfSecondsNothingOldIsUsed) {
+  const Drive drive = ardrone_vslam::drive();
+  const std::vector<OdometryState> first(drive.odometry.begin(), drive.odometry.begin() + 150);
+  const std::vector<OdometryState> second(drive.odometry.begin() + 75,
+                                          drive.odometry.begin() + 300);
+  const auto feed = [](const std::vector<OdometryState>& odometry, double world_rad, bool imu_first,
+                       ImuOdometry& imu_odometry) {
+    std::vector<OdometryState> ready;
+    const Eigen::AngleAxisd turn(world_rad, Eigen::Vector3d::UnitZ());
+    int next = 0;
+    while (imuAt(next + 1).stamp_ns <= odometry.front().stamp_ns) ++next;
+    for (const OdometryState& state : odometry) {
+      if (!imu_first) imu_odometry.push(state, ready);
+      for (; imuAt(next).stamp_ns < state.stamp_ns + 20'000'000; ++next) {
+        ImuAttitude attitude = imuAt(next);
+        attitude.R_world_base = turn * attitude.R_world_base;
+        imu_odometry.push(attitude, ready);
+      }
+      if (imu_first) imu_odometry.push(state, ready);
+    }
+    return ready;
+  };
+  for (const bool imu_first : {false, true}) {
+    ImuOdometry fresh;
+    const auto expected = feed(second, 1, imu_first, fresh);
+    ImuOdometry used;
+    feed(first, 0, imu_first, used);
+    const auto states = feed(second, 1, imu_first, used);
+    ASSERT_EQ(states.size(), expected.size()) << imu_first;
+    for (std::size_t i = 0; i < states.size(); ++i)
+      ASSERT_EQ(states[i].T_odom_base.matrix(), expected[i].T_odom_base.matrix()) << imu_first;
+  }
+}
+
 }  // namespace
 }  // namespace ardrone_vslam

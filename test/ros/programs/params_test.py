@@ -124,6 +124,16 @@ class Params(unittest.TestCase):
             stdout=subprocess.PIPE, text=True, timeout=30, check=True).stdout
         self.assertIn("navdata:=/ardrone/navdata imu:=/ardrone/imu", arguments)
 
+    def test_an_imu_takes_the_odometrys_attitude_in_all_nodelets(self):
+        for launch, arguments in [("launch", []), ("replay_launch", ["bag:=/a.bag"])]:
+            dumped = self.roslaunch(launch, "--dump-params", "imu:=/imu/data", *arguments).stdout
+            for node in ["mapper", "odometry_fusion"]:
+                self.assertIn("/vslam/%s/odometry_mode: imu" % node, dumped)
+            for node, remap in [("mapper", "imu:=/imu/data"), ("tracker", "attitude:=observer_odometry"),
+                                ("odometry_fusion", "odometry:=observer_odometry")]:
+                given = self.roslaunch(launch, "--args", "/vslam/" + node, "imu:=/imu/data", "odometry_fusion:=true", *arguments).stdout
+                self.assertIn(remap, given)
+
     def test_the_fake_driver_begins_with_the_camera_that_is_asked_for(self):
         for camera, first in [("/ardrone", "front"), ("/ardrone/front", "front"), ("/ardrone/bottom", "bottom")]:
             self.assertIn("/ardrone_driver/camera: " + first,
