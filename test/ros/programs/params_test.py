@@ -112,7 +112,9 @@ class Params(unittest.TestCase):
                 (["observer_fusion:=true"], "observer_fusion:=true: observer_fusion is called odometry_fusion now"),
                 (["fake:=true", "driver:=1"], "driver:=true fake:=true: the one is a real drone's driver"),
                 (["navdata:=/ardrone/navdata", "odometry_mode:=twist"],
-                 "odometry_mode:=twist: navdata is used by odometry_mode navdata alone")]:
+                 "odometry_mode:=twist: navdata is used by odometry_mode navdata alone"),
+                (["imu:=/imu/data", "odometry_mode:=twist"],
+                 "odometry_mode:=twist: imu is used by odometry_mode navdata and imu alone")]:
             ended = self.roslaunch("ardrone_launch", *arguments)
             self.assertEqual(ended.returncode, 1, arguments)
             self.assertIn(said, ended.stdout)
