@@ -50,7 +50,7 @@ class Stop(unittest.TestCase):
         bag = os.path.join(rospkg.RosPack().get_path("ardrone_vslam"), "bags", "laps_20s.bag")
         command = ["roslaunch", "ardrone_vslam", "replay.launch", "bag:=" + bag, "camera:=/front", "odometry:=/odom"]
         ended = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=TIMEOUT_S, check=False)
-        self.assertIn("has no /front/image_raw, /front/camera_info, /odom; camera:=, image:= and odometry:= name the topics", ended.stdout)
+        self.assertIn("has no /front/image_raw, /front/camera_info, /odom; camera:=, image:=, odometry:= and imu:= name the topics", ended.stdout)
         self.assertIn("/camera/image_raw/compressed: compressed images (image_transport:=compressed); /odometry: odometry", ended.stdout)
         command = [os.path.join(os.path.dirname(os.path.dirname(bag)), "scripts/play_bag"), "--needs=/odometry", "--needs=/camera/image_raw", "--bags=" + bag]
         player = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
