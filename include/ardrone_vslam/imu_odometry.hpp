@@ -13,7 +13,7 @@ namespace ardrone_vslam {
 
 /// What an IMU says of base.
 struct ImuAttitude {
-  std::int64_t stamp_ns = 0;
+  std::int64_t stamp_ns = 0;                                         ///< of the odometry's clock
   Eigen::Quaterniond R_world_base = Eigen::Quaterniond::Identity();  ///< a world whose z is up
 };
 
@@ -40,7 +40,7 @@ class ImuOdometry {
   /// States that were dropped before the first answer, as the two disagree on what is up by more
   /// than kMostTilt_deg: a world whose z points down, or a mounting that is wrong.
   std::uint64_t tilted() const { return tilted_; }
-  static constexpr double kMostTilt_deg = 60;
+  static constexpr double kMostTilt_deg = 60;  ///< at the start
 
  private:
   template <class Input, class Other>
