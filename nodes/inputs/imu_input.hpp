@@ -28,16 +28,12 @@ class ImuInput : public OdometryMaker {
   std::optional<Eigen::Quaterniond> mounting(const sensor_msgs::Imu& message);
   void publishReady();
 
-  Frames frames_;
   const ExtrinsicsTf& tf_;
-  Take take_;
-  Refuse refuse_;
   std::optional<Eigen::Quaterniond> R_base_imu_;
   ImuOdometry odometry_;
   std::vector<OdometryState> ready_;  // kept for its memory
   std::uint64_t without_ = 0;         // ImuOdometry's counts, as far as they have been told
   std::uint64_t tilted_ = 0;
-  ros::Publisher odometry_pub_;
   ros::Subscriber imu_sub_;
   ros::Subscriber odometry_sub_;
 };

@@ -26,14 +26,9 @@ class NavdataInput : public OdometryMaker {
   void onNavdata(const NavdataConstPtr& message);
   void onImu(const sensor_msgs::ImuConstPtr& message);
   void onCommand(const geometry_msgs::TwistConstPtr& message);
-  void publishReady();
 
-  Frames frames_;
-  Take take_;
-  Refuse refuse_;
   DroneObserver observer_;
   std::vector<OdometryState> ready_;  // kept for its memory
-  ros::Publisher odometry_pub_;
   ros::Subscriber command_sub_;
   ros::Subscriber imu_sub_;
   ros::Subscriber navdata_sub_;

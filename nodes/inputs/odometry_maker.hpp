@@ -2,10 +2,14 @@
 #pragma once
 
 #include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
 
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
+#include "ardrone_vslam/odometry_buffer.hpp"
 #include "ardrone_vslam/odometry_faults.hpp"
 
 namespace ardrone_vslam {
@@ -26,6 +30,22 @@ class OdometryMaker {
   virtual ~OdometryMaker() = default;
   /// What was wrong with the messages so far, by cause.
   virtual OdometryFaultCounts faults() const { return {}; }
+
+ protected:
+  static constexpr std::uint32_t kQueue = 2000;  ///< 10 s at 200 Hz, in and out
+
+  OdometryMaker(ros::NodeHandle& nh, Frames frames, Take take, Refuse refuse);
+
+  Frames& names() { return frames_; }
+  void refuse(const std::string& topic, const std::string& fault) const { refuse_(topic, fault); }
+  /// Publishes the states and hands them on; then there are none.
+  void handOn(std::vector<OdometryState>& ready);
+
+ private:
+  Frames frames_;
+  Take take_;
+  Refuse refuse_;
+  ros::Publisher odometry_pub_;
 };
 
 }  // namespace ardrone_vslam
