@@ -22,13 +22,15 @@ enum class SetupFault {
   kFocalLength,       ///< the calibration's
   kOdometryPosition,  ///< integrated with a mirrored yaw
   kOdometryYaw,       ///< mirrored
+  kStillImages,       ///< the same image again and again
   kUnknown            ///< none of these explains it
 };
 template <>
 struct EnumNames<SetupFault> {
-  static constexpr std::array<const char*, 8> kNames{
-      "none",         "mounting",          "mirrored",     "time_offset",
-      "focal_length", "odometry_position", "odometry_yaw", "unknown"};
+  static constexpr std::array<const char*, 9> kNames{
+      "none",         "mounting",     "mirrored",
+      "time_offset",  "focal_length", "odometry_position",
+      "odometry_yaw", "still_images", "unknown"};
 };
 
 /// How the camera turned otherwise than the odometry says, about base's z, between two images.

@@ -29,6 +29,8 @@ const char* causeOf(SetupFault fault) {
       return "the odometry's x and y are integrated with the yaw mirrored";
     case SetupFault::kOdometryYaw:
       return "the odometry's yaw is mirrored";
+    case SetupFault::kStillImages:
+      return "the odometry turns, the images stand still";
     case SetupFault::kUnknown:
       return "no mounting, time offset or focal length explains it";
   }
@@ -61,6 +63,11 @@ std::string remedyOf(const SetupFinding& finding, const std::string& base,
       break;
     case SetupFault::kOdometryYaw:
       remedy << "it must grow counter-clockwise (REP-103): mend its driver";
+      break;
+    case SetupFault::kStillImages:
+      remedy
+          << "does the driver send one image again and again, or does something on the robot fill "
+             "the view? Restart the camera's driver, free the view";
       break;
     case SetupFault::kUnknown:
       remedy << "are images and odometry of one vehicle and one time? Is the calibration that of "

@@ -11,8 +11,9 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr double kMemory = 60;      // motions after which a sum has forgotten all but a third
-constexpr double kSaturated = 100;  // most squares by which the sums may differ: faults can end
+constexpr double kMemory = 60;  // motions after which a sum has forgotten all but a third
+// Most squares by which a sum and that of what is told may differ: faults can begin and end.
+constexpr double kSaturated = 100;
 /// Squares by which a fault must explain more than the set-up as told, and so many times better.
 /// In right set-ups the difference stays below 15.
 constexpr double kFault = 40;
@@ -55,6 +56,7 @@ SetupHypotheses::SetupHypotheses(const Eigen::Isometry3d& T_base_cam, double ima
     hypotheses_.push_back({SetupFault::kFocalLength, i});
   hypotheses_.push_back({SetupFault::kOdometryPosition});
   hypotheses_.push_back({SetupFault::kOdometryYaw});
+  hypotheses_.push_back({SetupFault::kStillImages});
 }
 
 double SetupHypotheses::squaresOf(const Hypothesis& h, const ComparedMotion& motion) {
@@ -75,6 +77,8 @@ double SetupHypotheses::squaresOf(const Hypothesis& h, const ComparedMotion& mot
       return squaresBetween(motion.seen, motion.told_by_position, motion.span_s);
     case SetupFault::kOdometryYaw:
       return squaresBetween(motion.seen, motion.told_by_yaw, motion.span_s);
+    case SetupFault::kStillImages:
+      return squaresBetween(motion.seen, {}, motion.span_s);
     case SetupFault::kNone:
     case SetupFault::kTimeOffset:
     case SetupFault::kUnknown:
@@ -110,7 +114,7 @@ const SetupHypotheses::Hypothesis& SetupHypotheses::bestWith(bool fault) const {
 }
 
 void SetupHypotheses::judge() {
-  saturate(bestWith(false).squares - bestWith(true).squares);
+  saturate();
   const double told = bestWith(false).squares;
   const Hypothesis& best = bestWith(true);
   const bool explains = told - best.squares > kFault && told > kTimesBetter * best.squares;
@@ -129,7 +133,10 @@ void SetupHypotheses::judge() {
   }
 }
 
-void SetupHypotheses::saturate(double difference) {
+void SetupHypotheses::saturate() {
+  const double told = bestWith(false).squares;
+  for (Hypothesis& h : hypotheses_) h.squares = std::min(h.squares, told + kSaturated);
+  const double difference = told - bestWith(true).squares;
   if (difference <= kSaturated) return;
   const double share = kSaturated / difference;
   for (Hypothesis& h : hypotheses_) h.squares *= share;

@@ -28,7 +28,7 @@ class SetupHypotheses {
   };
   static double squaresOf(const Hypothesis& hypothesis, const ComparedMotion& motion);
   void judge();
-  void saturate(double difference);
+  void saturate();
   bool isConfirmed(double told) const;
   void forget();
   const Hypothesis& bestWith(bool fault) const;

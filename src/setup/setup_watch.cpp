@@ -18,7 +18,7 @@ constexpr std::int64_t kBetween_ns = 150'000'000;    // from one comparison to t
 constexpr std::int64_t kSpan_ns = 270'000'000;       // a pair's images are so far apart, or less;
 constexpr std::int64_t kLongest_ns = 1'500'000'000;  // slow cameras' so far
 constexpr std::size_t kImages = 16;                  // kept: those of kSpan_ns and of the offsets
-constexpr double kLeast_px = 3;  // the tracks' median way, four of kCornerSigma_px: less is noise
+constexpr double kLeast_px = 3;  // motion seen or told, four of kCornerSigma_px: less is noise
 constexpr double kStill = 1e-6;  // odometry that moves less, in m and rad, is frozen
 
 std::int64_t offsetOf_ns(std::size_t offset) {
@@ -61,7 +61,7 @@ class SetupWatch::State {
   ImageRays& image(std::size_t number) { return images_[number % kImages]; }
   void compare(const ImageRays& now, std::size_t number, const OdometryBuffer& odometry);
   void compare(const ImageRays& then, const ImageRays& now, const OdometryBuffer& odometry);
-  double medianMotion_px(double focal_length_px);
+  double medianMotion_rad();
   bool find(const OdometryBuffer& odometry, const ImageRays& then, const ImageRays& now,
             ComparedMotion& motion) const;
   ToldMotion motionOf(const Eigen::Isometry3d& then, const Eigen::Isometry3d& now) const;
@@ -112,12 +112,15 @@ void SetupWatch::State::compare(const ImageRays& now, std::size_t number,
 
 void SetupWatch::State::compare(const ImageRays& then, const ImageRays& now,
                                 const OdometryBuffer& odometry) {
-  if (medianMotion_px(now.focal_length_px) < kLeast_px) return;
   ComparedMotion motion;
   motion.span_s = seconds(now.stamp_ns - then.stamp_ns);
   motion.pairs = static_cast<double>(pairs_.size());
   if (!find(odometry, then, now, motion)) return;
   const ToldMotion& told = motion.told();
+  // Tracks that stay where they are contradict a turn that is told: the same image again and again.
+  const double told_rad = rotationVectorOf(told.R_then_now).norm();
+  const double motion_rad = std::max(medianMotion_rad(), told_rad);
+  if (motion_rad * now.focal_length_px < kLeast_px) return;
   const double sigma_rad = kCornerSigma_px / now.focal_length_px;
   const auto seen = motionSeen(pairs_, sigma_rad, told, motion.span_s);
   if (!seen) return;
@@ -136,10 +139,10 @@ void SetupWatch::State::compare(const ImageRays& then, const ImageRays& now,
   hypotheses_.add(motion);
 }
 
-double SetupWatch::State::medianMotion_px(double focal_length_px) {
+double SetupWatch::State::medianMotion_rad() {
   moved_.clear();
   for (const BearingPair& pair : pairs_) moved_.push_back((pair.now - pair.then).norm());
-  return medianOf(moved_) * focal_length_px;
+  return medianOf(moved_);
 }
 
 ToldMotion SetupWatch::State::motionOf(const Eigen::Isometry3d& then,

@@ -125,6 +125,26 @@ TEST(SetupWatch, FindsAWrongFocalLength) {
   }
 }
 
+TEST(SetupWatch, FindsImagesThatStandStillInFlightAndTheirEnd) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Swaying flight = flightOf(seed);
+    const OdometryBuffer odometry = odometryOf(flight, seed);
+    SetupWatch watch(test::forwardExtrinsics());
+    ASSERT_FALSE(film(watch, flight, odometry, {}, 0, 10, seed));
+    PointCamera camera(seed);
+    ImageFeatures image = look(camera, flight, 10, {});
+    std::optional<double> found_s;
+    for (double t_s = 10; t_s < 15; t_s += 1 / kWatchRate_hz) {
+      image.stamp_ns = test::swayStamp_ns(t_s);
+      watch.see(image, odometry);
+      if (!found_s && watch.finding().fault == SetupFault::kStillImages) found_s = t_s;
+    }
+    EXPECT_LE(found_s.value_or(100), 13) << "seed " << seed;
+    film(watch, flight, odometry, {}, 15, 20, seed);
+    EXPECT_EQ(watch.finding().fault, SetupFault::kNone) << "seed " << seed;
+  }
+}
+
 TEST(SetupWatch, FindsOdometryOfAnotherFlight) {
   const Swaying flight = flightOf(1);
   const OdometryBuffer odometry = odometryOf(flightOf(2), 2);
