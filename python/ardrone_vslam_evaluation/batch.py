@@ -51,9 +51,9 @@ def parser_of(source):
     parser.add_argument("--honesty", action="store_true", help="instead: flights whose set-up is wrong, and larger, mirrored or thinned ones, and what "
                         "becomes of the pose; with --update into docs/honesty.md")
     parser.add_argument("--list", action="store_true", help="only say what would run")
-    parser.add_argument("--jobs", default=str(os.cpu_count()), metavar="N", help="at a time on each machine; default: its cores")
+    parser.add_argument("--jobs", default="100%", metavar="N", help="at a time on each machine; default: its cores, or the N of --sshlogin")
     parser.add_argument("--sshlogin", action="append", default=[], metavar="HOST",
-                        help="GNU parallel's: also there (N/HOST: N at a time; `:` is this machine); the same paths must be there")
+                        help="GNU parallel's: there, not here (N/HOST: N at a time; `:` is this machine); the same paths must be there")
     parser.add_argument("--work", metavar="DIR", default=os.path.join(source, "build", "evaluate_all"), help="default: %(default)s")
     parser.add_argument("--programs", metavar="DIR", help="replay and make_world are there: nothing is built")
     parser.add_argument("--baseline", metavar="FILE", help="what the results are compared with; default: docs/results_baseline.json")

@@ -3,6 +3,7 @@
 
 Each piece of work has a folder, and in it, written last, a file `key`: a digest of all that its result follows from."""
 
+import contextlib
 import glob
 import hashlib
 import os
@@ -82,6 +83,11 @@ class Task:
     def log(self):
         return self.folder + ".log"
 
+    def fault(self):
+        if os.path.exists(self.log()):
+            return f"{self.name}: failed, see {self.log()}"
+        return f"{self.name}: left no {self.log()}: its machine did not answer (ssh's message is above) or has another work folder there"
+
     def is_done(self):
         try:
             with open(os.path.join(self.folder, "key"), encoding="utf-8") as file:
@@ -131,7 +137,11 @@ def run_tasks(tasks, what, work, jobs, logins):
     if not to_do:
         return []
     check_parallel()
+    for task in to_do:
+        with contextlib.suppress(FileNotFoundError):
+            os.remove(task.log())
     command = ["parallel", "--will-cite", "--jobs", jobs, "--joblog", os.path.join(work, f"{what.split()[0]}.joblog")]
+    command += ["--retries", str(max(1, len(logins)))]  # a machine that does not answer fails its jobs at once; the others do them
     if sys.stderr.isatty():
         command.append("--bar")
     for login in logins:
@@ -158,4 +168,4 @@ def run_jobs(jobs, programs, work, parallel_jobs, logins, runs="runs"):
     tasks = {job: task_of_job(job, *places[job.sequence.name], programs, os.path.join(work, runs)) for job in jobs if job.sequence.name in places}
     faults = faults + run_tasks(list(tasks.values()), "runs", work, parallel_jobs, logins)
     return ({job: task.folder for job, task in tasks.items() if task not in faults},
-            [f"{task.name}: failed, see {task.log()}" for task in faults])
+            [task.fault() for task in faults])

@@ -124,6 +124,14 @@ class ResumeTest(WithFolder):
         self.assertEqual(self.run_all(self.task("a"), logins=["1/:"]), [])
         self.assertEqual(self.read("a"), "x\n")
 
+    def test_a_number_before_a_machine_is_how_many_it_does_at_a_time(self):
+        """mkdir fails where another is at work."""
+        alone = ["sh", "-c", 'mkdir -p "$1" && mkdir "$0" && sleep 0.2 && rmdir "$0"', self.path("busy")]
+        tasks = [Task(name, self.path(f"work/{name}"), "1", [*alone, self.path(f"work/{name}")]) for name in "abc"]
+        os.makedirs(self.path("work"))
+        jobs = batch.parser_of(SOURCE).get_default("jobs")
+        self.assertEqual(run_tasks(tasks, "runs", self.path("work"), jobs, ["1/:"]), [])
+
     def test_a_folder_that_changed_has_another_fingerprint(self):
         self.write("data/times.txt", "0\n")
         before = fingerprint_of_folder(self.path("data"))
