@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input_checks/decode_image.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -17,6 +19,12 @@ constexpr std::array<std::uint8_t, 8> kPngStart{0x89, 'P', 'N', 'G', '\r', '\n',
 template <std::size_t kSize>
 bool startsWith(const Bytes& bytes, const std::array<std::uint8_t, kSize>& start) {
   return bytes.size() >= kSize && std::equal(start.begin(), start.end(), bytes.begin());
+}
+
+std::size_t bigEndian(const Bytes& bytes, std::size_t at) {
+  std::size_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | bytes[at + i];
+  return value;
 }
 
 /// Walks the segments, as a preview within one has an end of its own.
@@ -45,11 +53,28 @@ bool hasPngEnd(const Bytes& bytes) {
   std::size_t at = kPngStart.size();
   while (at + kFrame <= bytes.size()) {
     if (std::memcmp(bytes.data() + at + 4, "IEND", 4) == 0) return true;
-    std::size_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | bytes[at + i];
-    at += kFrame + length;
+    at += kFrame + bigEndian(bytes, at);
   }
   return false;
+}
+
+/// Whether a chunk without which there is no image has another check sum than it says. libpng finds
+/// that, too, but prints it.
+bool isDamagedPng(const Bytes& bytes) {
+  if (!startsWith(bytes, kPngStart)) return false;
+  constexpr std::size_t kName = 4, kSum = 4;
+  std::size_t at = kPngStart.size();
+  while (at + 8 + kSum <= bytes.size()) {
+    const std::size_t length = bigEndian(bytes, at);
+    const std::uint8_t* name = bytes.data() + at + 4;
+    if (length > bytes.size() - at - 8 - kSum) return true;
+    const bool is_critical = (*name & 0x20) == 0;
+    const auto sum = crc32(0, name, static_cast<uInt>(kName + length));
+    if (is_critical && sum != bigEndian(bytes, at + 8 + length)) return true;
+    if (std::memcmp(name, "IEND", kName) == 0) return false;
+    at += 8 + length + kSum;
+  }
+  return true;
 }
 
 }  // namespace
@@ -61,7 +86,7 @@ bool isCutOff(const Bytes& encoded) {
 }
 
 cv::Mat decodeGrey(const Bytes& encoded) {
-  if (encoded.empty() || isCutOff(encoded)) return {};
+  if (encoded.empty() || isCutOff(encoded) || isDamagedPng(encoded)) return {};
   return cv::imdecode(encoded, cv::IMREAD_GRAYSCALE);
 }
 

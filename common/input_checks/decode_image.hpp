@@ -12,7 +12,9 @@ namespace ardrone_vslam {
 bool isCutOff(const std::vector<std::uint8_t>& encoded);
 
 /// JPEG, PNG or whatever else OpenCV decodes, as 8-bit grey.
-/// @return empty when it cannot be decoded or is cut off. @throws cv::Exception for some faults
+/// @return empty when it cannot be decoded, is cut off, or is a PNG whose check sums are wrong.
+/// libjpeg's word on a damaged JPEG goes to stderr: such an image is used, and that is all that
+/// tells of it. @throws cv::Exception for some faults
 cv::Mat decodeGrey(const std::vector<std::uint8_t>& encoded);
 
 }  // namespace ardrone_vslam

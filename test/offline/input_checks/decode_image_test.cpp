@@ -40,6 +40,26 @@ TEST(DecodeImage, WhatIsCutOffAnywhereIsNoImage) {
   }
 }
 
+TEST(DecodeImage, DamageWithinAPngIsFoundBeforeLibpngPrintsIt) {
+  const Bytes whole = encoded(".png");
+  testing::internal::CaptureStderr();
+  for (std::size_t at = 8; at < whole.size(); ++at) {
+    Bytes damaged = whole;
+    damaged[at] ^= 0x5a;
+    EXPECT_TRUE(decodeGrey(damaged).empty()) << at << " of " << whole.size();
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(DecodeImage, DamageInWhatIsNoPixelDoesNoHarm) {
+  Bytes bytes = encoded(".png");
+  const cv::Mat image = decodeGrey(bytes);
+  // A comment with a wrong sum, behind the header, which has 13 bytes.
+  const Bytes comment{0, 0, 0, 3, 't', 'E', 'X', 't', 'a', 0, 'b', 1, 2, 3, 4};
+  bytes.insert(bytes.begin() + 8 + 12 + 13, comment.begin(), comment.end());
+  EXPECT_EQ(cv::norm(decodeGrey(bytes), image, cv::NORM_INF), 0);
+}
+
 TEST(DecodeImage, PaddingDoesNoHarm) {
   for (const std::string extension : {".png", ".jpg"}) {
     Bytes bytes = encoded(extension);
