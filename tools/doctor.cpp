@@ -8,9 +8,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "config_files/config_file.hpp"
 #include "doctor/camera/doctor_tracks.hpp"
 #include "doctor/collection/doctor_bag.hpp"
 #include "doctor/collection/doctor_live.hpp"
+#include "doctor/collection/running_configuration.hpp"
 #include "doctor/doctor_examination.hpp"
 #include "program/progress_line.hpp"
 #include "program/tool_main.hpp"
@@ -27,6 +29,7 @@ struct Options {
   double seconds = 20;
   const CLI::Option* seconds_option = nullptr;
   std::string json;
+  std::string config;
   DoctorTopicNames topics;
 };
 
@@ -41,6 +44,9 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--json", o.json,
                  "also write what was found as JSON to this file; -: to stdout, "
                  "in place of the text");
+  app.add_option("--config", o.config,
+                 "configuration file, as replay's: what it answers is no warning; default with "
+                 "--live: the running mapper's parameters");
   app.add_option("--image,--image-topic", o.topics.image,
                  "topic; default: the one with the most messages, with --live the shortest name");
   app.add_option("--camera-info,--camera-info-topic", o.topics.camera_info,
@@ -67,14 +73,23 @@ DoctorRecording record(const Options& o) {
   });
 }
 
+/// @throws ConfigError as replay would
+DoctorConfiguration configurationInForce(const Options& o) {
+  if (o.config.empty()) return o.live ? runningConfiguration() : DoctorConfiguration{};
+  loadConfig(o.config, {});
+  return configurationOfFile(o.config);
+}
+
 int run(const Options& o) {
   if (o.live == !o.input.empty()) throw UsageError("give either a bag or --live");
   if (!o.live && o.seconds_option->count() > 0) throw UsageError("--seconds is for --live only");
+  const DoctorConfiguration in_force = configurationInForce(o);  // wrong files are told at once
   const DoctorRecording recording = record(o);
   DoctorReport report;
   {
     ProgressLine progress("doctor: images tracked", imagesToTrack(recording.images.size()).size());
-    report = examine(recording, [&progress](std::size_t done) { progress.update(done); });
+    report = examine(
+        recording, [&progress](std::size_t done) { progress.update(done); }, in_force);
   }
   if (o.json != "-") std::cout << textOf(report);
   if (!o.json.empty()) {

@@ -111,6 +111,33 @@ TEST_F(DoctorBag, NamesTheReleasedDriversFaultsAndSuggestsTheirRemedies) {
   EXPECT_NEAR(config.mapper.image_time_offset_s.value(), -0.0875, 0.01);
 }
 
+TEST_F(DoctorBag, WhatTheConfigurationInForceAnswersIsNoWarningAndTheRestIs) {
+  longLaps().write(driverFaultsNamed({"released"}), path());
+  const auto examineWith = [this](const std::string& file) {
+    return examine(readForDoctor(path(), {}, {}), {}, configurationOfFile(findConfigFile(file)));
+  };
+  const DoctorReport made_for_it = examineWith("ardrone.yaml");
+  // Of the driver itself; no parameter changes it.
+  const Names left{"odometry_turn_rate", "odometry_bursts", "navdata_bursts", "imu_bursts"};
+  EXPECT_EQ(found(made_for_it.findings), left) << textOf(made_for_it);
+  for (const std::string answered :
+       {"odometry_yaw", "odometry_covariance", "height_ground", "image_time_offset"}) {
+    EXPECT_EQ(test::verdictOf(made_for_it.findings, answered), Verdict::kConfigured) << answered;
+  }
+  const std::string remedy = test::findingOf(made_for_it.findings, "odometry_yaw").remedy;
+  EXPECT_NE(remedy.find("config/ardrone.yaml has mapper/odometry_mode: twist"), std::string::npos)
+      << remedy;
+
+  // One that is not: the noise is its own all the same, and the rest is to be changed in it.
+  const DoctorReport another = examineWith("kitti.yaml");
+  Names all = left;
+  all.insert({"odometry_yaw", "height_ground", "image_time_offset"});
+  EXPECT_EQ(found(another.findings), all) << textOf(another);
+  EXPECT_NE(another.replay.find("config/kitti.yaml "), std::string::npos) << another.replay;
+  EXPECT_NE(another.replay.find(" --set mapper/odometry_mode=twist"), std::string::npos)
+      << another.replay;
+}
+
 TEST_F(DoctorBag, AFlightTooShortToTellTheDriversFaultsGetsItsConfigurationAllTheSame) {
   DriverFlight("laps", 3).write(driverFaultsNamed({"all"}), path());
   const DoctorReport report = examineBag(path());

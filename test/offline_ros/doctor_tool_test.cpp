@@ -31,7 +31,8 @@ class DoctorTool : public DoctorBag {
       line.replace(at, from.size(), to);
     };
     replaced("rosrun ardrone_vslam replay", ARDRONE_VSLAM_REPLAY);
-    replaced("$(rospack find ardrone_vslam)", ARDRONE_VSLAM_SOURCE_DIR);
+    if (line.find("$(rospack") != std::string::npos)
+      replaced("$(rospack find ardrone_vslam)", ARDRONE_VSLAM_SOURCE_DIR);
     replaced("--out driver_run", "--frames 0:20 --out " + path("run"));
     line += " > " + path("output") + " 2> " + path("errors");
     EXPECT_EQ(std::system(line.c_str()), 0) << line << "\n" << errors();
@@ -69,6 +70,19 @@ TEST_F(DoctorTool, ExitCodesTellUsableFromNotAndFromWrongUsage) {
   EXPECT_EQ(run(path() + " --no-such-option"), 2);
   EXPECT_EQ(run("--help"), 0);
   EXPECT_EQ(run("--version"), 0);
+}
+
+TEST_F(DoctorTool, ConfigTakesAFileAsReplayDoesAndRefusesAWrongOne) {
+  laps().write(driverFaultsNamed({"released"}), path());
+  const std::string config = ARDRONE_VSLAM_SOURCE_DIR "/config/ardrone.yaml";
+  EXPECT_EQ(run(path() + " --config " + config + " --json " + path("report.json")), 0) << errors();
+  EXPECT_NE(output().find("In force: " + config + ", which has mapper/odometry_mode"),
+            std::string::npos)
+      << output();
+  expectToRun(nlohmann::json::parse(test::readFile(path("report.json")))["replay"]);
+  folder_.write("wrong.yaml", "mapper:\n  odometry_mod: twist\n");
+  EXPECT_NE(run(path() + " --config " + path("wrong.yaml")), 0);
+  EXPECT_NE(errors().find("odometry_mod is not a parameter"), std::string::npos) << errors();
 }
 
 TEST_F(DoctorTool, NavdataWithoutOdometryIsUsableAndItsReplayLineRuns) {

@@ -221,12 +221,16 @@ PipelineConfig loadConfig(const std::string& path, const std::vector<std::string
   return config;
 }
 
-std::string configuredValue(const std::string& path, const std::string& section,
-                            const std::string& key) {
+std::optional<std::string> writtenValue(const std::string& path, const std::string& section,
+                                        const std::string& key) {
   std::vector<std::string> faults;
   Section values = readSections(path, faults)[section];
   if (!faults.empty()) throw ConfigError(faults);
-  if (values.count(key) > 0) return values[key];
+  if (values.count(key) == 0) return std::nullopt;
+  return values[key];
+}
+
+std::string defaultValue(const std::string& section, const std::string& key) {
   std::ostringstream text;
   if (section == "tracker") {
     writeDefault(TrackerConfig{}, key, text);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,11 @@ struct PipelineConfig {
 /// ones of both sections), wrong type, range
 PipelineConfig loadConfig(const std::string& path, const std::vector<std::string>& overrides);
 
-/// A parameter of `tracker` or `mapper`, as the file writes it, else its default.
+/// A parameter of `tracker` or `mapper`, as the file writes it; nothing: it is not there.
 /// @throws ConfigError for a file that cannot be read
-std::string configuredValue(const std::string& path, const std::string& section,
-                            const std::string& key);
+std::optional<std::string> writtenValue(const std::string& path, const std::string& section,
+                                        const std::string& key);
+/// As a file would write it.
+std::string defaultValue(const std::string& section, const std::string& key);
 
 }  // namespace ardrone_vslam

@@ -3,15 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <iterator>
-#include <optional>
 #include <utility>
 
-#include "config_files/config_file.hpp"
-#include "config_files/config_path.hpp"
 #include "doctor/camera/doctor_camera.hpp"
 #include "doctor/camera/doctor_frames.hpp"
 #include "doctor/camera/doctor_motion.hpp"
@@ -73,37 +67,6 @@ void nameVehicle(const DoctorRecording& recording, const std::vector<OdometrySta
   }
 }
 
-std::optional<double> numberIn(const std::string& text) {
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  return text.empty() || *end != '\0' ? std::nullopt : std::optional<double>(number);
-}
-
-/// As a number; `auto` begins with 0.
-std::optional<double> configuredNumber(const std::string& value) {
-  return value == kAuto ? std::optional<double>(0) : numberIn(value);
-}
-
-/// @param path  of a configuration; empty: the defaults
-bool isConfigured(const std::string& path, const SuggestedParameter& parameter) {
-  const std::string value = configuredValue(path, parameter.section, parameter.key);
-  const auto has = configuredNumber(value), wanted = numberIn(parameter.value);
-  const bool is_near = has && wanted && std::abs(*has - *wanted) <= parameter.tolerance;
-  return value == parameter.value || is_near;
-}
-
-/// What the configuration that is named, or the defaults, have already.
-void setApartConfigured(DoctorReport& report) {
-  const std::string path =
-      report.config_file.empty() ? std::string() : findConfigFile(report.config_file);
-  const auto isMissing = [&path](const auto& p) { return !isConfigured(path, p); };
-  const auto isOwn = [](const auto& p) { return !isConfigured({}, p); };
-  auto& parameters = report.parameters;
-  const auto configured = std::stable_partition(parameters.begin(), parameters.end(), isMissing);
-  std::copy_if(configured, parameters.end(), std::back_inserter(report.configured), isOwn);
-  parameters.erase(configured, parameters.end());
-}
-
 bool isFound(const Findings& findings, const std::string& check) {
   return std::any_of(findings.begin(), findings.end(), [&check](const Finding& finding) {
     return finding.check == check && finding.verdict == Verdict::kWarning;
@@ -136,7 +99,9 @@ std::string replayLine(const DoctorRecording& recording, const DoctorReport& rep
   const std::string stem = std::filesystem::path(recording.name).stem().string();
   std::string line = "rosrun ardrone_vslam replay " + shellWord(recording.name) + " --out " +
                      shellWord(stem + "_run");
-  if (!report.config_file.empty()) {
+  if (!report.in_force.empty()) {
+    line += " --config " + shellWord(report.in_force);
+  } else if (!report.config_file.empty()) {
     line += " --config $(rospack find ardrone_vslam)/config/" + report.config_file;
   }
   for (const std::string& option : recording.replay_options) line += " " + option;
@@ -167,7 +132,8 @@ Finding aboutTracks(const DoctorRecording& recording, const Tracks& tracks) {
 }  // namespace
 
 DoctorReport examine(const DoctorRecording& recording,
-                     const std::function<void(std::size_t done)>& progress) {
+                     const std::function<void(std::size_t done)>& progress,
+                     const DoctorConfiguration& in_force) {
   DoctorReport report;
   report.name = recording.name;
   Findings& findings = report.findings;
@@ -196,6 +162,7 @@ DoctorReport examine(const DoctorRecording& recording,
   if (isNavdataTheOdometry(recording)) {
     parameters.push_back(
         {"mapper", "odometry_mode", "navdata", "there is no odometry; navdata and IMU make one"});
+    findings.front().answered_by = {parameters.back()};
   }
 
   const Tracks tracks = trackImages(recording, progress);
@@ -221,7 +188,7 @@ DoctorReport examine(const DoctorRecording& recording,
     parameters.push_back({"tracker", "image_transport", "compressed", "there are no raw images"});
   }
   removeRepeated(parameters);
-  setApartConfigured(report);
+  compareWith(in_force, report);
   if (!recording.is_live && report.canWork()) report.replay = replayLine(recording, report);
   return report;
 }

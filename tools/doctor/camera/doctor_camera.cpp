@@ -67,6 +67,8 @@ Finding judgeRescaled(const DoctorCalibration& calibration, const std::string& w
                        "), would suit an image of about ", std::lround(2 * told.cx_px), "x",
                        std::lround(2 * told.cy_px), ", so K was made at another size");
   finding.remedy = text("set rescale_calibration to true; or ", kCalibrate);
+  finding.answered_by = {
+      {"tracker", "rescale_calibration", "true", "K was made at another size than the images'"}};
   return finding;
 }
 

@@ -65,6 +65,7 @@ void warnOfSecondParent(const DoctorRecording& recording, const std::string& fra
   finding.text += text("; '", frame, "' has two parents in tf, '", edge->second.parent, "' and '",
                        edge->second.other_parent, "'");
   finding.remedy = "stop one of the two that publish it (tf is a tree)";
+  finding.answered_by.clear();
 }
 
 }  // namespace
@@ -94,6 +95,7 @@ Finding checkOdometryFrames(const DoctorRecording& recording,
     if (whole.empty()) return;
     missing += text(missing.empty() ? "" : ", ", "'", frame, "' (tf: '", whole, "')");
     parameters.push_back({"mapper", key, whole, "the odometry leaves out tf's prefix"});
+    finding.answered_by.push_back(parameters.back());
   };
   compare(odom, "odom_frame");
   compare(base, "base_frame");

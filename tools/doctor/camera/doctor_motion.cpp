@@ -232,6 +232,7 @@ Finding checkTimeOffset(const std::vector<CameraExtrinsics>& cameras,
   finding.remedy = "set image_time_offset_s";
   parameters.push_back({"mapper", "image_time_offset_s", rounded(offset_s, 3),
                         "images are stamped by another clock, or late", kSameTime_s});
+  finding.answered_by = {parameters.back()};
   return finding;
 }
 

@@ -49,6 +49,8 @@ const char* nameOf(Verdict verdict) {
   switch (verdict) {
     case Verdict::kOk:
       return "ok";
+    case Verdict::kConfigured:
+      return "configured";
     case Verdict::kNotChecked:
       return "not checked";
     case Verdict::kWarning:
@@ -77,7 +79,9 @@ std::string textOf(const DoctorReport& report) {
     if (finding.remedy.empty()) continue;
     text << std::string(kVerdictWidth + kNameWidth, ' ') << "-> " << finding.remedy << '\n';
   }
-  if (!report.vehicle.empty()) {
+  if (!report.in_force.empty()) {
+    text << "\nIn force: " << report.in_force << configuredOf(report.configured) << '\n';
+  } else if (!report.vehicle.empty()) {
     text << "\nLooks like " << report.vehicle << ": begin with config/" << report.config_file
          << configuredOf(report.configured) << '\n';
   }
@@ -107,6 +111,7 @@ nlohmann::ordered_json jsonOf(const DoctorReport& report) {
   }
   json["vehicle"] = report.vehicle;
   json["config_file"] = report.config_file;
+  json["in_force"] = report.in_force;
   json["parameters"] = nlohmann::ordered_json::object();
   for (const SuggestedParameter& parameter : report.parameters) {
     json["parameters"][parameter.section + "/" + parameter.key] = {{"value", parameter.value},

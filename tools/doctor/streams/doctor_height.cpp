@@ -156,6 +156,8 @@ Finding checkGround(const std::vector<HeightSample>& samples, bool whole) {
   finding.remedy =
       "with odometry_mode twist set odometry_height to twist when you fly over furniture; z then "
       "drifts as x and y do";
+  // It takes steps out that the velocity does not know (HeightJumpDetector).
+  finding.answered_by = {{"mapper", "odometry_mode", "twist", "z steps over furniture"}};
   return finding;
 }
 
@@ -176,6 +178,7 @@ Findings checkHeight(const DoctorRecording& recording,
     metres.text = "z comes in whole metres (ardrone_autonomy before 1.4.1)";
     metres.remedy = "update the driver; odometry_mode twist smooths the steps until then";
     parameters.push_back({"mapper", "odometry_mode", "twist", "heights are cut to metres"});
+    metres.answered_by = {parameters.back()};
   } else if (share(samples, [](const auto& s) { return s.z_m == std::round(s.z_m); }) >= kMost) {
     return notChecked("because the height does not change");
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 
 #include "ardrone_vslam/msckf_config.hpp"
 #include "doctor/streams/adapted_odometry.hpp"
@@ -186,9 +187,14 @@ Findings checkOdometryFields(const DoctorRecording& recording,
     covariance.remedy =
         text("set walk_m_per_sqrt_m and walk_m_per_sqrt_s to how well it is known; the defaults, ",
              noise.walk_m_per_sqrt_m, " and ", noise.walk_m_per_sqrt_s, ", are a drone's");
-    parameters.push_back({"mapper", "walk_m_per_sqrt_m", text(noise.walk_m_per_sqrt_m),
-                          "the odometry gives no covariance; a drone's"});
-    parameters.push_back({"mapper", "walk_m_per_sqrt_s", text(noise.walk_m_per_sqrt_s), "so, too"});
+    // Whatever a configuration says, it is the noise.
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    covariance.answered_by = {
+        {"mapper", "walk_m_per_sqrt_m", text(noise.walk_m_per_sqrt_m),
+         "the odometry gives no covariance; a drone's", kAny},
+        {"mapper", "walk_m_per_sqrt_s", text(noise.walk_m_per_sqrt_s), "so, too", kAny}};
+    parameters.insert(parameters.end(), covariance.answered_by.begin(),
+                      covariance.answered_by.end());
   }
   double rotation_rad = 0;
   for (std::size_t i = 1; i < states.size(); ++i) {
@@ -242,6 +248,7 @@ Finding checkOdometryYaw(const DoctorRecording& recording,
         metres(wrong_m), " in ", metres(flown_m), " of way");
     finding.remedy = "set odometry_mode to twist";
     parameters.push_back({"mapper", "odometry_mode", "twist", "the pose's yaw is mirrored"});
+    finding.answered_by = {parameters.back()};
   } else if (wrong_m > kDisagrees * flown_m) {
     finding.verdict = Verdict::kWarning;
     finding.text = text("pose and twist disagree: ", metres(wrong_m), " apart in ", metres(flown_m),
@@ -249,6 +256,7 @@ Finding checkOdometryYaw(const DoctorRecording& recording,
     if (unrotated_m < kAgrees * wrong_m) finding.text += ", as the twist is in the axes of odom";
     finding.remedy = "keep odometry_mode at pose; the twist must be in axes of base";
     parameters.push_back({"mapper", "odometry_mode", "pose", "the twist is not the pose's"});
+    finding.answered_by = {parameters.back()};
   } else if (telling_m < kTelling_m) {
     return {"odometry_yaw",
             Verdict::kNotChecked,
