@@ -174,6 +174,22 @@ TEST(ImuOdometry, OneWrongStampCostsLittleAndABagThatPlaysAgainBeginsAnew) {
   EXPECT_EQ(imu_odometry.push(imuAt(kAttitudes - 2), ready), Push::kBackwardStamp);
 }
 
+TEST(ImuOdometry, OnePositionBeyondAllReachIsRefusedAndSpoilsNothing) {
+  const Drive drive = ardrone_vslam::drive();
+  ImuOdometry imu_odometry;
+  std::vector<OdometryState> ready;
+  imu_odometry.push(imuAt(0), ready);
+  imu_odometry.push(imuAt(1), ready);
+  imu_odometry.push(drive.odometry[0], ready);
+  OdometryState beyond = drive.odometry[0];
+  beyond.T_odom_base.translation().setConstant(1e308);
+  EXPECT_EQ(imu_odometry.push(beyond, ready), Push::kOutOfRange);
+  for (int i = 2; i < 5; ++i) imu_odometry.push(imuAt(i), ready);
+  imu_odometry.push(drive.odometry[1], ready);
+  ASSERT_EQ(ready.size(), 2U);
+  EXPECT_LT(worst_m(ready, drive.truth), 0.01);
+}
+
 TEST(ImuOdometry, AfterAJumpBackByOneAndAHalfSecondsNothingOldIsUsed) {
   const Drive drive = ardrone_vslam::drive();
   const std::vector<OdometryState> first(drive.odometry.begin(), drive.odometry.begin() + 150);
