@@ -4,8 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+
+#include "files/plain_text.hpp"
 
 namespace ardrone_vslam {
 
@@ -42,6 +45,17 @@ inline std::ifstream openFile(const std::string& path, std::uintmax_t most_bytes
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path + ": cannot be read; " + advice);
   return file;
+}
+
+/// A configuration's or calibration's text.
+/// @throws std::runtime_error as openFile, or with the faultOfText
+inline std::string readYamlText(const std::string& path,
+                                const std::string& advice = "check the path") {
+  std::ifstream file = openFile(path, kLargestYaml_bytes, advice);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string fault = faultOfText(text);
+  if (!fault.empty()) throw std::runtime_error(path + ": " + fault);
+  return text;
 }
 
 }  // namespace ardrone_vslam

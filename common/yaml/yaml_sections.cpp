@@ -15,6 +15,8 @@
 #include <memory>
 #include <utility>
 
+#include "files/plain_text.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -110,7 +112,7 @@ std::string readText(const std::string& path, std::string& text) {
   for (std::size_t got; (got = std::fread(part.data(), 1, part.size(), file.get())) > 0;)
     if (text.append(part.data(), got).size() > kLargestFile_bytes)
       return "is too large for a configuration or a calibration; check the path";
-  return std::ferror(file.get()) == 0 ? "" : kUnreadable;
+  return std::ferror(file.get()) == 0 ? faultOfText(text) : kUnreadable;
 }
 
 }  // namespace

@@ -65,13 +65,8 @@ std::map<std::string, Section> readSections(const std::string& path,
                                             std::vector<std::string>& faults) {
   std::map<std::string, Section> sections;
   if (path.empty()) return sections;
-  const std::string fault = faultOfFile(path, kLargestYaml_bytes);
-  if (!fault.empty()) {
-    faults.push_back(path + ": " + fault);
-    return sections;
-  }
   try {
-    const YAML::Node root = YAML::LoadFile(path);
+    const YAML::Node root = YAML::Load(readYamlText(path));
     if (!root.IsMap() && !root.IsNull()) {
       faults.push_back(path + ": must hold the sections tracker: and mapper:");
       return sections;
@@ -81,10 +76,10 @@ std::map<std::string, Section> readSections(const std::string& path,
       if (sections.count(name) > 0) faults.push_back(path + ": " + twice(name));
       sections.emplace(name, readSection(path, name, section.second, faults));
     }
-  } catch (const YAML::BadFile&) {
-    faults.push_back(path + ": cannot be read; check the path");
   } catch (const YAML::Exception& e) {
     faults.push_back(path + ": not valid YAML: " + e.what());
+  } catch (const std::runtime_error& e) {
+    faults.push_back(e.what());
   }
   return sections;
 }

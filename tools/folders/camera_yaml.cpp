@@ -14,13 +14,12 @@ namespace ardrone_vslam {
 namespace {
 
 YAML::Node loadFile(const std::string& path) {
-  requireFile(path, kLargestYaml_bytes);
+  const std::string text =
+      readYamlText(path,
+                   "the calibration is missing: calibrate the camera with ROS's "
+                   "camera_calibration and put its yaml there");
   try {
-    return YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    throw std::runtime_error(path +
-                             ": cannot be read; the calibration is missing: calibrate the camera "
-                             "with ROS's camera_calibration and put its yaml there");
+    return YAML::Load(text);
   } catch (const YAML::Exception& e) {
     throw std::runtime_error(path + ": is not valid YAML: " + e.what());
   }

@@ -42,13 +42,11 @@ const std::vector<Key>& numberKeys() {
 }
 
 YAML::Node loadProfiles(const std::string& path) {
-  requireFile(path, kLargestYaml_bytes);
+  const std::string text = readYamlText(path, "it should hold the odometry profiles");
   try {
-    const YAML::Node root = YAML::LoadFile(path);
+    const YAML::Node root = YAML::Load(text);
     if (root.IsMap()) return root;
     throw std::runtime_error(path + ": holds no odometry profiles; expected 'name: {keys}'");
-  } catch (const YAML::BadFile&) {
-    throw std::runtime_error(path + ": cannot be read; it should hold the odometry profiles");
   } catch (const YAML::Exception& e) {
     throw std::runtime_error(path + ": not valid YAML: " + e.what());
   }

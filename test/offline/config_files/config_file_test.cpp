@@ -187,6 +187,10 @@ TEST_F(ConfigFile, FilesThatAreNoConfiguration) {
   const auto broken = faultsOf("mapper:\n  estimator: [exact\n");
   ASSERT_EQ(broken.size(), 1U);
   EXPECT_TRUE(contains(broken[0], "not valid YAML"));
+  // yaml-cpp takes it for UTF-32, in which there is nothing.
+  const auto zeros = faultsOf(std::string("#\0\0\0", 4) + "\nmapper:\n  scale_sigma: 0.02\n");
+  ASSERT_EQ(zeros.size(), 1U);
+  EXPECT_TRUE(contains(zeros[0], "byte 1 is of no text")) << zeros[0];
   const std::pair<std::string, std::string> none[] = {
       {folder_.file("missing.yaml"), ": cannot be read"}, {folder_.path(), ": is no file but"}};
   for (const auto& [path, fault] : none) {
