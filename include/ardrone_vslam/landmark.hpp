@@ -16,7 +16,7 @@ struct Ray {
 
 /// A point of the world with known position.
 struct Landmark {
-  std::uint32_t id = 0;                                    ///< never used again in one run
+  std::uint32_t id = 0;                                    ///< no other landmark of the map has it
   std::uint32_t track_id = 0;                              ///< of the feature that saw it last
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();  ///< of the point; z is 0 in 2-D mode
   Eigen::Vector3d view_direction_map =

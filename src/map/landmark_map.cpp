@@ -6,7 +6,8 @@
 
 namespace ardrone_vslam {
 
-LandmarkMap::LandmarkMap(const LandmarkMapConfig& config) : config_(config) {
+LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const LandmarkIds& ids)
+    : config_(config), ids_(ids) {
   validate(config);
 }
 
@@ -19,7 +20,7 @@ void LandmarkMap::reserve(std::size_t landmarks) {
 }
 
 std::uint32_t LandmarkMap::add(const Landmark& landmark) {
-  const std::uint32_t id = next_id_++;
+  const std::uint32_t id = ids_.take(index_of_id_);
   index_of_id_.emplace(id, landmarks_.size());
   landmarks_.push_back(landmark);
   landmarks_.back().id = id;

@@ -9,6 +9,7 @@
 #include "ardrone_vslam/landmark.hpp"
 #include "ardrone_vslam/slam_config.hpp"
 #include "map/landmark_columns.hpp"
+#include "map/landmark_ids.hpp"
 #include "map/triangulation.hpp"
 #include "matching/descriptor_index.hpp"
 
@@ -18,9 +19,9 @@ namespace ardrone_vslam {
 class LandmarkMap {
  public:
   /// @throws ConfigError listing every parameter out of its range
-  explicit LandmarkMap(const LandmarkMapConfig& config);
+  explicit LandmarkMap(const LandmarkMapConfig& config, const LandmarkIds& ids = LandmarkIds());
 
-  /// Stores a landmark under a new id (its `id` is ignored). O(1).
+  /// Stores a landmark under an id that no other one here has (its `id` is ignored). O(1).
   std::uint32_t add(const Landmark& landmark);
   /// Removes by id; unknown ids are ignored. O(1).
   void remove(std::uint32_t id);
@@ -76,7 +77,7 @@ class LandmarkMap {
   LandmarkMapConfig config_;
   std::vector<Landmark> landmarks_;
   std::unordered_map<std::uint32_t, std::size_t> index_of_id_;
-  std::uint32_t next_id_ = 1;
+  LandmarkIds ids_;
 
   LandmarkColumns columns_;
   DescriptorIndex index_;

@@ -15,7 +15,8 @@ void rememberObservation(const FrameView& view, std::size_t feature, Landmark& l
   landmark.height_m = view.elevation(feature) * landmark.seen_distance_m;
   landmark.last_seen_ns = view.features().stamp_ns;
   landmark.times_missed = 0;
-  ++landmark.times_seen;
+  constexpr int kMost = 1'000'000'000;  // a year in view at 30 Hz: more would tell nothing new
+  if (landmark.times_seen < kMost) ++landmark.times_seen;
 }
 
 }  // namespace

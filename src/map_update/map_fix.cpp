@@ -26,9 +26,11 @@ struct FixCoordinates {
   std::vector<int> all;
 
   FixCoordinates(const WindowState& state, const std::vector<MapObservation>& observations) {
+    anchors.reserve(observations.size());
     for (const MapObservation& observation : observations) anchors.push_back(observation.anchor);
     std::sort(anchors.begin(), anchors.end());
     anchors.erase(std::unique(anchors.begin(), anchors.end()), anchors.end());
+    all.reserve(1 + WindowState::kFrame + WindowState::kAnchor * anchors.size());
     all.push_back(WindowState::kScale);
     const int newest = state.frameCoordinate(state.frames().size() - 1);
     for (int k = 0; k < WindowState::kFrame; ++k) all.push_back(newest + k);
@@ -86,6 +88,7 @@ ObservationConsensus agreeOnPosition(const Clone& predicted, const Eigen::Vector
   ObservationConsensus consensus;
   consensus.position_map = best - lever;
   consensus.R_map_rig = predicted.R_map_rig;
+  consensus.observations.reserve(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (off(i, best) < kInlier) consensus.observations.push_back(observations[i]);
   }

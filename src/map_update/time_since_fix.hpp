@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "linear/scalars.hpp"
@@ -40,31 +40,35 @@ class TimeSinceFix {
       if (linked_s >= first_s) linked_s = since_fix_s_;
     }
   }
-  /// Drifts take part from when they are first given.
+  /// Drifts take part from when they are first given; they ascend in their anchors' ids.
   /// @param widening_s  sigmas are twice as large after so long, three times after twice as
   /// long
   void widen(std::vector<AnchorDrift>& drifts, double widening_s) {
-    std::unordered_map<std::uint32_t, double> still_there;
+    still_there_.clear();
     for (AnchorDrift& drift : drifts) {
       const double linked_s = linked(drift.anchor_id);
-      still_there[drift.anchor_id] = linked_s;
+      still_there_.emplace_back(drift.anchor_id, linked_s);
       const double widening = 1 + (since_fix_s_ - linked_s) / widening_s;
       drift.position_m2 *= widening * widening;
       drift.attitude_rad2 *= widening * widening;
     }
-    linked_s_.swap(still_there);
+    linked_s_.swap(still_there_);
   }
 
  private:
   double linked(std::uint32_t anchor_id) const {
-    const auto entry = linked_s_.find(anchor_id);
-    return entry == linked_s_.end() ? since_fix_s_ : entry->second;
+    const auto entry =
+        std::lower_bound(linked_s_.begin(), linked_s_.end(), anchor_id,
+                         [](const auto& one, std::uint32_t id) { return one.first < id; });
+    return entry == linked_s_.end() || entry->first != anchor_id ? since_fix_s_ : entry->second;
   }
 
   double since_fix_s_ = 0;
   std::optional<std::int64_t> last_stamp_ns_;
   double uncounted_s_ = 0;  // since the frame before, and not yet in since_fix_s_
-  std::unordered_map<std::uint32_t, double> linked_s_;  // by anchor
+  using LinkedAnchor = std::pair<std::uint32_t, double>;  // id, linked_s
+  std::vector<LinkedAnchor> linked_s_;                    // ascending in the id
+  std::vector<LinkedAnchor> still_there_;                 // kept for its memory
 };
 
 }  // namespace ardrone_vslam

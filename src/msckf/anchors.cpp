@@ -63,6 +63,7 @@ std::vector<AnchorCorrection> Anchors::takeCorrections(const WindowState& state,
 std::vector<AnchorDrift> driftsOf(const WindowState& state) {
   const int n = state.frameCoordinate(state.frames().size() - 1);
   std::vector<AnchorDrift> drifts;
+  drifts.reserve(state.anchors().size() + state.frames().size());
   const auto add = [&](const Clone& pose, int a) {
     const Matrix6d relative = state.relativeCovariance(n, a);
     drifts.push_back({pose.id, std::max(relative.topLeftCorner<3, 3>().trace() / 3, 0.0),

@@ -52,8 +52,8 @@ class UnconfirmedLandmarks {
   void heed(const SetupFinding& finding) { setup_ = finding; }
   /// While the camera is not used, drops those since it was last confirmed. @return how many went
   int judge(LandmarkMap& map);
-  /// A new landmark.
-  void add(std::uint32_t id) { newest_id_ = id; }
+  /// A new landmark, made of the image of this stamp.
+  void add(std::int64_t stamp_ns) { newest_ns_ = stamp_ns; }
   /// A landmark of a loaded map, which this flight's set-up did not make. Their ids follow each
   /// other.
   void addLoaded(std::uint32_t id) {
@@ -62,15 +62,14 @@ class UnconfirmedLandmarks {
   }
 
  private:
-  SetupFinding setup_;
   bool isLoaded(std::uint32_t id) const {
     return first_loaded_id_ != 0 && id >= first_loaded_id_ && id <= last_loaded_id_;
   }
-
+  SetupFinding setup_;
   std::uint32_t first_loaded_id_ = 0;  // 0: none
   std::uint32_t last_loaded_id_ = 0;
-  std::uint32_t newest_id_ = 0;
-  std::uint32_t confirmed_id_ = 0;  // the newest when the set-up was last confirmed
+  std::int64_t newest_ns_ = 0;     // a landmark's image: ids come round
+  std::int64_t confirmed_ns_ = 0;  // the newest when the set-up was last confirmed
 };
 
 }  // namespace ardrone_vslam

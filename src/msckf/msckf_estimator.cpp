@@ -125,6 +125,7 @@ SlamState MsckfEstimator::fix(const AssociationResult& matches, const FrameView&
 void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& map) {
   trusted_.clear();
   std::vector<std::uint32_t> anchors;
+  anchors.reserve(matches.matches.size());
   for (std::size_t i = 0; i < matches.matches.size(); ++i) {
     const Association& match = matches.matches[i];
     const ObservationVerdict verdict = filter_.verdicts()[i];
@@ -181,9 +182,8 @@ void MsckfEstimator::changeLandmarks(const AssociationResult& matches,
     if (const Landmark* landmark = map.find(one.track.landmark_id)) {
       renew(one, view, config_.msckf, *landmark, map);
     } else if (isWellKnown(one, view)) {
-      const std::uint32_t id = map.add(landmarkOf(one, view));
-      unconfirmed_.add(id);
-      filter_.assignLandmark(one.track.track_id, id);
+      filter_.assignLandmark(one.track.track_id, map.add(landmarkOf(one, view)));
+      unconfirmed_.add(view.features().stamp_ns);
       ++changes.new_landmarks;
     }
   }

@@ -37,10 +37,24 @@ void AnchorCorrection::apply(Landmark& landmark) const {
   landmark.anchor_id = new_anchor_id;
 }
 
+std::vector<Clone>::iterator ReAnchoring::placeOf(std::uint32_t id) {
+  return std::lower_bound(placed_.begin(), placed_.end(), id,
+                          [](const Clone& one, std::uint32_t other) { return one.id < other; });
+}
+
+void ReAnchoring::begin(const Clone& frame) {
+  const auto place = placeOf(frame.id);
+  if (place != placed_.end() && place->id == frame.id) {
+    *place = frame;
+  } else {
+    placed_.insert(place, frame);
+  }
+}
+
 void ReAnchoring::join(const Clone& anchor, std::uint32_t to_anchor_id) {
-  const auto placed = placed_.find(anchor.id);
-  if (placed == placed_.end()) return;
-  joined_.push_back(moveBetween(placed->second, anchor));
+  const auto placed = placeOf(anchor.id);
+  if (placed == placed_.end() || placed->id != anchor.id) return;
+  joined_.push_back(moveBetween(*placed, anchor));
   joined_.back().new_anchor_id = to_anchor_id;
   placed_.erase(placed);
 }
@@ -49,18 +63,23 @@ std::vector<AnchorCorrection> ReAnchoring::take(const WindowState& state, double
                                                 double tolerance_rad) {
   std::vector<AnchorCorrection> moves;
   moves.swap(joined_);
-  std::unordered_map<std::uint32_t, Clone> still_there;
+  is_there_.assign(placed_.size(), 0);
   for (const auto* poses : {&state.anchors(), &state.frames()}) {
     for (const Clone& now : *poses) {
-      const auto placed = placed_.find(now.id);
-      if (placed == placed_.end()) continue;
-      const AnchorCorrection move = moveBetween(placed->second, now);
-      const bool is_seen = isSeen(move, distance_m, tolerance_rad);
-      if (is_seen) moves.push_back(move);
-      still_there[now.id] = is_seen ? now : placed->second;
+      const auto placed = placeOf(now.id);
+      if (placed == placed_.end() || placed->id != now.id) continue;
+      is_there_[static_cast<std::size_t>(placed - placed_.begin())] = 1;
+      const AnchorCorrection move = moveBetween(*placed, now);
+      if (!isSeen(move, distance_m, tolerance_rad)) continue;
+      moves.push_back(move);
+      *placed = now;
     }
   }
-  placed_.swap(still_there);
+  const Clone* const first = placed_.data();
+  const auto isGone = [&](const Clone& one) {
+    return is_there_[static_cast<std::size_t>(&one - first)] == 0;
+  };
+  placed_.erase(std::remove_if(placed_.begin(), placed_.end(), isGone), placed_.end());
   return moves;
 }
 

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "window/window_state.hpp"
@@ -31,7 +30,7 @@ struct AnchorCorrection {
 class ReAnchoring {
  public:
   /// Landmarks will belong to this frame.
-  void begin(const Clone& frame) { placed_[frame.id] = frame; }
+  void begin(const Clone& frame);
   /// One anchor's landmarks go to another, which must have been begun, too.
   void join(const Clone& anchor, std::uint32_t to_anchor_id);
   /// What is to be moved now: landmarks of joined anchors, and those whose anchor has moved so much
@@ -42,7 +41,10 @@ class ReAnchoring {
                                      double tolerance_rad);
 
  private:
-  std::unordered_map<std::uint32_t, Clone> placed_;
+  std::vector<Clone>::iterator placeOf(std::uint32_t id);
+
+  std::vector<Clone> placed_;   // ascending in id
+  std::vector<char> is_there_;  // for each of placed_, whether the state still has it
   std::vector<AnchorCorrection> joined_;
 };
 

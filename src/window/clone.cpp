@@ -14,6 +14,14 @@ std::optional<std::size_t> indexOf(const std::vector<Clone>& poses, std::uint32_
   return static_cast<std::size_t>(found - poses.begin());
 }
 
+std::uint32_t FrameIds::take(const std::vector<Clone>& anchors, const std::vector<Clone>& frames) {
+  std::uint32_t id = 0;
+  do {
+    id = next_++;
+  } while (id == 0 || indexOf(anchors, id) || indexOf(frames, id));
+  return id;
+}
+
 Eigen::Vector3d recentVelocity_base_m_s(const std::vector<Clone>& frames,
                                         const Eigen::Matrix3d& R_base_rig) {
   constexpr double kSpan_s = 2;  // steps of single frames are noisy

@@ -10,8 +10,8 @@ namespace ardrone_vslam {
 
 /// A pose of base that the filter estimates: a frame of the window, or an anchor of landmarks.
 struct Clone {
-  std::uint32_t id = 0;  ///< ascending, never used again in one run; of a loaded map's from the
-                         ///< largest number downwards
+  std::uint32_t id = 0;  ///< ascending until all were used, not that of another pose here; of a
+                         ///< loaded map's from the largest number downwards
   std::int64_t stamp_ns = 0;                                ///< of the image
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();   ///< of base
   Eigen::Matrix3d R_map_rig = Eigen::Matrix3d::Identity();  ///< of the rig, which is base but for
@@ -26,6 +26,17 @@ struct Clone {
 
 /// Place of the pose of this id among them; nothing when there is none. O(poses).
 std::optional<std::size_t> indexOf(const std::vector<Clone>& poses, std::uint32_t id);
+
+/// Clone::id of each new frame: they count up, and begin anew after years of flight.
+class FrameIds {
+ public:
+  explicit FrameIds(std::uint32_t first) : next_(first) {}
+  /// An id that none of these poses has, nor 0, which stands for none. O(poses).
+  std::uint32_t take(const std::vector<Clone>& anchors, const std::vector<Clone>& frames);
+
+ private:
+  std::uint32_t next_;
+};
 
 /// Of base, over the last two seconds of the window's frames, axes of base at the newest; zero of
 /// one frame. The odometry's own velocity would jitter, and its bias, which counts as across the

@@ -23,7 +23,8 @@ constexpr double kSlowSpeed_m_s = 0.1;
 
 }  // namespace
 
-Propagator::Propagator(const OdometryNoiseConfig& config) : config_(config), learned_(config) {
+Propagator::Propagator(const OdometryNoiseConfig& config, const FrameIds& ids)
+    : config_(config), ids_(ids), learned_(config) {
   validate(config);
 }
 
@@ -38,9 +39,9 @@ void Propagator::start(const OdometryState& odometry, WindowState& state) {
   state.scale_error_ = 0;
   state.floor_map_m_ = 0;
   state.anchors_.clear();
-  state.frames_.assign(
-      1, {next_id_++, odometry.stamp_ns, odometry.T_odom_base.translation(),
-          odometry.T_odom_base.linear(), Eigen::Vector3d::Zero(), odometry.height_m, 1});
+  state.frames_.assign(1, {ids_.take(state.anchors_, state.frames_), odometry.stamp_ns,
+                           odometry.T_odom_base.translation(), odometry.T_odom_base.linear(),
+                           Eigen::Vector3d::Zero(), odometry.height_m, 1});
   state.covariance_.reset(kGlobals + kFrame);
   setStart(config_, odometry.T_odom_base.linear(), state.covariance_.all());
 }
@@ -106,7 +107,7 @@ void Propagator::propagate(const OdometryState& odometry, const std::optional<Od
   increment.displacement_m = increment.displacement_odom_m.norm();
 
   Clone next;
-  next.id = next_id_++;
+  next.id = ids_.take(state.anchors_, state.frames_);
   next.stamp_ns = odometry.stamp_ns;
   next.height_m = odometry.height_m;
   addPosition(odometry, increment, next, state);

@@ -19,7 +19,7 @@ namespace ardrone_vslam {
 class Propagator {
  public:
   /// @throws ConfigError listing every parameter out of its range
-  explicit Propagator(const OdometryNoiseConfig& config);
+  explicit Propagator(const OdometryNoiseConfig& config, const FrameIds& ids = FrameIds(1));
 
   /// Map equals odom; the first frame is the window's only one.
   void start(const OdometryState& odometry, WindowState& state);
@@ -69,7 +69,7 @@ class Propagator {
 
   OdometryNoiseConfig config_;
   OdometryState odometry_;  // of the newest frame
-  std::uint32_t next_id_ = 1;
+  FrameIds ids_;
   double inflation_ = 1;
   double inflation_of_state_ = 1;  // follows it: at once when it rises, as the bias fades when not
   LearnedNoise learned_;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+
+#include "support/heap_in_use.hpp"
 
 namespace ardrone_vslam::test {
 
@@ -28,8 +29,7 @@ struct ProcessState {
     long pages = 0;
     std::ifstream("/proc/self/statm") >> pages >> pages;  // the second number
     state.resident_mb = static_cast<double>(pages * sysconf(_SC_PAGESIZE)) / kBytesPerMb;
-    const struct mallinfo2 heap = mallinfo2();
-    state.heap_mb = static_cast<double>(heap.uordblks + heap.hblkhd) / kBytesPerMb;
+    state.heap_mb = static_cast<double>(heapInUse_bytes()) / kBytesPerMb;
     state.handles = countOf("/proc/self/fd") - 1;  // that of the count itself
     state.threads = countOf("/proc/self/task");
     return state;

@@ -8,7 +8,8 @@ namespace ardrone_vslam {
 
 /// A window with what carries it on.
 struct OdometryWindow : WindowState {
-  explicit OdometryWindow(const OdometryNoiseConfig& config = {}) : propagator(config) {}
+  explicit OdometryWindow(const OdometryNoiseConfig& config = {}, std::uint32_t first_frame_id = 1)
+      : propagator(config, FrameIds(first_frame_id)) {}
 
   /// Begins with the first odometry, and adds a frame by each that follows.
   void add(const OdometryState& odometry) {

@@ -34,6 +34,37 @@ TEST(LandmarkMap, IdsStayWhileIndicesMove) {
   EXPECT_GT(map.add(seenAt(4)), c) << "ids are never used again";
 }
 
+TEST(LandmarkMap, IdsComeRoundAndAreFoundInTheIndex) {
+  constexpr std::uint32_t kLargest = LandmarkIds::kLargest;
+  LandmarkMap map({}, LandmarkIds(kLargest - 1));
+  PointWorld maker(1);
+  std::vector<std::uint32_t> ids;
+  for (int i = 0; i < 4; ++i) {
+    Landmark landmark;
+    landmark.descriptor = maker.randomDescriptor();
+    ids.push_back(map.add(landmark));
+  }
+  EXPECT_EQ(ids, (std::vector<std::uint32_t>{kLargest - 1, kLargest, 1, 2})) << "0 is no landmark";
+  ASSERT_TRUE(map.advanceIndex());
+  std::vector<BestTwo> best;
+  for (const Landmark& landmark : map.all()) {
+    map.index().search({landmark.descriptor}, map.index().listCount(), best);
+    ASSERT_EQ(best.size(), 1U);
+    ASSERT_GE(best[0].index, 0);
+    EXPECT_EQ(map.find(static_cast<std::uint32_t>(best[0].index)), &landmark);
+  }
+}
+
+TEST(LandmarkMap, AnIdThatIsInUseIsLeftOut) {
+  LandmarkMap map({}, LandmarkIds(1, 5));
+  for (const std::int64_t stamp_ns : {1, 2, 3, 4, 5}) map.add(seenAt(stamp_ns));
+  map.remove(2);
+  map.remove(4);
+  EXPECT_EQ(map.add(seenAt(6)), 2U);
+  EXPECT_EQ(map.add(seenAt(7)), 4U);
+  for (const Landmark& landmark : map.all()) EXPECT_EQ(map.find(landmark.id), &landmark);
+}
+
 TEST(LandmarkMap, LastOneCanBeRemoved) {
   LandmarkMap map({});
   const std::uint32_t a = map.add(seenAt(1));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "support/view_builder.hpp"
 
@@ -229,6 +230,15 @@ TEST_F(MapperTest, DropsWhatFailsMuchMoreOftenThanItIsSeen) {
   EXPECT_NE(landmarks_.find(often_id), nullptr);
   EXPECT_EQ(mapper.countFailed({0}, landmarks_), 1);
   EXPECT_EQ(landmarks_.size(), 0U);
+}
+
+TEST_F(MapperTest, ALandmarkThatIsSeenForYearsIsCountedNoFurther) {
+  const std::vector<Eigen::Vector3d> points{{5, 0.5, 0.2}};
+  seeFirst(points);
+  ASSERT_EQ(seeAgain({0, -0.5, 0}, points), 1);
+  landmarks_.at(0).times_seen = std::numeric_limits<int>::max();
+  Mapper::remember(builder_.view(), {{0, 0}}, landmarks_);
+  EXPECT_EQ(landmarks_.all()[0].times_seen, std::numeric_limits<int>::max());
 }
 
 }  // namespace

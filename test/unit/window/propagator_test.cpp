@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <limits>
 
 #include "ardrone_vslam/rotation.hpp"
 #include "linear/selection.hpp"
@@ -153,6 +154,25 @@ TEST(Propagator, AFactorThatComesAndGoesIsNotLearned) {
     state.removeFrame(0);
   }
   EXPECT_NEAR(state.propagator.learned().bias.sigma_m_s(), configured_m_s, 1e-9);
+}
+
+TEST(Propagator, FrameIdsComeRoundPastNoneAndThoseInUse) {
+  constexpr std::uint32_t kLargest = std::numeric_limits<std::uint32_t>::max();
+  OdometryWindow state({}, kLargest);
+  state.add(climbingTurnAt(0));
+  for (int i = 1; i < 4; ++i) state.add(climbingTurnAt(i));
+  state.makeAnchor(0);
+  std::vector<std::uint32_t> ids;
+  for (const Clone& frame : state.frames()) ids.push_back(frame.id);
+  EXPECT_EQ(ids, (std::vector<std::uint32_t>{1, 2, 3})) << "0 is no frame";
+  ASSERT_EQ(state.anchors()[0].id, kLargest);
+
+  // The other one begins where its anchor has its id.
+  OdometryWindow again({}, kLargest - 1);
+  again.add(climbingTurnAt(0));
+  again.propagator = Propagator({}, FrameIds(kLargest - 1));
+  again.propagator.propagate(climbingTurnAt(1), std::nullopt, again);
+  EXPECT_EQ(again.frames().back().id, kLargest);
 }
 
 }  // namespace
