@@ -14,16 +14,21 @@ constexpr std::uint32_t kHeightQueue = 500;
 
 }  // namespace
 
-HeightTopic::HeightTopic(ros::NodeHandle nh, const HeightInputConfig& config, double buffer_s,
-                         Refuse refuse)
+HeightTopic::HeightTopic(const HeightInputConfig& config, double buffer_s, Refuse refuse)
     : input_(config, buffer_s), refuse_(std::move(refuse)) {
   if (config.use_range) {
     name_ = "range";
     parameter_ = "use_range";
-    subscriber_ = nh.subscribe(name_, kHeightQueue, &HeightTopic::onRange, this);
   } else if (config.use_navdata_height) {
     name_ = "altitude";
     parameter_ = "use_navdata_height";
+  }
+}
+
+void HeightTopic::subscribe(ros::NodeHandle& nh) {
+  if (name_ == "range") {
+    subscriber_ = nh.subscribe(name_, kHeightQueue, &HeightTopic::onRange, this);
+  } else if (isUsed()) {
     subscriber_ = nh.subscribe(name_, kHeightQueue, &HeightTopic::onAltitude, this);
   }
 }

@@ -20,14 +20,16 @@ class HeightTopic {
   /// Of a message that is not used: its topic, and why.
   using Refuse = std::function<void(const std::string& topic, const std::string& fault)>;
 
-  /// Callbacks run in the queue of `nh`. @param buffer_s  readings are kept for so long
+  /// @param buffer_s  readings are kept for so long
   /// @throws ConfigError
-  HeightTopic(ros::NodeHandle nh, const HeightInputConfig& config, double buffer_s, Refuse refuse);
+  HeightTopic(const HeightInputConfig& config, double buffer_s, Refuse refuse);
+  /// Callbacks run in the queue of `nh`, at once.
+  void subscribe(ros::NodeHandle& nh);
 
   /// @see HeightInput::at
   std::optional<double> at(const OdometryState& odometry);
 
-  bool isUsed() const { return subscriber_; }
+  bool isUsed() const { return !name_.empty(); }
   /// range or altitude
   const std::string& name() const { return name_; }
   /// To be called once a second in which images were answered.

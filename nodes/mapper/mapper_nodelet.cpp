@@ -28,7 +28,9 @@ void MapperNodelet::onInit() {
       getNodeHandle(), getPrivateNodeHandle(), getName(),
       MapperStatus::Parts{*features_, *odometry_, *heights_, *extrinsics_, *matcher_, *slam_},
       warnings_);
-  start();  // last: callbacks run at once, in another thread
+  // Last, and as one of the callbacks, which run at once: else the first of them could read what is
+  // still being made in this thread (an OdometryMaker subscribes before OdometryTopic has it).
+  timers_.once(getNodeHandle(), [this] { start(); });
 }
 
 void MapperNodelet::readParameters() {
@@ -78,11 +80,11 @@ void MapperNodelet::makeInputs() {
       OdometryTopic::Calls{
           [this](std::int64_t stamp_ns) { restartAt(stamp_ns, odometry_->name()); },
           [this] { processReady(); }});
-  heights_ = std::make_unique<HeightTopic>(
-      nh, settings_.slam.height_input, settings_.slam.odometry.buffer_s,
-      [this](const std::string& topic, const std::string& fault) {
-        warnings_.refuse(topic, fault);
-      });
+  heights_ =
+      std::make_unique<HeightTopic>(settings_.slam.height_input, settings_.slam.odometry.buffer_s,
+                                    [this](const std::string& topic, const std::string& fault) {
+                                      warnings_.refuse(topic, fault);
+                                    });
   features_ = std::make_unique<FeaturesTopic>(
       nh, warnings_,
       FeaturesTopic::Calls{
@@ -103,6 +105,7 @@ void MapperNodelet::start() {
   timers_.every(nh, MapperOutputs::kMapPeriod_s, [this] {
     if (slam_->hasMap()) outputs_->publishMap(slam_->slam().landmarks(), odometry_->frames().map);
   });
+  heights_->subscribe(nh);
   odometry_->subscribe(nh, *extrinsics_);
   features_->subscribe(nh, settings_.node.queue_size);
 }
