@@ -195,10 +195,8 @@ PaveStream parsePave(const std::uint8_t* data, std::size_t size) {
     const bool is_followed =
         packet_end <= size && startsLikeHeader(data + packet_end, size - packet_end);
     const bool is_whole = is_followed && header.payload_size_bytes > 0 && header.codec == kH264;
-    std::size_t next = packet_end;
-    if (!is_followed || !parsePaveHeader(data + packet_end, size - packet_end)) {
-      next = findHeader(data, size, position + 4);
-    }
+    // Within a packet that is followed by another one, or by nothing, headers are payload.
+    const std::size_t next = findHeader(data, size, is_followed ? packet_end : position + 4);
     if (is_whole) {
       assembler.add(header, data + position + header.header_size_bytes);
     } else {

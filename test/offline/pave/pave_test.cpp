@@ -144,6 +144,15 @@ TEST(Pave, ADamagedSizeOfTheFirstPacketCostsItsGroupOnly) {
   EXPECT_EQ(stream.statistics.waiting_frames, 1u);
 }
 
+TEST(Pave, APacketWithAnotherInItIsNotReadTwice) {
+  Packet outer = idr(1);
+  outer.payload = toBytes(dependent(2));
+  outer.payload.push_back(0);
+  const auto stream = parse(toBytes(outer));
+  EXPECT_EQ(numbersOf(stream), Numbers{1});
+  EXPECT_EQ(stream.frames[0].payload, outer.payload);
+}
+
 TEST(Pave, AnAbsurdNumberIsNoHole) {
   const auto stream = parse(join({toBytes(idr(1)), toBytes(dependent(2 + (1u << 30))),
                                   toBytes(dependent(3)), toBytes(idr(4)), toBytes(dependent(5))}));
