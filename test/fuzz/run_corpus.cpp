@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -13,7 +14,7 @@
 #include <iterator>
 #include <random>
 
-#include "fuzz/fuzz_target.hpp"
+#include "fuzz/fuzz_input.hpp"
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv);
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
@@ -34,6 +35,24 @@ std::mt19937& randomNumbers() {
 
 std::size_t below(std::size_t end) {
   return randomNumbers()() % end;
+}
+
+/// Numbers that are odd in one type or another, as their bytes.
+Bytes oddNumber() {
+  constexpr double kOdd[] = {0, -0.0, -1, 1e-320, 1e300, -1e300, HUGE_VAL, NAN};
+  const double value = kOdd[below(std::size(kOdd))];
+  Bytes bytes;
+  switch (below(3)) {
+    case 0:
+      put(bytes, value);
+      break;
+    case 1:
+      put(bytes, static_cast<std::uint32_t>(below(11) - 5) << 23U);  // of a float, its exponent
+      break;
+    default:
+      put(bytes, static_cast<std::uint32_t>(below(5) - 2));
+  }
+  return bytes;
 }
 
 /// What is at work, for the handler.
@@ -111,7 +130,7 @@ int runAll(const std::vector<std::string>& arguments) {
 /// libFuzzer's, made small: one change of a byte, of a number, or of the size.
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
                                         std::size_t most_size) {
-  using ardrone_vslam::fuzz::below;
+  using namespace ardrone_vslam::fuzz;
   const std::size_t at = size == 0 ? 0 : below(size);
   const std::size_t count = std::min<std::size_t>(1 + below(16), size - at);
   std::uint8_t* const place = data + at;
@@ -125,10 +144,11 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
     case 1:
       std::copy(place + count, data + size, place);
       return size - count;
-    case 2:
-      std::fill_n(place, std::min<std::size_t>(count, 8),
-                  std::uint8_t{below(2) == 0 ? std::uint8_t{0xff} : std::uint8_t{0}});
+    case 2: {
+      const Bytes number = oddNumber();
+      std::copy_n(number.begin(), std::min(number.size(), size - at), place);
       return size;
+    }
     case 3:
       std::memmove(place, data + below(size - count + 1), count);
       return size;
