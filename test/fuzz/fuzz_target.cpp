@@ -6,12 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
-                                        std::size_t most_size);
-extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv);
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
-                                               std::size_t most_size, unsigned int seed);
+#include <stdexcept>
 
 namespace ardrone_vslam::fuzz {
 namespace {
@@ -37,7 +32,6 @@ void require(bool holds, const std::string& promise) {
 
 }  // namespace ardrone_vslam::fuzz
 
-/// Called once at the start. With --write-seeds FOLDER the program does that alone.
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   if (*argc == 3 && std::string((*argv)[1]) == "--write-seeds") {
     ardrone_vslam::fuzz::writeSeeds((*argv)[2]);

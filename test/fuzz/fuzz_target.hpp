@@ -8,8 +8,19 @@
 #include <string>
 #include <vector>
 
+// libFuzzer's names.
+// NOLINTBEGIN(readability-identifier-naming)
 /// Gives hostile bytes to the code under test. Stops the program where a promise is broken.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+/// Called once at the start. With --write-seeds FOLDER the program does that alone.
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv);
+/// A mutation, then a repair.
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most_size, unsigned int seed);
+/// One of libFuzzer's mutations; without it one of run_corpus.cpp's.
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
+                                        std::size_t most_size);
+// NOLINTEND(readability-identifier-naming)
 
 namespace ardrone_vslam::fuzz {
 

@@ -16,12 +16,6 @@
 
 #include "fuzz/fuzz_input.hpp"
 
-extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv);
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
-                                        std::size_t most_size);
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
-                                               std::size_t most_size, unsigned int seed);
-
 namespace ardrone_vslam::fuzz {
 namespace {
 
