@@ -133,9 +133,10 @@ bool MapperNodelet::prepareSlam(const Features& features) {
   const auto T_base_cam = extrinsics_->find(frames.base, frame);
   if (!T_base_cam) return false;
   useCamera(camera, *T_base_cam, frame);
-  NODELET_INFO_STREAM("frames: " << frames.map << " -> " << frames.odom << " -> " << frames.base
-                                 << " -> " << frame << ", camera at ("
-                                 << T_base_cam->translation().transpose() << ") m");
+  if (warnings_.allowsEvent())
+    NODELET_INFO_STREAM("frames: " << frames.map << " -> " << frames.odom << " -> " << frames.base
+                                   << " -> " << frame << ", camera at ("
+                                   << T_base_cam->translation().transpose() << ") m");
   return true;
 }
 
@@ -146,7 +147,7 @@ void MapperNodelet::useCamera(const CameraIdentity& camera, const Eigen::Isometr
         "the camera changed from " + slam_->camera().text() + " to " + camera.text();
     slam_->countCameraChange();
     if (slam_->slam().canChangeCamera()) {
-      NODELET_INFO_STREAM(change << ": the map goes on");
+      if (warnings_.allowsEvent()) NODELET_INFO_STREAM(change << ": the map goes on");
       odometry_->watch().changeCamera();
     } else {
       beginMapAnew(change + ", and extrinsics_sigma_deg is of one camera");
@@ -193,12 +194,12 @@ void MapperNodelet::restartAt(std::int64_t stamp_ns, const std::string& topic) {
   if (slam_->hasMap() && slam_->answered_ns() > limit_ns) {
     beginMapAnew("stamps on " + topic + " jumped back (a bag plays again?)");
   } else if (was_waiting) {
-    NODELET_WARN_STREAM("stamps on " << topic << " jumped back: what waited for a pose is dropped");
+    warnings_.event("stamps on " + topic + " jumped back: what waited for a pose is dropped");
   }
 }
 
 void MapperNodelet::beginMapAnew(const std::string& why) {
-  NODELET_WARN_STREAM(why << ": the map begins anew");
+  warnings_.event(why + ": the map begins anew");
   slam_->endMap();
   odometry_->watch().beginMapAnew();
   outputs_->clear();

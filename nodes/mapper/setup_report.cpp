@@ -28,7 +28,7 @@ std::string SetupReport::offsetAdvice() const {
 void SetupReport::sayFault() {
   const std::string fault = explain(monitor_.finding(), base_, camera_);
   if (fault == fault_) return;
-  warnings_.say(fault.empty() ? "camera and odometry agree again: both are used" : fault);
+  warnings_.event(fault.empty() ? "camera and odometry agree again: both are used" : fault);
   fault_ = fault;
 }
 

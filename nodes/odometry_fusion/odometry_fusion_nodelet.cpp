@@ -64,10 +64,9 @@ void OdometryFusionNodelet::onOdometry(const nav_msgs::OdometryConstPtr& odometr
   if (answer == StampGuard::Answer::kAlone) return status_->refuseOdometry(kAloneFault);
   if (answer == StampGuard::Answer::kRestart) {
     status_->countRestart();
-    NODELET_WARN_STREAM(
-        "stamps on " << odometry_topic_
-                     << " jumped back (a bag plays again?): odometry and correction are forgotten, "
-                        "nothing is published until the next correction");
+    warnings_.event("stamps on " + odometry_topic_ +
+                    " jumped back (a bag plays again?): odometry and correction are forgotten, "
+                    "nothing is published until the next correction");
     fusion_->clear();
     corrections_->clear();
   }

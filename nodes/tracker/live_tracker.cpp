@@ -28,8 +28,8 @@ std::string LiveTracker::prepare(const sensor_msgs::CameraInfo& info, const std:
   if (!fault.empty()) return images_.imageTopic() + ": " + fault;
   if (tracker_ && camera == camera_ && frame == camera_frame_) return {};
   if (tracker_) {
-    warnings_.say("the camera changed from " + camera_frame_ + " to " + frame +
-                  ": tracks begin anew");
+    warnings_.event("the camera changed from " + camera_frame_ + " to " + frame +
+                    ": tracks begin anew");
   }
   try {
     tracker_ = std::make_unique<Tracker>(config_, camera, next_track_id_);
@@ -39,8 +39,8 @@ std::string LiveTracker::prepare(const sensor_msgs::CameraInfo& info, const std:
   }
   const double scale = camera.fx_px / (node_config_.rectified ? info.P[0] : info.K[0]);
   if (scale != 1) {
-    warnings_.say(text(info_topic, ": camera ", frame, ": the calibration is of images ", 1 / scale,
-                       " times as wide: taken for them (rescale_calibration)"));
+    warnings_.event(text(info_topic, ": camera ", frame, ": the calibration is of images ",
+                         1 / scale, " times as wide: taken for them (rescale_calibration)"));
   }
   camera_ = camera;
   camera_frame_ = frame;

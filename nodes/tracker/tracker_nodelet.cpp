@@ -80,9 +80,8 @@ std::string TrackerNodelet::stampFault(const std_msgs::Header& header) {
     case StampGuard::Answer::kAlone:
       return kAloneFault;
     case StampGuard::Answer::kRestart:
-      NODELET_WARN_STREAM("stamps on " << images_->imageTopic() << " jumped back to "
-                                       << header.stamp
-                                       << " (a bag plays again?): tracks begin anew");
+      warnings_.event(text("stamps on ", images_->imageTopic(), " jumped back to ", header.stamp,
+                           " (a bag plays again?): tracks begin anew"));
       tracker_->reset();
       break;
     case StampGuard::Answer::kAscending:

@@ -5,7 +5,7 @@
 
 namespace ardrone_vslam {
 
-/// They count up, and begin anew after weeks of flight.
+/// They count up, and begin anew after months of flight.
 class LandmarkIds {
  public:
   static constexpr std::uint32_t kLargest = 0x7fffffff;  ///< the index has them as signed numbers

@@ -201,6 +201,14 @@ TEST(GapCounterTest, CountsWhatIsMissing) {
   EXPECT_EQ(gaps.lost(), 3U);
 }
 
+TEST(GapCounterTest, NumbersThatComeRoundAreNoLoss) {
+  GapCounter gaps;
+  for (const std::uint32_t sequence : {0xfffffffdU, 0xffffffffU, 0U, 1U, 2U}) gaps.see(sequence);
+  EXPECT_EQ(gaps.lost(), 1U) << "the one before the numbers come round";
+  gaps.see(4);
+  EXPECT_EQ(gaps.lost(), 2U);
+}
+
 TEST(FrameNames, TfPrefix) {
   EXPECT_EQ(withTfPrefix("", "odom"), "odom");
   EXPECT_EQ(withTfPrefix("drone", "odom"), "drone/odom");
@@ -218,6 +226,28 @@ TEST(WarningLimiterTest, TheSameIsSaidSeldomAnotherSoon) {
   EXPECT_TRUE(limiter.allows("a", 5.1));
   EXPECT_FALSE(limiter.allows("b", 5.2));
   EXPECT_TRUE(limiter.allows("b", 5.4));
+}
+
+TEST(EventLimiterTest, FiveAtOnceAndFiveASecond) {
+  EventLimiter limiter;
+  int said = 0;
+  for (int i = 0; i < 3000; ++i) said += limiter.allows(1000 + i / 30.0);
+  EXPECT_LE(said, 505) << "one with each of 30 images a second, for 100 s";
+  EXPECT_GE(said, 490);
+  said = 0;
+  for (int i = 0; i < 10; ++i) said += limiter.allows(2000);
+  EXPECT_EQ(said, 5);
+}
+
+TEST(WarningsTest, EventsAndWarningsDoNotHideEachOther) {
+  std::vector<std::string> said;
+  Warnings warnings([&said](const std::string& sentence) { said.push_back(sentence); });
+  warnings.limited("a fault");
+  warnings.event("the camera changed");
+  warnings.event("the map begins anew");
+  warnings.limited("a fault");
+  EXPECT_EQ(said,
+            (std::vector<std::string>{"a fault", "the camera changed", "the map begins anew"}));
 }
 
 TEST(ReminderTest, SoonOnceThenSeldom) {
