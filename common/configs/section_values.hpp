@@ -36,8 +36,9 @@ struct SectionValues {
       value = text;
       return;
     } else {
-      if (readNumber(text, value)) return;
-      must_be = std::string(kindOf(value)) + " [" + info.unit + "]";
+      if (!isOctal(text) && readNumber(text, value)) return;
+      must_be = std::string(kindOf(value)) + " [" + info.unit + "]" +
+                (isOctal(text) ? " without zeros before it" : "");
     }
     faults->push_back(section_name + "/" + info.name + " is '" + shortened(text) +
                       "' but must be " + must_be +
@@ -45,6 +46,13 @@ struct SectionValues {
   }
 
  private:
+  /// roslaunch and yaml-cpp read 010 as 8, others as 10.
+  static bool isOctal(const std::string& text) {
+    const std::size_t begin = text.find_first_not_of("+-");
+    return begin != std::string::npos && text.size() > begin + 1 && text[begin] == '0' &&
+           text.find_first_not_of("0123456789", begin) == std::string::npos;
+  }
+
   static const char* kindOf(bool) { return "a switch (true or false)"; }
   static const char* kindOf(int) { return "a whole number"; }
   static const char* kindOf(double) { return "a number"; }

@@ -111,6 +111,16 @@ TEST_F(ConfigFile, EveryFaultIsListedAtOnce) {
   }
 }
 
+TEST_F(ConfigFile, ANumberThatSomeReadAsAnOctalOneIsRefused) {
+  for (const char* const text :
+       {"tracker:\n  features_per_frame: 0100\n", "mapper:\n  scale_sigma: 01\n"}) {
+    const auto faults = faultsOf(text);
+    ASSERT_EQ(faults.size(), 1U) << text;
+    EXPECT_TRUE(contains(faults[0], "without zeros before it")) << faults[0];
+  }
+  EXPECT_TRUE(faultsOf("mapper:\n  scale_sigma: 0.02\n  velocity_bias_m_s: 0\n").empty());
+}
+
 TEST_F(ConfigFile, WhatIsThereTwiceIsRefused) {
   auto faults = faultsOf("mapper:\n  planar: true\ntracker:\nmapper:\n  min_landmarks: 5\n");
   ASSERT_EQ(faults.size(), 1U);
