@@ -10,11 +10,11 @@
 #include "config_files/config_file.hpp"
 #include "folders/camera_yaml.hpp"
 #include "fuzz/fuzz_input.hpp"
-#include "fuzz/scratch_folder.hpp"
 #include "protocol/udp.hpp"
 #include "sequences/sequence.hpp"
 #include "settings/settings.hpp"
 #include "simulation/odometry_model.hpp"
+#include "support/temporary_folder.hpp"
 #include "test_paths.hpp"
 #include "yaml/calibration.hpp"
 
@@ -167,11 +167,11 @@ std::size_t repair(std::uint8_t* /*data*/, std::size_t size, std::size_t /*most_
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ardrone_vslam::fuzz;
-  static const ScratchFolder folder;
+  static const ardrone_vslam::TemporaryFolder folder;
   FuzzInput input(data, size);
   const auto kind = static_cast<Kind>(input.take<std::uint8_t>() % kKinds);
   const std::string path = folder.file("a.yaml");
-  folder.write("a.yaml", input.data(), input.left());
+  folder.write("a.yaml", input.text());
   switch (kind) {
     case kConfig:
       readConfig(path);

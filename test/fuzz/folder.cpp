@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "fuzz/fuzz_input.hpp"
-#include "fuzz/scratch_folder.hpp"
 #include "sequences/sequence.hpp"
 #include "support/sequence_folders.hpp"
 

@@ -5,9 +5,9 @@
 
 #include "ardrone_vslam/slam.hpp"
 #include "fuzz/fuzz_input.hpp"
-#include "fuzz/scratch_folder.hpp"
 #include "support/point_flight.hpp"
 #include "support/read_file.hpp"
+#include "support/temporary_folder.hpp"
 #include "unit/map_file/map_files.hpp"
 
 namespace ardrone_vslam::fuzz {
@@ -17,12 +17,12 @@ void writeNumber(std::uint8_t* to, std::uint64_t value, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
 
-std::string fileOfMap(const SavedMap& map, const ScratchFolder& folder) {
+std::string fileOfMap(const SavedMap& map, const TemporaryFolder& folder) {
   writeMap(folder.file("seed.vmap"), map);
   return test::readFile(folder.file("seed.vmap"));
 }
 
-void requireUsable(const SavedMap& map, const ScratchFolder& folder) {
+void requireUsable(const SavedMap& map, const TemporaryFolder& folder) {
   const std::string first = folder.file("first.vmap");
   const std::string second = folder.file("second.vmap");
   require(writeMap(first, map) == map.landmarks.size(), "all landmarks that were read are written");
@@ -51,7 +51,7 @@ void requireFlyable(const SavedMap& map) {
 }  // namespace
 
 std::vector<Bytes> seeds() {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   RandomSource random(1);
   std::vector<Bytes> all{bytesOf(fileOfMap(test::smallMap(), folder)),
                          bytesOf(test::fileOf({{"INFO", ""}, {"extr", "to be skipped"}}))};
@@ -90,9 +90,9 @@ std::size_t repair(std::uint8_t* data, std::size_t size, std::size_t /*most_size
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ardrone_vslam;
-  static const fuzz::ScratchFolder folder;
+  static const TemporaryFolder folder;
   const std::string path = folder.file("house.vmap");
-  folder.write("house.vmap", data, size);
+  folder.write("house.vmap", {data, data + size});
   try {
     const SavedMap map = readMap(path);
     fuzz::requireUsable(map, folder);
