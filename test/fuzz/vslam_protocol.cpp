@@ -69,7 +69,7 @@ void readRecord(ObserverInput& input, const Bytes& record, std::int64_t now_ns) 
   require(state->T_odom_base.matrix().allFinite() && state->covariance.allFinite(),
           "the observer's states are finite");
   require(state->T_odom_base.linear().isUnitary(1e-6), "and their attitudes rotations");
-  VslamObserver observer;
+  VslamObserver observer{};
   require(vslam_read_observer(record.data(), record.size(), &observer) == VSLAM_GOOD, "is good");
   std::array<std::uint8_t, VSLAM_OBSERVER_BYTES> again{};
   vslam_write_observer(&observer, again.data());
