@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <utility>
 
 #include "ardrone_vslam/frame_result.hpp"
 #include "linear/scalars.hpp"
@@ -44,8 +43,8 @@ std::optional<OdometryStep> OdometryStepWatch::see(const OdometryState& state) {
     frozen_s_ += dt_s;
     return std::nullopt;
   }
-  const double frozen_s = std::min(std::exchange(frozen_s_, 0), kLongestFreeze_s);
-  const double lost_m = frozen_s < kShortestFreeze_s ? 0 : speed_m_s * frozen_s;
+  const double lost_m = frozenWay_m();
+  frozen_s_ = 0;
   const Eigen::Vector3d expected_m = velocity_odom_m_s_ * dt_s;
   const double most_m = kSlack_m + kStampSlack * expected_m.norm() +
                         kAcceleration_m_s2 * (kMemory_s + stepping_s_ + dt_s) * dt_s +
@@ -66,6 +65,11 @@ std::optional<OdometryStep> OdometryStepWatch::see(const OdometryState& state) {
   // The way may have gone on as before, and the attitude is right again only now.
   if (lost_m > 0) return OdometryStep{displacement_m, Eigen::Vector3d::Zero(), lost_m};
   return std::nullopt;
+}
+
+double OdometryStepWatch::frozenWay_m() const {
+  if (frozen_s_ < kShortestFreeze_s) return 0;
+  return velocity_odom_m_s_.norm() * std::min(frozen_s_, kLongestFreeze_s);
 }
 
 std::string explainStep(const std::string& odometry, double step_m) {

@@ -26,6 +26,8 @@ class OdometryStepWatch {
 
   /// One state, in order of the stamps; O(1).
   std::optional<OdometryStep> see(const OdometryState& state);
+  /// The way that odometry which is frozen in flight may have missed so far; 0: it is not.
+  double frozenWay_m() const;
 
  private:
   bool has_last_ = false;

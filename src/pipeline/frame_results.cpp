@@ -44,11 +44,15 @@ void noteMatches(const AssociationResult& matches, FrameResult& result) {
   result.landmark_matches = static_cast<int>(matches.matches.size());
 }
 
+void widenPlace(FrameResult& result, double sigma_m) {
+  result.covariance.diagonal().head<3>().array() += sigma_m * sigma_m;
+  result.sigma_m = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace() / 3);
+}
+
 void forgetPlace(FrameResult& result) {
   constexpr double kAnywhere_m = 1000;
-  result.covariance.diagonal().head<3>().array() += kAnywhere_m * kAnywhere_m;
+  widenPlace(result, kAnywhere_m);
   result.covariance(5, 5) += M_PI * M_PI / 3;  // any heading
-  result.sigma_m = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace() / 3);
 }
 
 bool isFinite(const FrameResult& r) {

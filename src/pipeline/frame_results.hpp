@@ -16,6 +16,8 @@ FrameResult resultOf(const Estimate& estimate, const Correction& correction,
 void noteFeatures(const ImageFeatures& features, FrameResult& result);
 /// How landmarks were looked for, and how many were found.
 void noteMatches(const AssociationResult& matches, FrameResult& result);
+/// The place is known less well than the estimator says, by this sigma per axis.
+void widenPlace(FrameResult& result, double sigma_m);
 /// The flight has not been found in its map: the covariance says so to who asks for it alone.
 void forgetPlace(FrameResult& result);
 

@@ -165,6 +165,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   s.result.stamp_ns = odometry.stamp_ns;
   s.result.T_odom_base = odometry.T_odom_base;
   if (step) s.result.odometry_step_m = step->jump_odom_m.norm();
+  if (const double way_m = s.step_watch.frozenWay_m(); way_m > 0) widenPlace(s.result, way_m);
   noteFeatures(features, s.result);
   s.result.landmarks = static_cast<int>(s.map.size());
   noteMatches(s.matches, s.result);

@@ -118,6 +118,8 @@ TEST(OdometryStepWorld, AfterAFreezeThePlaceIsFoundAgain) {
       stepBy(-lost_m, again, odometry);
       const FlightRun run = test::fly(world, flight, odometry, test::msckfConfig());
       EXPECT_LT(worstFrom(again + 1, flight, run), 0.37) << seed << ", " << frozen;  // 0.244
+      for (std::size_t i = kFault + 7; i < again; ++i)
+        ASSERT_LT(errorAt(flight, run, i), 3 * run.results[i].sigma_m) << "does not say so, " << i;
     }
   }
 }

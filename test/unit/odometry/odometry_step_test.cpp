@@ -80,7 +80,9 @@ TEST_F(OdometryStepTest, AfterAFreezeInFlightTheWayMayHaveGoneOn) {
     for (int i = 10; i < 40; ++i) ASSERT_FALSE(see(0.1 * i, 0.9));
   };
   flyAndFreeze();
+  EXPECT_NEAR(watch_.frozenWay_m(), 3, 0.01) << "1 m/s for 3 s";
   const auto thawed = see(4.0, 1.0);
+  EXPECT_EQ(watch_.frozenWay_m(), 0);
   ASSERT_TRUE(thawed);
   EXPECT_EQ(thawed->jump_odom_m.norm(), 0);
   EXPECT_NEAR(thawed->motion_odom_m.x(), 0.1, 1e-9);
