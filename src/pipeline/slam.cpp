@@ -68,8 +68,7 @@ struct Slam::State {
 
 Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
   validate(config);
-  const std::vector<std::string> faults = faultsBetween(config);
-  if (!faults.empty()) throw ConfigError(faults);
+  if (const auto faults = faultsBetween(config); !faults.empty()) throw ConfigError(faults);
   refuseExtrinsics(T_base_cam);
   state_ = std::make_unique<State>(config, T_base_cam);
 }
