@@ -137,7 +137,7 @@ std::vector<SoakRow> fly(const Options& o, ThereAndBack& flight, Pipeline& pipel
     const double cpu_ns = bench::threadTime_ns();
     const FrameResult& result = pipeline.process(image, i);
     const double cpu_ms = (bench::threadTime_ns() - cpu_ns) * 1e-6;
-    interval.add(result, flight.T_map_baseAtImage(i), cpu_ms, (wallTime_ns() - wall_ns) * 1e-6);
+    interval.add(result, flight.poseAtImage(i), cpu_ms, (wallTime_ns() - wall_ns) * 1e-6);
     progress.update(i + 1);
     if (interval.images() < in_row) continue;
     rows.push_back(interval.finish(static_cast<double>(i + 1) / kImages_h));

@@ -26,7 +26,7 @@ class ThereAndBack {
 
   /// Of the whole flight's images from 0 on; good until the next call.
   ImageView image(std::uint64_t index);
-  Eigen::Isometry3d T_map_baseAtImage(std::uint64_t index) const {
+  Eigen::Isometry3d poseAtImage(std::uint64_t index) const {
     return at(T_map_base_of_images_, index);
   }
   /// True poses, kPoses_hz of them a second; the first is the first image's.
