@@ -28,9 +28,9 @@ void MapperNodelet::onInit() {
       getNodeHandle(), getPrivateNodeHandle(), getName(),
       MapperStatus::Parts{*features_, *odometry_, *heights_, *extrinsics_, *matcher_, *slam_},
       warnings_);
-  // Last, and as one of the callbacks, which run at once: else the first of them could read what is
-  // still being made in this thread (an OdometryMaker subscribes before OdometryTopic has it).
-  timers_.once(getNodeHandle(), [this] { start(); });
+  // Last: callbacks run at once, in another thread. In this one, which loads the tracker, too:
+  // where one thread advertises while another subscribes, roscpp connects them twice.
+  start();
 }
 
 void MapperNodelet::readParameters() {

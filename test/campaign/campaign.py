@@ -44,8 +44,10 @@ def main():
     parser.add_argument("--seeds", type=int, default=0, metavar="N", help="of the odometry's noise; default: 3, with --quick 1")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="flights at a time; default: %(default)s")
     parser.add_argument("--json", metavar="FILE", help="all figures")
+    parser.add_argument("--no-build", action="store_true", help="fly with what was built before")
     parser.add_argument("--make-world", required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--work", required=True, metavar="FOLDER", help="for flights and logs; what is rendered there is not rendered again")
+    parser.add_argument("--work", metavar="FOLDER", help="for flights and logs; a flight that is there is not rendered again; default: fault_campaign in the build folder")
+    parser.add_argument("--version", action="store_true", help="of the package")  # scripts/fault_campaign answers
     arguments = parser.parse_args()
     if arguments.list:
         print("\n".join(f"{fault.name:22} {fault.of:10} {fault.what}" for fault in FAULTS))

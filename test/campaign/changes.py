@@ -62,14 +62,14 @@ def dropped(share):
 
 
 def twice(inside, _context):
-    return [item for item in inside for _ in range(2)]
+    return [one for item in inside for one in (item, replace(item, waits=False))]
 
 
 def swapped(inside, _context):
     """The second of two comes before the first."""
     result = []
     for first, second in zip(inside[::2], inside[1::2]):
-        result += [replace(second, time_ns=first.time_ns, waits=False), replace(first, time_ns=second.time_ns)]
+        result += [replace(second, time_ns=first.time_ns, waits=False), replace(first, time_ns=second.time_ns, waits=False)]
     return result + inside[len(inside) // 2 * 2:]
 
 
@@ -120,7 +120,8 @@ def images_stamped(later_s):
     """All images and their camera_info."""
     def change(message, _number, _context):
         message.header.stamp += rospy.Duration.from_sec(later_s)
-    return each(("image", "info"), change, whole_flight=True)
+    # Odometry of the stamp comes with later images only.
+    return lambda items, context: [replace(item, waits=False) for item in each(("image", "info"), change, whole_flight=True)(items, context)]
 
 
 def played_again(items, _context):

@@ -8,7 +8,9 @@ from typing import Callable, Optional
 import changes
 from changes import each, stream
 
-HARMLESS_M = 0.35  # largest error of a flight that goes on as if nothing had been
+HARMLESS_M = 0.45  # largest error of a flight that goes on as if nothing had been; without a fault 0.23 to 0.34
+
+UNTIL_FOUND = "until the fault is found the pose claims too much"
 
 
 @dataclass
@@ -30,7 +32,7 @@ class Fault:
 
 
 def set_up(name, what, change, **options):
-    return Fault(name, "set-up", what, change, state="distrusted", of_odometry=1.1, **options)
+    return Fault(name, "set-up", what, change, **{"state": "distrusted", "of_odometry": 1.1, **options})
 
 
 # What happens to the nodelets and to the master
@@ -90,11 +92,11 @@ FAULTS = (
     Fault("odometry_swapped", "odometry", "the later of two comes first", stream(("odometry",), changes.swapped)),
     Fault("odometry_late", "odometry", "comes 0.2 s late, stamps right", stream(("odometry",), changes.later(200_000_000))),
     Fault("odometry_jumps", "odometry", "by 2 m at once", changes.odometry_jump(2)),
-    Fault("odometry_frozen", "odometry", "the same pose under new stamps", stream(("odometry",), changes.frozen)),
+    Fault("odometry_frozen", "odometry", "the same pose under new stamps", stream(("odometry",), changes.frozen), largest_m=3.5),
     Fault("other_odometry", "odometry", "that of another flight", stream(("odometry",), changes.of_other_flight("odometry")),
           missed="a heading that jumps is believed"),
 
-    Fault("clock_ahead", "clock", "all stamps 1000 s on", changes.stamps_moved(1000)),
+    Fault("clock_ahead", "clock", "all stamps 1000 s on", changes.stamps_moved(1000), largest_m=150),
     Fault("clock_back", "clock", "all stamps 5 s back", changes.stamps_moved(-5)),
     Fault("one_image_ahead", "clock", "one image stamped 1000 s ahead", changes.stamps_moved(1000, "image")),
     Fault("one_odometry_ahead", "clock", "one odometry message stamped 1000 s ahead", changes.stamps_moved(1000, "odometry")),
@@ -113,9 +115,10 @@ FAULTS = (
     set_up("yaw_180", "the camera looks back", each(("tf_static",), changes.mounting((0, 0, 0, 1)), True), quick=True),
     set_up("roll_90", "the camera is turned about its axis", each(("tf_static",), changes.mounting((0.7071068, 0.7071068, 0, 0)), True)),
     set_up("mirrored", "mirrored images", changes.pixels(changes.mirrored, True)),
-    set_up("focal_0.7", "focal length times 0.7", each(("info",), changes.focal_length(0.7), True)),
-    set_up("images_late", "stamps of images 0.3 s late", changes.images_stamped(0.3)),
-    set_up("yaw_mirrored", "the odometry's yaw is mirrored", each(("odometry",), changes.mirrored_yaw, True)),
+    set_up("focal_0.7", "focal length times 0.7", each(("info",), changes.focal_length(0.7), True), missed=UNTIL_FOUND),
+    set_up("images_late", "stamps of images 0.3 s late", changes.images_stamped(0.3), missed=UNTIL_FOUND),
+    set_up("yaw_mirrored", "the odometry's yaw is mirrored", each(("odometry",), changes.mirrored_yaw, True), largest_m=4.0,
+           missed=UNTIL_FOUND),
 
     Fault("tracker_reloaded", "nodelets", "unloaded and loaded in flight", changes.done_at(0.4, reloaded("tracker", "TrackerNodelet", {
         "image": "/camera/image_raw", "camera_info": "/camera/camera_info"})), is_loose=True, is_counted_anew=True),

@@ -14,7 +14,7 @@ from tf2_msgs.msg import TFMessage
 
 CONNECT_S, END_S = 60, 5
 RATE_HZ = 10  # of images while something is done to the nodelets
-ANSWER_S, SILENT_ANSWER_S = 2, 0.1  # how long an answer is waited for; after three that did not come
+ANSWER_S, SILENT_ANSWER_S = 1, 0.1  # how long an answer is waited for; after three that did not come
 # What becomes of an image: each counter of Status.
 ANSWERED_OR_LOST = ("images", "images_dropped", "images_dropped_queue", "images_without_camera_info", "dropped_bad_message", "dropped_stamp",
                     "dropped_queue", "dropped_no_odometry", "dropped_no_extrinsics", "results_not_finite")
@@ -61,8 +61,8 @@ class Answers:
         if "/vslam" in message.name:
             self.log_lines += 1
 
-    def counted(self):
-        return sum(getattr(self.status, name) for name in ANSWERED_OR_LOST) if self.status else 0
+    def counts(self):
+        return {name: getattr(self.status, name) for name in ANSWERED_OR_LOST} if self.status else {}
 
 
 class Player:
@@ -111,4 +111,4 @@ class Player:
         for call in calls:
             call.join()
         with self.answers.came:  # Status comes once a second when no image does
-            self.answers.came.wait_for(lambda: self.answers.counted() >= self.images_sent, END_S)
+            self.answers.came.wait_for(lambda: sum(self.answers.counts().values()) >= self.images_sent, END_S)

@@ -64,7 +64,7 @@ def fly(fault, flight, other, seed, folder):
     answers, images = player.answers, of_kind(items, "image")
     last = images[-len(images) // 5:]
     return {"fault": fault.name, "seed": seed, "is_alive": is_alive, "images": player.images_sent,
-            "uncounted": player.images_sent - answers.counted(), "strangers": answers.strangers,
+            "counts": answers.counts(), "uncounted": player.images_sent - sum(answers.counts().values()), "strangers": answers.strangers,
             "answered_last": sum(any(answer.item is item for answer in answers.answers) for item in last) / len(last),
             "odometry_refused": answers.status.odometry_refused if answers.status else 0, "log_lines": answers.log_lines,
             "states": dict(answers.states), "rows": errors_of(answers.answers)}
