@@ -117,11 +117,15 @@ def stamps_moved(offset_s, only=None):
 
 
 def images_stamped(later_s):
-    """All images and their camera_info."""
+    """All images and their camera_info, which come at the time of their stamps."""
     def change(message, _number, _context):
         message.header.stamp += rospy.Duration.from_sec(later_s)
-    # Odometry of the stamp comes with later images only.
-    return lambda items, context: [replace(item, waits=False) for item in each(("image", "info"), change, whole_flight=True)(items, context)]
+
+    def fault(items, context):
+        moved = [replace(item, time_ns=item.time_ns + int(later_s * 1e9)) if item.kind in ("image", "info") else item
+                 for item in each(("image", "info"), change, whole_flight=True)(items, context)]
+        return sorted(moved, key=lambda item: item.time_ns)
+    return fault
 
 
 def played_again(items, _context):
