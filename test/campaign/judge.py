@@ -28,8 +28,9 @@ def failures_of(fault, trial):
         failures.append("the nodelets have ended")
     if trial["answered_last"] < fault.answered:
         failures.append(f"{100 * trial['answered_last']:.0f} % of the last images answered")
-    if trial["uncounted"] > 0 and not fault.is_counted_anew:
-        failures.append(f"{trial['uncounted']} images lost and not counted")
+    if trial["uncounted"] and not fault.is_counted_anew:
+        failures.append(f"{trial['uncounted']} images lost and not counted" if trial["uncounted"] > 0 else
+                        f"{-trial['uncounted']} images counted twice")
     if trial["strangers"]:
         failures.append(f"{trial['strangers']} poses of no image")
     most_m = max(fault.largest_m, fault.of_odometry * figures["odometry_largest_m"])
