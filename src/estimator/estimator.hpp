@@ -38,6 +38,7 @@ struct Estimate {
   double scale_error = 0;                       ///< see FrameResult::scale_error
   double scale_sigma = 0;                       ///< its standard deviation
   HeightOutcome height = HeightOutcome::kNone;  ///< what became of the frame's height
+  double doubtful_way_m = 0;  ///< of late, on which the image's tracks contradict the odometry
 };
 
 /// What the landmarks found in a frame did to the pose.

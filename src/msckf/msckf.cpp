@@ -64,6 +64,7 @@ void Msckf::watchForContradiction() {
   // Landmarks and tracks of the last image: of this one nothing has been seen yet.
   contradiction.fix_nis = map_update_.comparedNis();
   contradiction.is_camera_confirmed = map_update_.isLocated();
+  contradiction.tracks = {candidates(), used(), propagator_.travelled_m()};
   if (watchdog_.see(newest().stamp_ns, contradiction)) {
     // Nothing that the camera said counts any more. Landmarks keep their anchors: they may be
     // right, and show it later. Moves of the pose make it uncertain, there and back as well.

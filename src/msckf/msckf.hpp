@@ -90,6 +90,8 @@ class Msckf {
   const LearnedNoise& learned() const { return propagator_.learned(); }
   /// The camera contradicts the odometry: for now the pose is the odometry's.
   bool isDistrustful() const { return watchdog_.isDistrustful(newest().stamp_ns); }
+  /// Watchdog::doubtfulWay_m()
+  double doubtfulWay_m() const { return watchdog_.doubtfulWay_m(); }
   /// Of the last frame, by its image; moving where the odometry contradicts it.
   CameraMotion motion() const { return zero_motion_.motion(); }
 

@@ -201,6 +201,7 @@ Estimate MsckfEstimator::estimate() const {
   estimate.scale_error = filter_.state().scaleError();
   estimate.scale_sigma = filter_.scaleSigma();
   estimate.height = filter_.heightOutcome();
+  estimate.doubtful_way_m = filter_.doubtfulWay_m();
   return estimate;
 }
 

@@ -26,6 +26,7 @@ bool Watchdog::see(std::int64_t stamp_ns, const Contradiction& contradiction) {
   if (is_refused_) {
     bias_s_ = 0;
     fixes_s_ = 0;
+    tracks_ = {};
     return !was_refused;
   }
   const double bias = contradiction.bias_sigmas / kMostBiasSigmas;
@@ -33,10 +34,12 @@ bool Watchdog::see(std::int64_t stamp_ns, const Contradiction& contradiction) {
   // Images without old landmarks say nothing of fixes: the time with them counts.
   const double nis = contradiction.fix_nis.value_or(0) / kMostNis;
   if (contradiction.fix_nis) fixes_s_ = nis > 1 ? fixes_s_ + passed_s : 0;
-  calm_ = bias < kCalmShare && nis < kCalmShare && fixes_s_ == 0;
-  if (bias_s_ < kContradiction_s && fixes_s_ < kContradiction_s) return false;
+  tracks_.see(stamp_ns, contradiction.tracks);
+  calm_ = bias < kCalmShare && nis < kCalmShare && fixes_s_ == 0 && !tracks_.isDoubtful();
+  if (std::max({bias_s_, fixes_s_, tracks_.lasted_s()}) < kContradiction_s) return false;
   bias_s_ = 0;
   fixes_s_ = 0;
+  tracks_ = {};
   until_ns_ = stamp_ns + static_cast<std::int64_t>(pause_s_ * 1e9);
   pause_s_ = std::min(2 * pause_s_, kLongest_s);
   return true;

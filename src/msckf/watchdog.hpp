@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "ardrone_vslam/setup_watch.hpp"
+#include "msckf/contrary_tracks.hpp"
 
 namespace ardrone_vslam {
 
@@ -18,6 +19,7 @@ struct Contradiction {
   double bias_sigmas = 0;            ///< of the velocity bias that the camera has told the filter
   std::optional<double> fix_nis;     ///< when landmarks of an earlier visit were compared
   bool is_camera_confirmed = false;  ///< such landmarks were in agreement with the pose
+  ComparedTracks tracks;
 };
 
 /// Ends the trust in the camera when it contradicts the odometry for longer than chance or a worse
@@ -34,6 +36,8 @@ class Watchdog {
   bool isDistrustful(std::int64_t stamp_ns) const;
   /// Nothing hints at a contradiction: camera and odometry are a good deal closer than the limits.
   bool isCalm() const { return calm_; }
+  /// ContraryTracks::doubtfulWay_m()
+  double doubtfulWay_m() const { return tracks_.doubtfulWay_m(); }
 
   /// Remembers this one while nothing hints at a contradiction.
   void keepWhileCalm(const Eigen::Isometry3d& T_map_odom) {
@@ -63,6 +67,7 @@ class Watchdog {
   std::optional<std::int64_t> until_ns_;  // the end of the pause
   double bias_s_ = 0;                     // how long each has been beyond its limit
   double fixes_s_ = 0;
+  ContraryTracks tracks_;
   bool calm_ = true;
   SetupFinding setup_;
   bool is_refused_ = false;  // as of the last image

@@ -17,6 +17,8 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr double kDoubt = 0.5;  // sigma of a doubtful way, of its length
+
 bool isFinite(const Estimate& estimate) {
   return estimate.T_map_base.matrix().allFinite() && estimate.covariance.allFinite();
 }
@@ -164,7 +166,8 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   s.result.stamp_ns = odometry.stamp_ns;
   s.result.T_odom_base = odometry.T_odom_base;
   if (step) s.result.odometry_step_m = step->jump_odom_m.norm();
-  if (const double way_m = s.step_watch.frozenWay_m(); way_m > 0) widenPlace(s.result, way_m);
+  const double lost_m = s.step_watch.frozenWay_m() + kDoubt * estimate.doubtful_way_m;
+  if (lost_m > 0) widenPlace(s.result, lost_m);
   noteFeatures(features, s.result);
   s.result.landmarks = static_cast<int>(s.map.size());
   noteMatches(s.matches, s.result);

@@ -48,6 +48,8 @@ class Propagator {
   Eigen::Isometry3d T_map_odom(const WindowState& state) const;
   /// What the odometry says of base since it began, jumps of its position left out.
   Eigen::Isometry3d T_odom_base() const;
+  /// By the odometry, since it began.
+  double travelled_m() const { return odometry_travelled_m_; }
   /// The odometry's velocity bias over what is configured.
   double biasSigmas(const WindowState& state) const;
   /// The odometry's noise that is in force.

@@ -59,6 +59,42 @@ TEST(Watchdog, ImagesWithoutOldLandmarksSayNothingOfFixes) {
   EXPECT_NEAR(trusted_images, 60, 3);  // 3 s of fixes in 6 s
 }
 
+/// Three images a second have tracks to compare.
+Contradiction comparedAt(std::int64_t i, int agreed_tracks) {
+  Contradiction contradiction;
+  contradiction.tracks.travelled_m = 0.1 * static_cast<double>(i);
+  if (i % 3 == 0) contradiction.tracks.tracks = 100;
+  if (i % 3 == 0) contradiction.tracks.agreed = agreed_tracks;
+  return contradiction;
+}
+
+TEST(Watchdog, EndsTrustWhenMostTracksContradict) {
+  Watchdog watchdog;
+  for (std::int64_t i = 0; i < 60; ++i) ASSERT_FALSE(watchdog.see(i * kStep_ns, comparedAt(i, 50)));
+  for (std::int64_t i = 60; i < 90; ++i) {
+    ASSERT_FALSE(watchdog.see(i * kStep_ns, comparedAt(i, 24))) << i;
+    EXPECT_FALSE(watchdog.isCalm());
+    // Two images may be chance; then all of the way since the first counts.
+    EXPECT_NEAR(watchdog.doubtfulWay_m(), i < 66 ? 0 : 0.1 * static_cast<double>(i - 60), 1e-9);
+  }
+  EXPECT_TRUE(watchdog.see(90 * kStep_ns, comparedAt(90, 24)));
+  EXPECT_EQ(watchdog.doubtfulWay_m(), 0) << "the pose is the odometry's";
+  Watchdog other;
+  for (std::int64_t i = 0; i < 300; ++i)
+    ASSERT_FALSE(other.see(i * kStep_ns, comparedAt(i, 25))) << "wrong matches, " << i;
+  EXPECT_GT(other.doubtfulWay_m(), 29);
+}
+
+TEST(Watchdog, OneImageWhoseTracksAgreeEndsTheDoubt) {
+  Watchdog watchdog;
+  for (std::int64_t i = 0; i < 300; ++i)
+    ASSERT_FALSE(watchdog.see(i * kStep_ns, comparedAt(i, i % 27 == 0 ? 80 : 0))) << i;
+  Contradiction few = comparedAt(0, 0);
+  few.tracks.tracks = 7;
+  Watchdog other;
+  EXPECT_FALSE(secondsOfTrust(other, few)) << "too few tracks say nothing";
+}
+
 TEST(Watchdog, IsCalmWellBelowTheLimits) {
   Watchdog watchdog;
   watchdog.see(0, biased(4));

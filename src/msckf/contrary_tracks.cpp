@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "msckf/contrary_tracks.hpp"
+
+#include <utility>
+
+#include "linear/scalars.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr int kFewestTracks = 8;
+// Shares of tracks that agree. More than the first are left where two fifths of all matches are
+// wrong. Below the second a harsh drone's odometry stays for 0.7 s, a car's at 2.5 Hz for 2.4 s.
+constexpr double kContrary = 0.25;
+constexpr double kDoubtful = 0.5;
+constexpr int kFewestImages = 3;
+constexpr double kFrozen_m = 1e-9;  // of a stream that is frozen OdometryStepWatch knows
+
+}  // namespace
+
+void ContraryTracks::see(std::int64_t stamp_ns, const ComparedTracks& compared) {
+  const double way_m = compared.travelled_m - std::exchange(travelled_m_, compared.travelled_m);
+  if (way_m < kFrozen_m || compared.tracks < kFewestTracks) return;
+  const auto count = [&](double share, Streak& streak) {
+    if (compared.agreed >= share * compared.tracks) {
+      streak = {};
+      return;
+    }
+    if (streak.images++ == 0) {
+      streak.since_ns = stamp_ns;
+      streak.from_m = travelled_m_;
+    }
+    streak.lasted_s = seconds(stamp_ns - streak.since_ns);
+  };
+  count(kContrary, contrary_);
+  count(kDoubtful, doubtful_);
+}
+
+double ContraryTracks::doubtfulWay_m() const {
+  return doubtful_.images < kFewestImages ? 0 : travelled_m_ - doubtful_.from_m;
+}
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace ardrone_vslam {
+
+/// The tracks of one image beside the odometry.
+struct ComparedTracks {
+  int tracks = 0;          ///< that had parallax enough; most images have none
+  int agreed = 0;          ///< of these
+  double travelled_m = 0;  ///< by the odometry, so far
+};
+
+/// Tells odometry that most tracks contradict, image after image, from wrong matches and from
+/// odometry that is bad for a moment.
+class ContraryTracks {
+ public:
+  /// One image; stamps ascending. O(1).
+  void see(std::int64_t stamp_ns, const ComparedTracks& compared);
+  /// For how long hardly a track has agreed; 0: some do.
+  double lasted_s() const { return contrary_.lasted_s; }
+  /// Whether less than half of the last image's tracks agreed.
+  bool isDoubtful() const { return doubtful_.images > 0; }
+  /// The way since it is doubtful, for so many images that it is no chance; else 0.
+  double doubtfulWay_m() const;
+
+ private:
+  /// Images, one after the other, of which too few tracks agree.
+  struct Streak {
+    int images = 0;
+    std::int64_t since_ns = 0;
+    double from_m = 0;  // ComparedTracks::travelled_m of the first
+    double lasted_s = 0;
+  };
+
+  Streak contrary_;
+  Streak doubtful_;
+  double travelled_m_ = 0;
+};
+
+}  // namespace ardrone_vslam
