@@ -27,10 +27,6 @@ class OdometryAdapter {
   /// What is held, when no further message will come.
   OdometryBuffer::Push flush(std::vector<OdometryState>& ready);
 
-  /// Whether the position is too far out even for a driver that integrates from the epoch:
-  /// nonsense.
-  static bool isBeyondAllJumps(const OdometryState& message);
-
   /// What was wrong with the messages so far, by cause.
   const OdometryFaultCounts& faults() const;
 

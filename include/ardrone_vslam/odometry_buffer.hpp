@@ -30,6 +30,8 @@ struct OdometryState {
   Matrix6d twist_covariance = Matrix6d::Zero();  ///< in the same order
   /// Of base above the floor, measured at this very instant (HeightInput); not interpolated.
   std::optional<double> height_m = std::nullopt;
+  /// How often the source was started again before, which told anew where it is (OdometryAdapter).
+  std::uint32_t start = 0;
 };
 
 /// Bounds of what odometry can mean. Beyond the first two a state is refused: no drone is there,
@@ -44,6 +46,11 @@ constexpr double kLargestTwistCovariance = 1e12;
 
 /// What is out of bounds in a state, and what helps; empty when nothing is.
 std::string rangeFault(const OdometryState& state);
+
+/// The greatest coordinate of the position, without its sign.
+double farthest_m(const OdometryState& state);
+/// Whether the position is too far out even for a driver that integrates from the epoch: nonsense.
+bool isBeyondAllJumps(const OdometryState& message);
 
 /// Mean position variance per axis.
 /// @return nothing when the odometry gives none: all zero, negative or above kLargestVariance_m2 in

@@ -19,13 +19,15 @@ enum class OdometryFault {
   kBurst,         ///< several messages with one stamp
   kHole,          ///< nothing for so long that the twist no longer tells the way
   kNoTwist,       ///< metres on end that the poses moved with a twist of zeros
+  kTurn,          ///< the heading jumped
+  kStartedAgain,  ///< at the origin after a gap
   kTableStep,     ///< odometry_mode twist, navdata: another floor below, told from climbing
 };
 template <>
 struct EnumNames<OdometryFault> {
-  static constexpr std::array<const char*, 9> kNames{"no_covariance", "jump",         "reset",
-                                                     "restart",       "whole_metres", "burst",
-                                                     "hole",          "no_twist",     "table_step"};
+  static constexpr std::array<const char*, 11> kNames{
+      "no_covariance", "jump",     "reset", "restart",       "whole_metres", "burst",
+      "hole",          "no_twist", "turn",  "started_again", "table_step"};
 };
 /// Number of the kinds above.
 constexpr std::size_t kOdometryFaultCount = EnumNames<OdometryFault>::kNames.size();

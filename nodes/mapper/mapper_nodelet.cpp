@@ -175,11 +175,10 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   status_->publishAnswer(result, *frame.features);
 }
 
-/// In tf, odom -> base is the driver's own, which is not what was integrated anew: map -> base
-/// comes out right all the same.
+/// In tf, odom -> base is the driver's own: map -> base comes out right with it.
 Eigen::Isometry3d MapperNodelet::mapToOdomOfTf(const FrameResult& result) const {
   Eigen::Isometry3d T_map_odom = slam_->slam().T_map_odom();
-  if (settings_.slam.odometry_adapter.mode == OdometryMode::kPose) return T_map_odom;
+  if (odometry_->isInDriversFrame()) return T_map_odom;
   const Frames& frames = odometry_->frames();
   const auto T_odom_base = extrinsics_->latest(frames.odom, frames.base, result.stamp_ns);
   return T_odom_base ? result.T_map_base * T_odom_base->inverse() : T_map_odom;

@@ -51,6 +51,14 @@ bool OdometryTopic::isNavdata() const {
   return modeOf(settings_) == OdometryMode::kNavdata;
 }
 
+bool OdometryTopic::isInDriversFrame() const {
+  if (modeOf(settings_) != OdometryMode::kPose) return false;
+  const OdometryFaultCounts& counts = intake_.faults();
+  for (const auto fault : {OdometryFault::kJump, OdometryFault::kReset, OdometryFault::kTurn})
+    if (counts[static_cast<std::size_t>(fault)] > 0) return false;
+  return true;
+}
+
 void OdometryTopic::onOdometry(const nav_msgs::OdometryConstPtr& odometry) {
   const auto checked = toUnboundedState(*odometry);
   std::string fault = checked.fault;

@@ -36,6 +36,9 @@ class OdometryTopic {
   const std::string& name() const { return name_; }
   /// Whether the package makes it of navdata, of which name() is then the topic.
   bool isNavdata() const;
+  /// Whether poses are in the driver's frame odom; else they were integrated anew, or moved where
+  /// it jumped.
+  bool isInDriversFrame() const;
   /// Those of odom and base are empty until the first odometry.
   const Frames& frames() const { return frames_; }
   /// Which of them the odometry does not name, and what helps; else empty.

@@ -74,6 +74,7 @@ DelayedFusion::DelayedFusion(const DelayedFusionConfig& config)
 }
 
 OdometryBuffer::Push DelayedFusion::push(const OdometryState& state) {
+  if (!buffer_.empty() && state.start != buffer_.states().back().start) clear();
   const bool has_before = !buffer_.empty();
   const OdometryState before = has_before ? buffer_.states().back() : OdometryState{};
   const OdometryBuffer::Push answer = buffer_.push(state);

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "ardrone_vslam/odometry_adapter.hpp"
-
 namespace ardrone_vslam {
 namespace {
 
@@ -39,7 +37,7 @@ Push ImuOdometry::push(const ImuAttitude& attitude, std::vector<OdometryState>& 
 Push ImuOdometry::push(const OdometryState& odometry, std::vector<OdometryState>& ready) {
   if (!odometry.T_odom_base.matrix().allFinite()) return Push::kNotFinite;
   // Sums of such ways leave a double's range, and no later message would bring them back.
-  if (OdometryAdapter::isBeyondAllJumps(odometry)) return Push::kOutOfRange;
+  if (isBeyondAllJumps(odometry)) return Push::kOutOfRange;
   const OdometryState* before = !waiting_.empty() ? &waiting_.back() : last_ ? &*last_ : nullptr;
   if (before && odometry.stamp_ns < before->stamp_ns) {
     if (odometry.stamp_ns > before->stamp_ns - kNewRun_ns) return Push::kBackwardStamp;

@@ -28,16 +28,24 @@ OdometryState bounded(OdometryState state) {
 
 std::string rangeFault(const OdometryState& state) {
   std::ostringstream fault;
-  const double farthest_m = state.T_odom_base.translation().cwiseAbs().maxCoeff();
   const double fastest = state.twist_base.cwiseAbs().maxCoeff();
-  if (!(farthest_m <= kFarthestOdometry_m)) {
-    fault << "its position has a coordinate of " << farthest_m << " m, beyond "
+  if (!(farthest_m(state) <= kFarthestOdometry_m)) {
+    fault << "its position has a coordinate of " << farthest_m(state) << " m, beyond "
           << kFarthestOdometry_m << " m; check its unit and whether its source has diverged";
   } else if (!(fastest <= kFastestOdometry)) {
     fault << "its twist has a component of " << fastest << ", beyond " << kFastestOdometry
           << " m/s or rad/s; check its unit, zeros stand for 'unknown'";
   }
   return fault.str();
+}
+
+double farthest_m(const OdometryState& state) {
+  return state.T_odom_base.translation().cwiseAbs().maxCoeff();
+}
+
+bool isBeyondAllJumps(const OdometryState& message) {
+  constexpr double kEpoch_s = 2e9;
+  return !(farthest_m(message) <= kEpoch_s * kFastestOdometry);
 }
 
 std::optional<double> positionVariance_m2(const OdometryState& state) {
@@ -70,6 +78,7 @@ OdometryState interpolate(const OdometryState& a, const OdometryState& b, std::i
   const Eigen::Quaterniond q_b(b.T_odom_base.linear());
   OdometryState state;
   state.stamp_ns = stamp_ns;
+  state.start = b.start;
   state.T_odom_base.linear() = q_a.slerp(s, q_b).normalized().toRotationMatrix();
   // In this form equal values stay equal to the bit: a covariance that does not grow must not seem
   // to grow by rounding.

@@ -24,6 +24,10 @@ class OdometryStepWatch {
   /// A step is over at once; what goes on for longer is speed.
   static constexpr double kLongest_s = 0.5;
 
+  /// Whether its source was started again since the last one.
+  bool isNewStart(const OdometryState& state) const {
+    return has_last_ && state.start != last_.start;
+  }
   /// One state, in order of the stamps; O(1).
   std::optional<OdometryStep> see(const OdometryState& state);
   /// The way that odometry which is frozen in flight may have missed so far; 0: it is not.

@@ -49,6 +49,10 @@ void widenPlace(FrameResult& result, double sigma_m) {
   result.sigma_m = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace() / 3);
 }
 
+bool isFinite(const Estimate& estimate) {
+  return estimate.T_map_base.matrix().allFinite() && estimate.covariance.allFinite();
+}
+
 void forgetPlace(FrameResult& result) {
   constexpr double kAnywhere_m = 1000;
   widenPlace(result, kAnywhere_m);

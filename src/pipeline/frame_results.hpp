@@ -9,6 +9,8 @@
 /// What Slam answers, put together of what its parts say.
 namespace ardrone_vslam {
 
+/// Of what is not finite nothing may reach the map.
+bool isFinite(const Estimate& estimate);
 /// All but stamp, odometry and the counts of noteFeatures() and noteMatches().
 FrameResult resultOf(const Estimate& estimate, const Correction& correction,
                      const MapChanges& changes);

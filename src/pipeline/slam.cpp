@@ -5,23 +5,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "association/associator.hpp"
 #include "config/slam_config_faults.hpp"
-#include "map/landmark_map.hpp"
-#include "map_search/map_search.hpp"
-#include "matching/frame_view.hpp"
-#include "odometry/odometry_step.hpp"
 #include "pipeline/frame_results.hpp"
-#include "pipeline/make_estimator.hpp"
+#include "pipeline/slam_state.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 constexpr double kDoubt = 0.5;  // sigma of a doubtful way, of its length
-
-bool isFinite(const Estimate& estimate) {
-  return estimate.T_map_base.matrix().allFinite() && estimate.covariance.allFinite();
-}
 
 void refuseExtrinsics(const Eigen::Isometry3d& T_base_cam) {
   const std::string fault = extrinsicsFault(T_base_cam);
@@ -34,39 +25,6 @@ void refuseMaps(const SlamConfig& config) {
 }
 
 }  // namespace
-
-struct Slam::State {
-  State(const SlamConfig& c, const Eigen::Isometry3d& T_base_cam)
-      : config(c),
-        estimator(makeEstimator(c, T_base_cam)),
-        associator(c.association),
-        map(c.landmark_map) {}
-
-  SlamConfig config;
-  OdometryStepWatch step_watch;
-  std::unique_ptr<Estimator> estimator;
-  FrameView view;
-  Associator associator;
-  AssociationResult matches;
-  LandmarkMap map;
-  std::unique_ptr<MapSearch> search;  // until the flight has been found
-  MapCamera seen_by;                  // the last frame
-  /// The thesis's 2-D mode; the MSCKF's `planar` is a measurement of z.
-  bool hasFlatRays() const { return config.planar && config.estimator != EstimatorKind::kMsckf; }
-  FrameResult result;
-  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
-
-  /// Where the flight is in a loaded map; once that is known, the frame goes on there.
-  void searchMap(const ImageFeatures& features, CameraPose& camera) {
-    if (!isFinite(estimator->estimate())) return;
-    const auto entry = search->see(features, camera.T_map_cam);
-    if (!entry) return;
-    estimator->enterMap(*entry, search->map(), view, map);
-    search.reset();
-    camera = estimator->camera();
-    view.reset(features, camera.T_map_cam, hasFlatRays());
-  }
-};
 
 Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
   validate(config);
@@ -89,6 +47,7 @@ void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   assert(canChangeCamera() && "an estimated error of the extrinsics is one camera's");
   refuseExtrinsics(T_base_cam);
   state_->view.changeCamera();
+  state_->T_base_cam = T_base_cam;
   state_->estimator->changeCamera(T_base_cam);
 }
 
@@ -104,9 +63,7 @@ bool Slam::isSearching() const {
 
 SavedMap Slam::save() const {
   refuseMaps(state_->config);
-  SavedMap map = state_->estimator->save(state_->map);
-  map.camera = state_->seen_by;
-  return map;
+  return state_->save();
 }
 
 const std::vector<Landmark>& Slam::landmarks() const {
@@ -125,18 +82,20 @@ Eigen::Isometry3d Slam::T_map_odom() const {
 
 const FrameResult& Slam::process(const ImageFeatures& features, const OdometryState& odometry,
                                  const StageHook& hook) {
-  State& s = *state_;
   assert(odometry.stamp_ns == features.stamp_ns &&
          "the odometry must be that of the image's stamp");
-  assert((s.result.stamp_ns == 0 || features.stamp_ns > s.result.stamp_ns) && "stamps must ascend");
+  assert((state_->result.stamp_ns == 0 || features.stamp_ns > state_->result.stamp_ns) &&
+         "stamps must ascend");
   const auto enter = [&hook](Stage stage) {
     if (hook) hook(stage);
   };
+  enter(Stage::kLocalise);
+  if (state_->step_watch.isNewStart(odometry) && faultOfMaps(state_->config).empty())
+    state_ = state_->flyAgain();
+  State& s = *state_;
   Estimator& estimator = *s.estimator;
   Correction correction;
   MapChanges changes;
-
-  enter(Stage::kLocalise);
   const std::optional<OdometryStep> step = s.step_watch.see(odometry);
   estimator.predict(odometry, step);
   CameraPose camera = estimator.camera();

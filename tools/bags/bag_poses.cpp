@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "ardrone_vslam/odometry_adapter.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "bags/messages/bag_messages.hpp"
 #include "bags/messages/bag_read_message.hpp"
@@ -85,7 +85,7 @@ BagOdometry readOdometry(const rosbag::Bag& bag, const std::string& topic, BagFi
     const auto [state, fault] = toUnboundedState(*message);
     if (!state) {
       if (refused++ == 0) first_fault = fault;
-    } else if (OdometryAdapter::isBeyondAllJumps(*state)) {
+    } else if (isBeyondAllJumps(*state)) {
       ++too_far;
     } else {
       odometry.states.push_back(*state);

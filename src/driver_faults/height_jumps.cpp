@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "odometry/height_jumps.hpp"
+#include "driver_faults/height_jumps.hpp"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "odometry/message_pair.hpp"
+#include "driver_faults/message_pair.hpp"
 
 namespace ardrone_vslam {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "odometry/whole_metres.hpp"
+#include "driver_faults/whole_metres.hpp"
 
 #include <algorithm>
 #include <cmath>

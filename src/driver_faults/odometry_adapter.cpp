@@ -6,10 +6,11 @@
 #include <optional>
 #include <utility>
 
-#include "odometry/height_jumps.hpp"
-#include "odometry/message_pair.hpp"
-#include "odometry/missing_twist.hpp"
-#include "odometry/whole_metres.hpp"
+#include "driver_faults/height_jumps.hpp"
+#include "driver_faults/message_pair.hpp"
+#include "driver_faults/missing_twist.hpp"
+#include "driver_faults/odom_frame_watch.hpp"
+#include "driver_faults/whole_metres.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -19,13 +20,7 @@ using Push = OdometryBuffer::Push;
 constexpr std::int64_t kRestart_ns = 1'000'000'000;   // stamps further back are a new run
 constexpr std::int64_t kLongestGap_ns = 100'000'000;  // that a burst is spread over
 constexpr double kLongestStep_s = 1;  // across which the twist tells the displacement
-/// The epoch in seconds at the fastest speed: beyond this lie no jumps, only nonsense.
-constexpr double kFarthestJump_m = 2e9 * kFastestOdometry;
 constexpr double kWholeMetreVariance_m2 = 1.0 / 12.0;  // of a metre cut off
-
-double farthest_m(const OdometryState& state) {
-  return state.T_odom_base.translation().cwiseAbs().maxCoeff();
-}
 
 bool isMotionFinite(const OdometryState& state) {
   return state.T_odom_base.matrix().allFinite() && state.twist_base.allFinite();
@@ -36,7 +31,7 @@ bool isMotionFinite(const OdometryState& state) {
 class OdometryAdapter::State {
  public:
   explicit State(const OdometryAdapterConfig& config) : config_(config) { validate(config); }
-  Push push(const OdometryState& message, std::vector<OdometryState>& ready);
+  Push push(const OdometryState& raw, std::vector<OdometryState>& ready);
   Push flush(std::vector<OdometryState>& ready);
   const OdometryFaultCounts& faults() const { return faults_; }
 
@@ -50,6 +45,10 @@ class OdometryAdapter::State {
   Eigen::Vector3d displacementByTwist_m(const OdometryState& message) const;
   void moveByTwist(const Eigen::Vector3d& by_twist_m, OdometryState& state);
 
+  struct Answer {
+    Eigen::Vector3d position_odom_m = Eigen::Vector3d::Zero();  // the last one
+    Eigen::Vector3d offset_odom_m = Eigen::Vector3d::Zero();    // from the messages
+  };
   /// What became of the time before a message.
   struct Gap {
     double duration_s = 0;
@@ -62,41 +61,42 @@ class OdometryAdapter::State {
   WholeMetresWatch whole_metres_;
   MissingTwistWatch missing_twist_;
   HeightJumpDetector height_jumps_;  // odometry_mode twist with the pose's height
+  OdomFrameWatch frame_watch_;
 
   // Messages of one stamp, of which there may be more; there from the first burst on.
   std::optional<std::vector<OdometryState>> held_;
   std::int64_t newest_ns_ = 0;              // of the messages; 0: none
   std::optional<OdometryState> last_;       // message that was used, its stamp spread
   std::optional<OdometryState> candidate_;  // message that jumped, until one agrees with it
-  Eigen::Vector3d position_odom_m_ = Eigen::Vector3d::Zero();  // last answer
-  Eigen::Vector3d offset_odom_m_ = Eigen::Vector3d::Zero();    // of the answers from the messages
+  Answer answer_;
   Gap gap_;  // before last_, should it be the first of a burst
 };
 
-/// All but the counts.
+/// All but the counts, and the starts that were seen.
 void OdometryAdapter::State::beginAnew() {
   State anew(config_);
   anew.faults_ = faults_;
+  anew.frame_watch_ = frame_watch_;
   *this = std::move(anew);
 }
 
-Push OdometryAdapter::State::push(const OdometryState& message, std::vector<OdometryState>& ready) {
-  if (!isMotionFinite(message)) return Push::kNotFinite;
-  if (!(message.twist_base.cwiseAbs().maxCoeff() <= kFastestOdometry) ||
-      isBeyondAllJumps(message)) {
+Push OdometryAdapter::State::push(const OdometryState& raw, std::vector<OdometryState>& ready) {
+  if (!isMotionFinite(raw)) return Push::kNotFinite;
+  if (!(raw.twist_base.cwiseAbs().maxCoeff() <= kFastestOdometry) || isBeyondAllJumps(raw))
     return Push::kOutOfRange;
-  }
   const bool is_first = newest_ns_ == 0;
-  if (!is_first && message.stamp_ns <= newest_ns_ - kRestart_ns) {
+  if (!is_first && raw.stamp_ns <= newest_ns_ - kRestart_ns) {
     // Of navdata the DroneObserver has counted it.
     if (config_.mode != OdometryMode::kNavdata) count(OdometryFault::kRestart);
     beginAnew();
-  } else if (!is_first && message.stamp_ns < newest_ns_) {
+  } else if (!is_first && raw.stamp_ns < newest_ns_) {
     return Push::kBackwardStamp;
-  } else if (!is_first && message.stamp_ns == newest_ns_) {
-    return addToBurst(message);
   }
+  if (const auto fault = frame_watch_.see(raw)) count(*fault);
+  const OdometryState message = frame_watch_.straightened(raw);
+  if (!is_first && message.stamp_ns == newest_ns_) return addToBurst(message);
   const Push answer = flush(ready);
+  if (last_ && message.start != last_->start) beginAnew();
   newest_ns_ = message.stamp_ns;
   if (!held_) return adapt(message, ready);
   held_->push_back(message);
@@ -128,10 +128,10 @@ Push OdometryAdapter::State::absorb(const OdometryState& message) {
   const Eigen::Vector3d missing_m =
       gap_.duration_s * (gap_.speeds_m_s / gap_.speed_count - before_m_s);
   if (gap_.duration_s == 0) {  // the very first burst
-    position_odom_m_ = message.T_odom_base.translation() + offset_odom_m_;
+    answer_.position_odom_m = message.T_odom_base.translation() + answer_.offset_odom_m;
   } else if (config_.mode == OdometryMode::kTwist) {
-    position_odom_m_.head<2>() += missing_m.head<2>();
-    if (config_.height == OdometryHeight::kTwist) position_odom_m_.z() += missing_m.z();
+    answer_.position_odom_m.head<2>() += missing_m.head<2>();
+    if (config_.height == OdometryHeight::kTwist) answer_.position_odom_m.z() += missing_m.z();
   }
   last_ = message;
   return Push::kAccepted;
@@ -170,13 +170,14 @@ bool OdometryAdapter::State::follows(const OdometryState& message) {
     count(OdometryFault::kJump);
   }
   const Eigen::Vector3d position_m = message.T_odom_base.translation();
-  const Eigen::Vector3d expected_m = position_odom_m_ + displacementByTwist_m(message);
+  const Eigen::Vector3d expected_m = answer_.position_odom_m + displacementByTwist_m(message);
   // Some drivers measure the height, which goes on by itself, and some integrate it, which does
   // not. Only what the twist cannot tell, across a hole or within a metre, is left to the message.
-  const bool is_height_sane = std::abs(position_m.z() - position_odom_m_.z()) < kJump_m;
+  const bool is_height_sane = std::abs(position_m.z() - answer_.position_odom_m.z()) < kJump_m;
   const bool is_displacement_known = last_ && secondsBetween(*last_, message) <= kLongestStep_s;
-  offset_odom_m_ = expected_m - position_m;
-  if (is_height_sane && (!is_displacement_known || whole_metres_.isWhole())) offset_odom_m_.z() = 0;
+  answer_.offset_odom_m = expected_m - position_m;
+  if (is_height_sane && (!is_displacement_known || whole_metres_.isWhole()))
+    answer_.offset_odom_m.z() = 0;
   return true;
 }
 
@@ -191,12 +192,13 @@ Eigen::Vector3d OdometryAdapter::State::displacementByTwist_m(const OdometryStat
 /// The state goes on from the last answer, but for a height that is measured.
 void OdometryAdapter::State::moveByTwist(const Eigen::Vector3d& by_twist_m, OdometryState& state) {
   auto position_m = state.T_odom_base.translation();
-  position_m.head<2>() = position_odom_m_.head<2>() + by_twist_m.head<2>();
+  position_m.head<2>() = answer_.position_odom_m.head<2>() + by_twist_m.head<2>();
   if (config_.height == OdometryHeight::kTwist) {
-    position_m.z() = position_odom_m_.z() + by_twist_m.z();
+    position_m.z() = answer_.position_odom_m.z() + by_twist_m.z();
   } else if (whole_metres_.isWhole()) {
     const double dt_s = std::min(secondsBetween(*last_, state), kLongestStep_s);
-    position_m.z() = smoothedHeight_m(position_m.z(), position_odom_m_.z() + by_twist_m.z(), dt_s);
+    position_m.z() =
+        smoothedHeight_m(position_m.z(), answer_.position_odom_m.z() + by_twist_m.z(), dt_s);
   } else {
     if (height_jumps_.see(state.stamp_ns, position_m.z(), by_twist_m.z()))
       count(OdometryFault::kTableStep);
@@ -215,7 +217,7 @@ Push OdometryAdapter::State::adapt(const OdometryState& message,
     count(OdometryFault::kWholeMetres);
 
   OdometryState state = message;
-  if (!offset_odom_m_.isZero(0)) state.T_odom_base.translation() += offset_odom_m_;
+  if (!answer_.offset_odom_m.isZero(0)) state.T_odom_base.translation() += answer_.offset_odom_m;
   if (config_.mode == OdometryMode::kTwist && last_) {
     if (secondsBetween(*last_, message) > kLongestStep_s) count(OdometryFault::kHole);
     const bool is_twist_zero = message.twist_base.head<3>().isZero(0);
@@ -230,7 +232,7 @@ Push OdometryAdapter::State::adapt(const OdometryState& message,
   gap_ = {last_ ? std::min(secondsBetween(*last_, message), kLongestStep_s) : 0,
           0.5 * (velocity_odom_m_s(last_ ? *last_ : message) + velocity_odom_m_s(message)), 1};
   last_ = message;
-  position_odom_m_ = state.T_odom_base.translation();
+  answer_.position_odom_m = state.T_odom_base.translation();
   ready.push_back(std::move(state));
   return Push::kAccepted;
 }
@@ -245,10 +247,6 @@ Push OdometryAdapter::push(const OdometryState& message, std::vector<OdometrySta
 
 Push OdometryAdapter::flush(std::vector<OdometryState>& ready) {
   return state_->flush(ready);
-}
-
-bool OdometryAdapter::isBeyondAllJumps(const OdometryState& message) {
-  return !(farthest_m(message) <= kFarthestJump_m);
 }
 
 const OdometryFaultCounts& OdometryAdapter::faults() const {

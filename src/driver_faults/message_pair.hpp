@@ -14,10 +14,14 @@ double secondsBetween(const OdometryState& a, const OdometryState& b);
 Eigen::Vector3d velocity_odom_m_s(const OdometryState& state);
 /// By the poses.
 Eigen::Vector3d displacementBetween_m(const OdometryState& a, const OdometryState& b);
+/// About the vertical, from -pi to pi.
+double turnBetween_rad(const OdometryState& a, const OdometryState& b);
 /// The position is kilometres off.
 bool isJump(const OdometryState& a, const OdometryState& b);
 /// The position began anew at the origin.
 bool isReset(const OdometryState& a, const OdometryState& b);
+/// After a gap the pose is that in which drivers begin: where it went meanwhile is not known.
+bool isStartedAgain(const OdometryState& a, const OdometryState& b);
 /// The same message again.
 bool isRepeated(const OdometryState& a, const OdometryState& b);
 

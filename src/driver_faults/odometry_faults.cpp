@@ -37,6 +37,13 @@ const char* explain(OdometryFault fault) {
              "radio link and `rostopic hz`";
     case OdometryFault::kNoTwist:
       return "has a twist of zeros although its pose moves: set odometry_mode to pose";
+    case OdometryFault::kTurn:
+      return "turned at once, as nothing turns: the heading goes on from where it was; check that "
+             "one source alone sends it, and do not restart or reset the driver in flight";
+    case OdometryFault::kStartedAgain:
+      return "was silent and then began anew at its origin, so that nobody knows where it went "
+             "meanwhile: images are compared with the map until one tells the place "
+             "(searching_map); do not restart the driver in flight";
     case OdometryFault::kTableStep:
       return "measured its height above another floor than before (a table): z goes on as it was";
   }

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "ardrone_vslam/slam.hpp"
+#include "association/associator.hpp"
+#include "map/landmark_map.hpp"
+#include "map_search/map_search.hpp"
+#include "matching/frame_view.hpp"
+#include "odometry/odometry_step.hpp"
+#include "pipeline/frame_results.hpp"
+#include "pipeline/make_estimator.hpp"
+
+namespace ardrone_vslam {
+
+/// What Slam keeps from one image to the next.
+struct Slam::State {
+  State(const SlamConfig& c, const Eigen::Isometry3d& T)
+      : config(c),
+        T_base_cam(T),
+        estimator(makeEstimator(c, T)),
+        associator(c.association),
+        map(c.landmark_map) {}
+
+  SlamConfig config;
+  Eigen::Isometry3d T_base_cam;
+  OdometryStepWatch step_watch;
+  std::unique_ptr<Estimator> estimator;
+  FrameView view;
+  Associator associator;
+  AssociationResult matches;
+  LandmarkMap map;
+  std::unique_ptr<MapSearch> search;  // until the flight has been found
+  MapCamera seen_by;                  // the last frame
+  /// The thesis's 2-D mode; the MSCKF's `planar` is a measurement of z.
+  bool hasFlatRays() const { return config.planar && config.estimator != EstimatorKind::kMsckf; }
+  FrameResult result;
+  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
+
+  SavedMap save() const {
+    SavedMap saved = estimator->save(map);
+    saved.camera = seen_by;
+    return saved;
+  }
+  /// Another flight in the map so far: where the drone is now is not known.
+  std::unique_ptr<State> flyAgain() const {
+    auto next = std::make_unique<State>(config, T_base_cam);
+    next->search = std::make_unique<MapSearch>(search ? search->map() : save(), config);
+    return next;
+  }
+  /// Where the flight is in a loaded map; once that is known, the frame goes on there.
+  void searchMap(const ImageFeatures& features, CameraPose& camera) {
+    if (!isFinite(estimator->estimate())) return;
+    const auto entry = search->see(features, camera.T_map_cam);
+    if (!entry) return;
+    estimator->enterMap(*entry, search->map(), view, map);
+    search.reset();
+    camera = estimator->camera();
+    view.reset(features, camera.T_map_cam, hasFlatRays());
+  }
+};
+
+}  // namespace ardrone_vslam
