@@ -14,7 +14,8 @@ def is_silent(row):
 def figures_of(trial):
     """The trial's rows in a few numbers."""
     rows = trial["rows"]
-    return {"answered": len(rows), "largest_m": max((row[1] for row in rows), default=0.0), "odometry_largest_m": max((row[3] for row in rows), default=0.0),
+    placed = [row for row in rows if row[4] != "searching_map"]  # the others say that they are nowhere
+    return {"answered": len(rows), "largest_m": max((row[1] for row in placed), default=0.0), "odometry_largest_m": max((row[3] for row in rows), default=0.0),
             "outside": sum(row[2] > NEES_3_SIGMA for row in rows) / max(1, len(rows)), "silent": sum(map(is_silent, rows)),
             "silent_m": max((row[1] for row in rows if is_silent(row)), default=0.0)}
 
@@ -38,6 +39,8 @@ def failures_of(fault, trial):
         failures.append(f"off by {figures['largest_m']:.2f} m, {most_m:.2f} expected at most")
     if figures["silent"]:
         failures.append(f"wrong in silence in {figures['silent']} images, by up to {figures['silent_m']:.2f} m")
+    if trial["rows"] and trial["rows"][-1][4] == "searching_map":
+        failures.append("never found its place again")
     if fault.state and fault.state not in trial["states"]:
         failures.append(f"never {fault.state}")
     if trial["log_lines"] > fault.log_lines:

@@ -14,7 +14,9 @@ from tf2_msgs.msg import TFMessage
 
 CONNECT_S, END_S = 60, 5
 RATE_HZ = 10  # of images while something is done to the nodelets
-ANSWER_S, SILENT_ANSWER_S = 1, 0.1  # how long an answer is waited for; after three that did not come
+# How long an answer is waited for; after three that did not come. Less than odometry_wait_s: where the mapper has moved the clock,
+# it needs odometry that is published next.
+ANSWER_S, SILENT_ANSWER_S = 0.4, 0.1
 # What becomes of an image: each counter of Status.
 ANSWERED_OR_LOST = ("images", "images_dropped", "images_dropped_queue", "images_without_camera_info", "dropped_bad_message", "dropped_stamp",
                     "dropped_queue", "dropped_no_odometry", "dropped_no_extrinsics", "results_not_finite")
