@@ -64,6 +64,8 @@ bool TelemetryReader::read(const std::uint8_t* datagram, std::size_t size) {
   const std::size_t expected = Telemetry::kFixedBytes + feature_count * Telemetry::kFeatureBytes +
                                landmark_count * Telemetry::kLandmarkBytes + VSLAM_CRC_BYTES;
   if (size != expected || stamp_ns <= 0 || stamp_ns > kLatestStamp_ns) return false;
+  if (on_drone > kMostLandmarks || landmarks_.size() + landmark_count > kMostLandmarks)
+    return false;
 
   const std::uint8_t* of_landmarks = from + feature_count * Telemetry::kFeatureBytes;
   arrived_.clear();

@@ -33,7 +33,9 @@ class Slam {
   ~Slam();
 
   /// One frame. Stamps must ascend and the odometry state must be for the image's stamp (asserted).
-  /// At the first frame map equals odom. After kNotFinite every further answer may be that.
+  /// At the first frame map equals odom. After kNotFinite every further answer may be that. With
+  /// another OdometryState::start than before, MSCKF looks for the flight in its own map, as after
+  /// load().
   const FrameResult& process(const ImageFeatures& features, const OdometryState& odometry,
                              const StageHook& hook = {});
 
@@ -57,7 +59,7 @@ class Slam {
   /// @throws std::invalid_argument with the faultOfMaps
   /// @pre there was no frame yet (asserted)
   void load(SavedMap map);
-  /// Whether a loaded map is there in which the flight has not been found.
+  /// Whether there is a map in which the flight has not been found.
   bool isSearching() const;
   /// The map for a file, up to the last frame. While isSearching() it is the flight's own alone.
   /// @throws std::invalid_argument with the faultOfMaps

@@ -18,8 +18,10 @@ namespace ardrone_vslam {
 /// mounted is tf's to say, once.
 class ImuInput : public OdometryMaker {
  public:
-  /// Callbacks run in the queue of `nh`. @param tf  outlives this
-  ImuInput(ros::NodeHandle nh, Frames frames, const ExtrinsicsTf& tf, Take take, Refuse refuse);
+  /// @param tf  outlives this
+  ImuInput(ros::NodeHandle& nh, Frames frames, const ExtrinsicsTf& tf, Take take, Refuse refuse);
+
+  void subscribe(ros::NodeHandle& nh) override;
 
  private:
   void onOdometry(const nav_msgs::OdometryConstPtr& message);
@@ -34,6 +36,8 @@ class ImuInput : public OdometryMaker {
   std::vector<OdometryState> ready_;  // kept for its memory
   std::uint64_t without_ = 0;         // ImuOdometry's counts, as far as they have been told
   std::uint64_t tilted_ = 0;
+  std::string imu_topic_;
+  std::string odometry_topic_;
   ros::Subscriber imu_sub_;
   ros::Subscriber odometry_sub_;
 };

@@ -6,6 +6,7 @@
 #include <ros/node_handle.h>
 #include <sensor_msgs/Imu.h>
 
+#include <string>
 #include <vector>
 
 #include "ardrone_vslam/drone_observer.hpp"
@@ -17,9 +18,9 @@ namespace ardrone_vslam {
 /// Its odom is kObserverFrame, unless there is a name.
 class NavdataInput : public OdometryMaker {
  public:
-  /// Callbacks run in the queue of `nh`.
-  NavdataInput(ros::NodeHandle nh, Frames frames, Take take, Refuse refuse);
+  NavdataInput(ros::NodeHandle& nh, Frames frames, Take take, Refuse refuse);
 
+  void subscribe(ros::NodeHandle& nh) override;
   OdometryFaultCounts faults() const override { return observer_.faults(); }
 
  private:
@@ -29,6 +30,9 @@ class NavdataInput : public OdometryMaker {
 
   DroneObserver observer_;
   std::vector<OdometryState> ready_;  // kept for its memory
+  std::string command_topic_;
+  std::string imu_topic_;
+  std::string navdata_topic_;
   ros::Subscriber command_sub_;
   ros::Subscriber imu_sub_;
   ros::Subscriber navdata_sub_;

@@ -28,6 +28,8 @@ class OdometryMaker {
   using Refuse = std::function<void(const std::string& topic, const std::string& fault)>;
 
   virtual ~OdometryMaker() = default;
+  /// From now on callbacks run in the queue of `nh`, at once.
+  virtual void subscribe(ros::NodeHandle& nh) = 0;
   /// What was wrong with the messages so far, by cause.
   virtual OdometryFaultCounts faults() const { return {}; }
 

@@ -45,6 +45,8 @@ void OdometryTopic::subscribe(ros::NodeHandle& nh, const ExtrinsicsTf& tf) {
     subscriber_ = nh.subscribe("odometry", kQueue, &OdometryTopic::onOdometry, this,
                                ros::TransportHints().tcpNoDelay());
   }
+  // Callbacks run at once, in another thread: it must find the maker.
+  if (maker_) maker_->subscribe(nh);
 }
 
 bool OdometryTopic::isNavdata() const {

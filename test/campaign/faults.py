@@ -116,8 +116,7 @@ FAULTS = (
     set_up("mirrored", "mirrored images", changes.pixels(changes.mirrored, True)),
     set_up("focal_0.7", "focal length times 0.7", each(("info",), changes.focal_length(0.7), True), missed=UNTIL_FOUND),
     set_up("images_late", "stamps of images 0.3 s late", changes.images_stamped(0.3)),
-    set_up("yaw_mirrored", "the odometry's yaw is mirrored", each(("odometry",), changes.mirrored_yaw, True), largest_m=4.0,
-           missed=UNTIL_FOUND),
+    set_up("yaw_mirrored", "the odometry's yaw is mirrored", each(("odometry",), changes.mirrored_yaw, True), largest_m=10),
 
     Fault("tracker_reloaded", "nodelets", "unloaded and loaded in flight", changes.done_at(0.4, reloaded("tracker", "TrackerNodelet", {
         "image": "/camera/image_raw", "camera_info": "/camera/camera_info"})), is_loose=True, is_counted_anew=True),

@@ -26,17 +26,17 @@ def squared_error(error_m, covariance):
 
 def errors_of(answers):
     """Of each answer: its time in the flight [s], the error [m], the same over its covariance, what the odometry's error would be
-    without the fault, the state. Each map begins at the odometry's pose, so there the truth is laid onto it."""
+    without the fault, the state. Each map begins where its first pose is, so there the truth is laid onto it."""
     rows, map_of_last, last_images = [], None, 0
     for item, pose, status in answers:
         is_of_new_mapper = status.images < last_images
         if is_of_new_mapper or status.restarts != map_of_last:
-            T_map_world = item.T_odom_base @ np.linalg.inv(item.T_world_base)
+            T_map_world, T_odom_world = (T @ np.linalg.inv(item.T_world_base) for T in (matrix_of(pose.pose), item.T_odom_base))
         map_of_last, last_images = status.restarts, status.images
-        truth_m = (T_map_world @ item.T_world_base)[:3, 3]
-        error_m = matrix_of(pose.pose)[:3, 3] - truth_m
+        error_m = (matrix_of(pose.pose) - T_map_world @ item.T_world_base)[:3, 3]
+        odometry_error_m = (item.T_odom_base - T_odom_world @ item.T_world_base)[:3, 3]
         rows.append((item.time_ns * 1e-9, float(np.linalg.norm(error_m)), squared_error(error_m, pose.covariance),
-                     float(np.linalg.norm(item.T_odom_base[:3, 3] - truth_m)), status.state_name))
+                     float(np.linalg.norm(odometry_error_m)), status.state_name))
     return rows
 
 

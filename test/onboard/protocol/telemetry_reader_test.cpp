@@ -133,5 +133,28 @@ TEST(TelemetryReader, ContentsThatCannotBeAreRefusedAsAWhole) {
   EXPECT_FALSE(reader.read(tiny.data(), tiny.size()));
 }
 
+TEST(TelemetryReader, NoMoreLandmarksAreKeptThanADroneHolds) {
+  TelemetryFlight flight(8);
+  flight.grow(20);
+  Bytes datagram = flight.next(0);
+  TelemetryReader reader;
+  std::uint32_t id = 0;
+  const std::size_t count =
+      (datagram.size() - Telemetry::kFixedBytes - VSLAM_CRC_BYTES) / Telemetry::kLandmarkBytes;
+  ASSERT_GT(count, 0U);
+  const auto sendOthers = [&] {  // of the same round
+    for (std::size_t i = 0; i < count; ++i)
+      vslam_put(datagram.data() + Telemetry::kFixedBytes + i * Telemetry::kLandmarkBytes, ++id, 4);
+    vslam_put_crc(datagram.data(), datagram.size());
+    return reader.read(datagram.data(), datagram.size());
+  };
+  const std::size_t most = TelemetryReader::kMostLandmarks / count;
+  for (std::size_t i = 0; i < most; ++i) ASSERT_TRUE(sendOthers()) << i;
+  EXPECT_FALSE(sendOthers());
+  EXPECT_EQ(reader.size(), most * count);
+  reader.forgetLandmarks();
+  EXPECT_TRUE(sendOthers());
+}
+
 }  // namespace
 }  // namespace ardrone_vslam::test
