@@ -64,8 +64,6 @@ bool TelemetryReader::read(const std::uint8_t* datagram, std::size_t size) {
   const std::size_t expected = Telemetry::kFixedBytes + feature_count * Telemetry::kFeatureBytes +
                                landmark_count * Telemetry::kLandmarkBytes + VSLAM_CRC_BYTES;
   if (size != expected || stamp_ns <= 0 || stamp_ns > kLatestStamp_ns) return false;
-  if (on_drone > kMostLandmarks || landmarks_.size() + landmark_count > kMostLandmarks)
-    return false;
 
   const std::uint8_t* of_landmarks = from + feature_count * Telemetry::kFeatureBytes;
   arrived_.clear();
@@ -84,7 +82,8 @@ bool TelemetryReader::read(const std::uint8_t* datagram, std::size_t size) {
     features_.age_frames.push_back(static_cast<std::uint16_t>(age));
   }
   on_drone_ = on_drone;
-  if (on_drone == 0 || round < round_) landmarks_.clear();
+  const bool is_full = landmarks_.size() + landmark_count > kMostLandmarks;
+  if (on_drone == 0 || round < round_ || is_full) landmarks_.clear();
   for (const Landmark& landmark : arrived_) landmarks_[landmark.id] = {landmark, round};
   if (round > round_) forgetOld(round);
   round_ = round;

@@ -17,8 +17,8 @@ class TelemetryReader {
  public:
   /// A landmark that does not come for so many rounds is no longer in the drone's map.
   static constexpr std::uint32_t kForgetRounds = 2;
-  /// More landmarks than these the drone's memory of 128 MB does not hold.
-  static constexpr std::size_t kMostLandmarks = 300000;
+  /// More than these are of no drone (onboard's max_map_mb allows 800,000): all are forgotten then.
+  static constexpr std::size_t kMostLandmarks = 1000000;
 
   /// One datagram, in order. @pre vslam_check calls it good (asserted)
   /// @return false when its contents cannot be; nothing of it is used then

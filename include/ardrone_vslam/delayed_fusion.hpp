@@ -64,7 +64,8 @@ class DelayedFusion {
   /// @throws ConfigError listing every parameter out of its range
   explicit DelayedFusion(const DelayedFusionConfig& config);
 
-  /// Appends odometry; one that is refused changes nothing. O(1).
+  /// Appends odometry; one that is refused changes nothing. Of another OdometryState::start than
+  /// before: clear() first. O(1).
   OdometryBuffer::Push push(const OdometryState& state);
 
   /// Only with kUsed it changes anything. O(odometry since the stamp).

@@ -47,7 +47,7 @@ enum class SlamState {
   kRelocated,        ///< MSCKF: as kLocalised, by landmarks looked for nearly everywhere
   kDistrusted,       ///< MSCKF: camera and odometry contradict each other, the pose is the
                      ///< odometry's (Watchdog)
-  kSearchingMap,     ///< MSCKF: the flight has not been found in the loaded map yet
+  kSearchingMap,     ///< MSCKF: the flight has not been found in its map yet
 };
 /// As in Status and frames.csv, by the enumerators' order.
 constexpr std::array<const char*, 12> kSlamStateNames{

@@ -78,7 +78,7 @@ class OdometryBuffer {
     kEmpty,   ///< no state has come
     kTooOld,  ///< the stamp is before the first state kept
     kNotYet,  ///< no state at or after the stamp has come
-    kGap      ///< the states on both sides are further apart than max_gap_s
+    kGap      ///< the states on both sides are further apart than max_gap_s, or of two starts
   };
 
   /// @throws ConfigError listing every parameter out of its range

@@ -61,7 +61,10 @@ class Slam {
   void load(SavedMap map);
   /// Whether there is a map in which the flight has not been found.
   bool isSearching() const;
-  /// The map for a file, up to the last frame. While isSearching() it is the flight's own alone.
+  /// Whether save() has the flight's map: not while the flight is looked for in a loaded one.
+  bool hasWholeMap() const;
+  /// The map for a file, up to the last frame. While the flight is looked for in a loaded one it is
+  /// what was made meanwhile; while in its own, that one.
   /// @throws std::invalid_argument with the faultOfMaps
   SavedMap save() const;
 

@@ -39,11 +39,11 @@ std::string LiveSlam::mapFault(const CameraIdentity& camera) const {
 }
 
 SavedMap LiveSlam::save() const {
-  if (!slam_ || slam_->landmarks().empty())
-    throw MapFileError("there is no landmark to save: fly first");
-  if (slam_->isSearching())
+  if (slam_ && !slam_->hasWholeMap())
     throw MapFileError(std::string("nothing is saved: ") + explain(SlamState::kSearchingMap));
-  return slam_->save();
+  SavedMap map = slam_ ? slam_->save() : SavedMap{};
+  if (map.landmarks.empty()) throw MapFileError("there is no landmark to save: fly first");
+  return map;
 }
 
 void LiveSlam::endMap() {

@@ -76,7 +76,7 @@ void MapperNodelet::makeMaps() {
 void MapperNodelet::makeInputs() {
   ros::NodeHandle& nh = getNodeHandle();
   odometry_ = std::make_unique<OdometryTopic>(
-      nh, settings_, *matcher_, warnings_,
+      nh, *extrinsics_, settings_, *matcher_, warnings_,
       OdometryTopic::Calls{
           [this](std::int64_t stamp_ns) { restartAt(stamp_ns, odometry_->name()); },
           [this] { processReady(); }});
@@ -106,7 +106,7 @@ void MapperNodelet::start() {
     if (slam_->hasMap()) outputs_->publishMap(slam_->slam().landmarks(), odometry_->frames().map);
   });
   heights_->subscribe(nh);
-  odometry_->subscribe(nh, *extrinsics_);
+  odometry_->subscribe(nh);
   features_->subscribe(nh, settings_.node.queue_size);
 }
 

@@ -18,8 +18,9 @@ OdometryMode modeOf(const MapperSettings& settings) {
 
 }  // namespace
 
-OdometryTopic::OdometryTopic(const ros::NodeHandle& nh, const MapperSettings& settings,
-                             FrameMatcher& matcher, Warnings& warnings, Calls calls)
+OdometryTopic::OdometryTopic(ros::NodeHandle& nh, const ExtrinsicsTf& tf,
+                             const MapperSettings& settings, FrameMatcher& matcher,
+                             Warnings& warnings, Calls calls)
     : settings_(settings),
       matcher_(matcher),
       warnings_(warnings),
@@ -28,9 +29,10 @@ OdometryTopic::OdometryTopic(const ros::NodeHandle& nh, const MapperSettings& se
       watch_(name_, warnings),
       intake_(settings.slam.odometry_adapter) {
   frames_.map = withTfPrefix(settings.tf_prefix, settings.node.map_frame);
+  make(nh, tf);
 }
 
-void OdometryTopic::subscribe(ros::NodeHandle& nh, const ExtrinsicsTf& tf) {
+void OdometryTopic::make(ros::NodeHandle& nh, const ExtrinsicsTf& tf) {
   const OdometryMaker::Frames frames{settings_.node.odom_frame, settings_.node.base_frame,
                                      settings_.tf_prefix};
   const auto taken = [this](const nav_msgs::OdometryConstPtr& odometry) { onOdometry(odometry); };
@@ -41,12 +43,13 @@ void OdometryTopic::subscribe(ros::NodeHandle& nh, const ExtrinsicsTf& tf) {
     maker_ = std::make_unique<NavdataInput>(nh, frames, taken, refused);
   } else if (modeOf(settings_) == OdometryMode::kImu) {
     maker_ = std::make_unique<ImuInput>(nh, frames, tf, taken, refused);
-  } else {
-    subscriber_ = nh.subscribe("odometry", kQueue, &OdometryTopic::onOdometry, this,
-                               ros::TransportHints().tcpNoDelay());
   }
-  // Callbacks run at once, in another thread: it must find the maker.
-  if (maker_) maker_->subscribe(nh);
+}
+
+void OdometryTopic::subscribe(ros::NodeHandle& nh) {
+  if (maker_) return maker_->subscribe(nh);
+  subscriber_ = nh.subscribe("odometry", kQueue, &OdometryTopic::onOdometry, this,
+                             ros::TransportHints().tcpNoDelay());
 }
 
 bool OdometryTopic::isNavdata() const {

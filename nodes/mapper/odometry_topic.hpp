@@ -27,11 +27,11 @@ class OdometryTopic {
     std::function<void()> taken;                         ///< the matcher may have more now
   };
 
-  /// @throws ConfigError
-  OdometryTopic(const ros::NodeHandle& nh, const MapperSettings& settings, FrameMatcher& matcher,
-                Warnings& warnings, Calls calls);
-  /// Callbacks run in the queue of `nh`, at once. @param tf  outlives this
-  void subscribe(ros::NodeHandle& nh, const ExtrinsicsTf& tf);
+  /// @param tf  outlives this. @throws ConfigError
+  OdometryTopic(ros::NodeHandle& nh, const ExtrinsicsTf& tf, const MapperSettings& settings,
+                FrameMatcher& matcher, Warnings& warnings, Calls calls);
+  /// Callbacks run in the queue of `nh`, at once.
+  void subscribe(ros::NodeHandle& nh);
 
   const std::string& name() const { return name_; }
   /// Whether the package makes it of navdata, of which name() is then the topic.
@@ -52,6 +52,7 @@ class OdometryTopic {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper) const;
 
  private:
+  void make(ros::NodeHandle& nh, const ExtrinsicsTf& tf);
   void onOdometry(const nav_msgs::OdometryConstPtr& odometry);
   /// @return the sentence when the message is not used
   std::string take(const OdometryState& message);

@@ -11,6 +11,7 @@ namespace {
 constexpr double kSlack_rad = 0.3;
 constexpr double kAcceleration_rad_s2 = 4;  // the rate of turning may change so fast
 constexpr double kBurst_s = 0.1;            // stamps may be wrong by so much
+constexpr double kShortestStep_s = 0.004;   // that tells a rate
 // Between two jumps the odometry was another one's; but for single messages that are nonsense.
 constexpr double kShortestOther_s = 0.5;
 constexpr double kLongestOther_s = 60;
@@ -34,18 +35,24 @@ std::optional<OdometryFault> OdomFrameWatch::see(const OdometryState& message) {
   // A stream that was frozen catches up.
   const double moving_s = secondsBetween(moved_.value_or(message), message);
   if (!moved_ || message.T_odom_base.matrix() != last.T_odom_base.matrix()) moved_ = message;
-  const double twist_rad_s = 0.5 * (last.twist_base[5] + message.twist_base[5]);
-  const double rate_rad_s = twist_rad_s != 0 ? twist_rad_s : rate_rad_s_;
-  const double jump_rad = std::remainder(turn_rad - rate_rad_s * dt_s, 2 * M_PI);
-  const double most_rad =
-      kSlack_rad + kAcceleration_rad_s2 * moving_s * moving_s + kBurst_s * std::abs(rate_rad_s);
-  if (std::abs(jump_rad) <= most_rad) {
-    if (dt_s > 0) rate_rad_s_ = turn_rad / dt_s;
-    return std::nullopt;
+  // The twist may be in other units or empty, stamps may lie too near: any rate that explains it.
+  double jump_rad = 2 * M_PI;
+  for (const double rate_rad_s :
+       {0.5 * (last.twist_base[5] + message.twist_base[5]), rate_rad_s_, 0.0}) {
+    const double off_rad = std::remainder(turn_rad - rate_rad_s * dt_s, 2 * M_PI);
+    const double most_rad =
+        kSlack_rad + kAcceleration_rad_s2 * moving_s * moving_s + kBurst_s * std::abs(rate_rad_s);
+    if (std::abs(off_rad) <= most_rad) {
+      if (dt_s > kShortestStep_s) rate_rad_s_ = turn_rad / dt_s;
+      return std::nullopt;
+    }
+    if (std::abs(off_rad) < std::abs(jump_rad)) jump_rad = off_rad;
   }
   const double since_jump_s = jump_ ? secondsBetween(*jump_, message) : kLongestOther_s;
   jump_ = message;
-  if (since_jump_s > kShortestOther_s && since_jump_s < kLongestOther_s) {
+  if (since_jump_s <= kShortestOther_s) {
+    jump_.reset();
+  } else if (since_jump_s < kLongestOther_s) {
     beginAnew();
     return OdometryFault::kTurn;
   }

@@ -21,6 +21,8 @@ class OdomFrameWatch {
   std::optional<OdometryFault> see(const OdometryState& message);
   /// The message as if the heading had not jumped: heading and position go on by the twist there.
   OdometryState straightened(const OdometryState& message) const;
+  /// OdometryState::start of the last message.
+  std::uint32_t start() const { return start_; }
 
  private:
   void beginAnew();

@@ -92,11 +92,13 @@ Push OdometryAdapter::State::push(const OdometryState& raw, std::vector<Odometry
   } else if (!is_first && raw.stamp_ns < newest_ns_) {
     return Push::kBackwardStamp;
   }
+  const std::uint32_t start = frame_watch_.start();
   if (const auto fault = frame_watch_.see(raw)) count(*fault);
   const OdometryState message = frame_watch_.straightened(raw);
-  if (!is_first && message.stamp_ns == newest_ns_) return addToBurst(message);
+  const bool is_new_start = message.start != start;
+  if (!is_first && !is_new_start && message.stamp_ns == newest_ns_) return addToBurst(message);
   const Push answer = flush(ready);
-  if (last_ && message.start != last_->start) beginAnew();
+  if (is_new_start) beginAnew();
   newest_ns_ = message.stamp_ns;
   if (!held_) return adapt(message, ready);
   held_->push_back(message);

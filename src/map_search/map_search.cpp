@@ -60,8 +60,9 @@ Eigen::Matrix4d covarianceOf(const ObservationConsensus& consensus, double sigma
 
 }  // namespace
 
-MapSearch::MapSearch(SavedMap map, const SlamConfig& config)
+MapSearch::MapSearch(SavedMap map, const SlamConfig& config, bool is_own)
     : map_(std::move(map)),
+      is_own_(is_own),
       angle_sigma_px_(config.msckf.track_sigma_px),
       tilt_sigma_rad_(radians(config.msckf.odometry.tilt_sigma_deg)),
       index_from_landmarks_(static_cast<std::size_t>(config.association.index_from_landmarks)),

@@ -23,7 +23,8 @@ namespace ardrone_vslam {
 /// observations, by images apart in time, agree on where it began.
 class MapSearch {
  public:
-  MapSearch(SavedMap map, const SlamConfig& config);
+  /// @param is_own  it is the map of this very flight
+  MapSearch(SavedMap map, const SlamConfig& config, bool is_own = false);
 
   /// An image of a flight that has not been found yet. O(features x landmarks), by an index from
   /// `index_from_landmarks` on.
@@ -34,6 +35,7 @@ class MapSearch {
 
   /// The map that is searched.
   const SavedMap& map() const { return map_; }
+  bool isOwn() const { return is_own_; }
 
  private:
   /// The pose of one image in the map.
@@ -51,6 +53,7 @@ class MapSearch {
   bool isConfirmed(const Observation& newest) const;
 
   SavedMap map_;
+  bool is_own_;
   double angle_sigma_px_;
   double tilt_sigma_rad_;
   std::size_t index_from_landmarks_;

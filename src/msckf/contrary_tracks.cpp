@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "msckf/contrary_tracks.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "linear/scalars.hpp"
@@ -14,6 +15,7 @@ constexpr int kFewestTracks = 8;
 constexpr double kContrary = 0.25;
 constexpr double kDoubtful = 0.5;
 constexpr int kFewestImages = 3;
+constexpr double kMostBetween_s = 1;
 constexpr double kFrozen_m = 1e-9;  // of a stream that is frozen OdometryStepWatch knows
 
 }  // namespace
@@ -27,10 +29,12 @@ void ContraryTracks::see(std::int64_t stamp_ns, const ComparedTracks& compared) 
       return;
     }
     if (streak.images++ == 0) {
-      streak.since_ns = stamp_ns;
+      streak.last_ns = stamp_ns;
       streak.from_m = travelled_m_;
     }
-    streak.lasted_s = seconds(stamp_ns - streak.since_ns);
+    // A rest between two images is not to count.
+    streak.lasted_s += std::min(seconds(stamp_ns - streak.last_ns), kMostBetween_s);
+    streak.last_ns = stamp_ns;
   };
   count(kContrary, contrary_);
   count(kDoubtful, doubtful_);

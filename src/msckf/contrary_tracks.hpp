@@ -29,7 +29,7 @@ class ContraryTracks {
   /// Images, one after the other, of which too few tracks agree.
   struct Streak {
     int images = 0;
-    std::int64_t since_ns = 0;
+    std::int64_t last_ns = 0;
     double from_m = 0;  // ComparedTracks::travelled_m of the first
     double lasted_s = 0;
   };

@@ -122,6 +122,7 @@ OdometryBuffer::Lookup OdometryBuffer::at(std::int64_t stamp_ns, OdometryState& 
   }
   const auto before = std::prev(after);
   if (after->stamp_ns - before->stamp_ns > toNanoseconds(config_.max_gap_s)) return Lookup::kGap;
+  if (before->start != after->start) return Lookup::kGap;
   state = interpolate(*before, *after, stamp_ns);
   return Lookup::kFound;
 }

@@ -95,7 +95,7 @@ const char* explain(SlamState state) {
              "pose follows the odometry for 10 s, each time twice as long: check calibration and "
              "mounting, whether the scene itself moves, and velocity_bias_m_s";
     case SlamState::kSearchingMap:
-      return "the flight has not been found in the loaded map yet: look where that was made, from "
+      return "the flight has not been found in the map yet: look where that was made, from "
              "a "
              "like distance; until then the pose is beside another origin";
     case SlamState::kNotFinite:

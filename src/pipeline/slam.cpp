@@ -61,8 +61,13 @@ bool Slam::isSearching() const {
   return state_->search != nullptr;
 }
 
+bool Slam::hasWholeMap() const {
+  return !isSearching() || state_->search->isOwn();
+}
+
 SavedMap Slam::save() const {
   refuseMaps(state_->config);
+  if (isSearching() && hasWholeMap()) return state_->search->map();
   return state_->save();
 }
 

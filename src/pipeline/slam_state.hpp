@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "ardrone_vslam/slam.hpp"
 #include "association/associator.hpp"
 #include "map/landmark_map.hpp"
 #include "map_search/map_search.hpp"
+#include "map_update/map_fix.hpp"
 #include "matching/frame_view.hpp"
 #include "odometry/odometry_step.hpp"
 #include "pipeline/frame_results.hpp"
@@ -43,10 +45,13 @@ struct Slam::State {
     saved.camera = seen_by;
     return saved;
   }
-  /// Another flight in the map so far: where the drone is now is not known.
+  /// Another flight in the map so far, if there is one: where the drone is now is not known.
   std::unique_ptr<State> flyAgain() const {
     auto next = std::make_unique<State>(config, T_base_cam);
-    next->search = std::make_unique<MapSearch>(search ? search->map() : save(), config);
+    const bool is_own = !search || search->isOwn();
+    SavedMap so_far = search ? search->map() : save();
+    if (!is_own || so_far.landmarks.size() >= kFewestFixLandmarks)
+      next->search = std::make_unique<MapSearch>(std::move(so_far), config, is_own);
     return next;
   }
   /// Where the flight is in a loaded map; once that is known, the frame goes on there.

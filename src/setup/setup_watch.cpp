@@ -158,7 +158,8 @@ bool SetupWatch::State::find(const OdometryBuffer& odometry, const ImageRays& th
   const std::int64_t used_ns = std::llround(image_time_offset_s_ * 1e9);
   const auto findAt = [&](std::int64_t offset_ns) {
     return odometry.at(then.stamp_ns + offset_ns, before) == OdometryBuffer::Lookup::kFound &&
-           odometry.at(now.stamp_ns + offset_ns, after) == OdometryBuffer::Lookup::kFound;
+           odometry.at(now.stamp_ns + offset_ns, after) == OdometryBuffer::Lookup::kFound &&
+           before.start == after.start;
   };
   if (!findAt(used_ns)) return false;
   const Eigen::Isometry3d T_then = before.T_odom_base, T_now = after.T_odom_base;

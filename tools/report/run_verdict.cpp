@@ -63,6 +63,10 @@ std::vector<std::string> faultsOf(const std::string& name, const RunResult& run,
   std::vector<std::string> faults;
   const std::string standstill = standstillFault(name, run, evaluation.truth);
   if (!standstill.empty()) faults.push_back(standstill);
+  if (!run.is_in_loaded_map && !run.frames.empty() &&
+      run.frames.back().result.state == SlamState::kSearchingMap)
+    faults.push_back(name +
+                     ": the odometry began anew, and its place was not found in the map again");
   if (run.is_in_loaded_map && evaluation.found_frame == run.frames.size()) {
     faults.push_back(name + ": the flight was not found in the loaded map, and no map is saved: " +
                      explain(SlamState::kSearchingMap));

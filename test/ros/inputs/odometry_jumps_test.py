@@ -53,8 +53,8 @@ class OdometryJumps(unittest.TestCase):
         self.drone.send(odometry, self.drone.image(), self.drone.info())
         pose = self.drone.answered(stamp)
         self.assertIsNotNone(pose)
-        def is_of_map(message):
-            return any(t.header.frame_id == "map" and t.header.stamp > stamp for t in message.transforms)
+        def is_of_map(message):  # transform_tolerance_s dates it ahead
+            return any(t.header.frame_id == "map" and abs((t.header.stamp - stamp).to_sec() - 0.2) < 0.01 for t in message.transforms)
         T_map_odom = self.tf.wait(is_of_map).transforms[0].transform
         T_odom_base = pose_of(odometry.pose.pose)
         return pose_of(pose.pose.pose), matrix(T_map_odom.translation, T_map_odom.rotation) @ T_odom_base, stamp

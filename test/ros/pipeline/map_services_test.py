@@ -87,7 +87,7 @@ class MapServicesTest(unittest.TestCase):
         self.drone.is_turned, self.drone.steps = True, 10
         self.drone.fly(1)
         self.assertEqual(self.status().state_name, "searching_map")
-        self.assertIn("not been found in the loaded map", self.status().reason)
+        self.assertIn("not been found in the map", self.status().reason)
         answer = call("save_map", MapFile, "rostest.vmap")
         self.assertFalse(answer.success, "half a map would take the whole one's place")
         self.drone.fly(12)

@@ -291,6 +291,34 @@ TEST_F(OdometryAdapterTest, ASingleMessageOfNonsenseTurnsNothing) {
   EXPECT_EQ(states_.back().start, 0U);
 }
 
+TEST_F(OdometryAdapterTest, TwoMessagesOfNonsenseAreNoOtherFlight) {
+  auto messages = messagesOf({});
+  for (const std::size_t i : {1000, 3000})
+    messages[i].T_odom_base = levelFrame(2, 30, 40) * messages[i].T_odom_base;
+  feed(messages, OdometryMode::kPose);
+  EXPECT_EQ(count(OdometryFault::kTurn), 4U);
+  EXPECT_LT(worst_m(), 0.05);
+  EXPECT_EQ(states_.back().start, 0U);
+}
+
+TEST_F(OdometryAdapterTest, NeitherWrongUnitsNorStampsThatAreNearlyEqualTurnAnything) {
+  for (const double unit : {0.0, 180 / M_PI}) {
+    for (const std::int64_t apart_ns : {100'000, 1'000'000}) {
+      auto messages = messagesOf({});
+      for (std::size_t i = 0; i < messages.size(); ++i) {
+        messages[i].twist_base[5] = 0.5 * unit;
+        // What came in 0.25 s is handed over at its end.
+        const std::size_t end = i - i % 50 + 49;
+        messages[i].stamp_ns = truthAt(static_cast<double>(end) * kStep_s).stamp_ns -
+                               static_cast<std::int64_t>(end - i) * apart_ns;
+      }
+      feed(messages, OdometryMode::kPose);
+      EXPECT_EQ(count(OdometryFault::kTurn), 0U) << unit << ", " << apart_ns;
+      EXPECT_EQ(states_.back().start, 0U);
+    }
+  }
+}
+
 TEST_F(OdometryAdapterTest, AfterAnotherFlightsOdometryThePlaceIsUnknown) {
   auto messages = messagesOf({});
   moveFrame(levelFrame(2, 3, 4), 1000, messages);

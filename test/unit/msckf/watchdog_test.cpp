@@ -85,6 +85,23 @@ TEST(Watchdog, EndsTrustWhenMostTracksContradict) {
   EXPECT_GT(other.doubtfulWay_m(), 29);
 }
 
+TEST(Watchdog, ARestBetweenTwoImagesIsNoContradiction) {
+  Watchdog watchdog;
+  EXPECT_FALSE(watchdog.see(0, comparedAt(3, 0)));
+  EXPECT_FALSE(watchdog.see(600 * kStep_ns, comparedAt(6, 0)));
+  EXPECT_FALSE(watchdog.see(1200 * kStep_ns, comparedAt(9, 0)));
+}
+
+TEST(Watchdog, ThePlaceSeenBeforeEndsTheDoubt) {
+  Watchdog watchdog;
+  for (std::int64_t i = 0; i < 12; ++i) watchdog.see(i * kStep_ns, comparedAt(i, 0));
+  EXPECT_GT(watchdog.doubtfulWay_m(), 0);
+  Contradiction confirmed = comparedAt(13, 0);
+  confirmed.is_camera_confirmed = true;
+  watchdog.see(13 * kStep_ns, confirmed);
+  EXPECT_EQ(watchdog.doubtfulWay_m(), 0);
+}
+
 TEST(Watchdog, OneImageWhoseTracksAgreeEndsTheDoubt) {
   Watchdog watchdog;
   for (std::int64_t i = 0; i < 300; ++i)
