@@ -15,13 +15,15 @@ constexpr int kFewestTracks = 8;
 constexpr double kContrary = 0.25;
 constexpr double kDoubtful = 0.5;
 constexpr int kFewestImages = 3;
-constexpr double kMostBetween_s = 1;
-constexpr double kFrozen_m = 1e-9;  // of a stream that is frozen OdometryStepWatch knows
+constexpr double kMostBetween_s = 2;
+constexpr double kLongestDoubt_s = 5;  // after the last image that says so
+constexpr double kFrozen_m = 1e-9;     // of a stream that is frozen OdometryStepWatch knows
 
 }  // namespace
 
 void ContraryTracks::see(std::int64_t stamp_ns, const ComparedTracks& compared) {
   const double way_m = compared.travelled_m - std::exchange(travelled_m_, compared.travelled_m);
+  if (seconds(stamp_ns - doubtful_.last_ns) < kLongestDoubt_s) doubtful_.to_m = travelled_m_;
   if (way_m < kFrozen_m || compared.tracks < kFewestTracks) return;
   const auto count = [&](double share, Streak& streak) {
     if (compared.agreed >= share * compared.tracks) {
@@ -41,7 +43,7 @@ void ContraryTracks::see(std::int64_t stamp_ns, const ComparedTracks& compared) 
 }
 
 double ContraryTracks::doubtfulWay_m() const {
-  return doubtful_.images < kFewestImages ? 0 : travelled_m_ - doubtful_.from_m;
+  return doubtful_.images < kFewestImages ? 0 : doubtful_.to_m - doubtful_.from_m;
 }
 
 }  // namespace ardrone_vslam

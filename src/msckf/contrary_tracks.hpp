@@ -19,18 +19,21 @@ class ContraryTracks {
   /// One image; stamps ascending. O(1).
   void see(std::int64_t stamp_ns, const ComparedTracks& compared);
   /// For how long hardly a track has agreed; 0: some do.
-  double lasted_s() const { return contrary_.lasted_s; }
+  double lasted_s() const { return contrary_.images < kFewestToEnd ? 0 : contrary_.lasted_s; }
   /// Whether less than half of the last image's tracks agreed.
   bool isDoubtful() const { return doubtful_.images > 0; }
-  /// The way since it is doubtful, for so many images that it is no chance; else 0.
+  /// The way since it is doubtful, if so many images say so that it is no chance; else 0. Where
+  /// nothing is compared it grows for 5 s.
   double doubtfulWay_m() const;
 
  private:
+  static constexpr int kFewestToEnd = 5;  // images
   /// Images, one after the other, of which too few tracks agree.
   struct Streak {
     int images = 0;
     std::int64_t last_ns = 0;
     double from_m = 0;  // ComparedTracks::travelled_m of the first
+    double to_m = 0;    // and of the last, or soon after it
     double lasted_s = 0;
   };
 

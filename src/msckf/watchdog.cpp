@@ -34,7 +34,6 @@ bool Watchdog::see(std::int64_t stamp_ns, const Contradiction& contradiction) {
   // Images without old landmarks say nothing of fixes: the time with them counts.
   const double nis = contradiction.fix_nis.value_or(0) / kMostNis;
   if (contradiction.fix_nis) fixes_s_ = nis > 1 ? fixes_s_ + passed_s : 0;
-  if (contradiction.is_camera_confirmed) tracks_ = {};
   tracks_.see(stamp_ns, contradiction.tracks);
   calm_ = bias < kCalmShare && nis < kCalmShare && fixes_s_ == 0 && !tracks_.isDoubtful();
   if (std::max({bias_s_, fixes_s_, tracks_.lasted_s()}) < kContradiction_s) return false;
