@@ -12,7 +12,7 @@ constexpr double kSlack_rad = 0.3;
 constexpr double kAcceleration_rad_s2 = 4;  // the rate of turning may change so fast
 constexpr double kBurst_s = 0.1;            // stamps may be wrong by so much
 constexpr double kShortestStep_s = 0.004;   // that tells a rate
-// Between two jumps the odometry was another one's; but for single messages that are nonsense.
+// Between two jumps so far apart the odometry was another one's; nearer, a message was nonsense.
 constexpr double kShortestOther_s = 0.5;
 constexpr double kLongestOther_s = 60;
 

@@ -18,7 +18,7 @@ class ContraryTracks {
  public:
   /// One image; stamps ascending. O(1).
   void see(std::int64_t stamp_ns, const ComparedTracks& compared);
-  /// For how long hardly a track has agreed; 0: some do.
+  /// For how long hardly a track has agreed, in five images or more; 0: some do.
   double lasted_s() const { return contrary_.images < kFewestToEnd ? 0 : contrary_.lasted_s; }
   /// Whether less than half of the last image's tracks agreed.
   bool isDoubtful() const { return doubtful_.images > 0; }
