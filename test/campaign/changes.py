@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import rospy
 from flight import Item, of_kind, span
+from rosgraph_msgs.msg import Clock
 
 NAN, INFINITE = float("nan"), float("inf")
 
@@ -136,6 +137,18 @@ def played_again(items, _context):
                                                                 if item.kind != "tf_static"]
 
 
+def with_clock(change):
+    """As a player publishes /clock: the stamp of each odometry message, before it."""
+    def fault(items, context):
+        result = []
+        for item in change(items, context):
+            if item.kind == "odometry":
+                result.append(Item("clock", item.time_ns, Clock(item.message.header.stamp)))
+            result.append(item)
+        return result
+    return fault
+
+
 def done_at(share, call):
     def fault(items, _context):
         at_ns, _ = span(items, share, 1)
@@ -221,8 +234,18 @@ def turned(q, by):
 
 def calibration(value):
     def change(message, _number, _context):
-        message.K = message.P = [value] * 9
-        message.P = [value] * 12
+        message.K, message.P = [value] * 9, [value] * 12
+    return change
+
+
+def calibration_field(value):
+    """Another number of each camera_info is this one: all are gone through."""
+    def change(message, number, _context):
+        places = [(name, place) for name in "DKRP" for place in range(len(getattr(message, name)))]
+        name, place = places[number % len(places)]
+        values = list(getattr(message, name))
+        values[place] = value
+        setattr(message, name, values)
     return change
 
 
@@ -242,6 +265,13 @@ def mounting(w_x_y_z):
         for transform in message.transforms:
             rotation = transform.transform.rotation
             turned(rotation, w_x_y_z)
+    return change
+
+
+def mounting_position(value):
+    def change(message, _number, _context):
+        for transform in message.transforms:
+            transform.transform.translation.x = value
     return change
 
 

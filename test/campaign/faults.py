@@ -29,6 +29,7 @@ class Fault:
     is_counted_anew: bool = False  # the mapper that counted is gone
     missed: str = ""  # why it is known not to be as expected
     is_loose: bool = False  # the nodelets are not required by their launch
+    uses_clock: bool = False  # the nodelets' time is what /clock says
 
 
 def set_up(name, what, change, **options):
@@ -64,6 +65,7 @@ FAULTS = (
     Fault("images_stop", "images", "none in the window", stream(("image", "info"), changes.nothing)),
     Fault("images_twice", "images", "each comes twice", stream(("image", "info"), changes.twice)),
     Fault("images_swapped", "images", "the later of two comes first", stream(("image", "info"), changes.swapped)),
+    Fault("images_delayed", "images", "come 0.3 s late, stamps right", stream(("image", "info"), changes.later(300_000_000))),
     Fault("images_in_bursts", "images", "ten at once", stream(("image", "info"), changes.bursts(20))),
     Fault("images_stuck", "images", "the same picture under new stamps", stream(("image",), changes.stuck), state="distrusted",
           largest_m=1.0, quick=True),
@@ -78,7 +80,8 @@ FAULTS = (
     Fault("cropped", "images", "another size, camera_info as well", each(("image", "info"), changes.cropped)),
     Fault("cropped_alone", "images", "another size than camera_info's", each(("image",), changes.cropped)),
     Fault("camera_info_zero", "images", "K and P zero", each(("info",), changes.calibration(0.0))),
-    Fault("camera_info_nan", "images", "K and P not a number", each(("info",), changes.calibration(changes.NAN))),
+    Fault("camera_info_nan", "images", "one number of each is none, all in turn", each(("info",), changes.calibration_field(changes.NAN))),
+    Fault("camera_info_infinite", "images", "one number of each is infinite, all in turn", each(("info",), changes.calibration_field(changes.INFINITE))),
     Fault("other_images", "images", "pictures of another flight", stream(("image",), changes.of_other_flight("image")),
           largest_m=1.6, quick=True),
 
@@ -100,10 +103,13 @@ FAULTS = (
     Fault("one_image_ahead", "clock", "one image stamped 1000 s ahead", changes.stamps_moved(1000, "image")),
     Fault("one_odometry_ahead", "clock", "one odometry message stamped 1000 s ahead", changes.stamps_moved(1000, "odometry")),
     Fault("played_again", "clock", "a bag in a loop", changes.played_again),
+    Fault("clock_loops", "clock", "a bag in a loop with /clock", changes.with_clock(changes.played_again), uses_clock=True),
 
     Fault("tf_late", "tf", "the camera's mounting comes late", stream(("tf_static",), changes.later(8_000_000_000), whole_flight=True)),
     Fault("tf_never", "tf", "there is none", stream(("tf_static",), changes.nothing, whole_flight=True), answered=0, state="waiting_for_extrinsics"),
     Fault("tf_nan", "tf", "a quaternion that is not a number", each(("tf_static",), changes.mounting((changes.NAN, 0, 0, 0)), True), answered=0,
+          state="waiting_for_extrinsics"),
+    Fault("tf_infinite", "tf", "a position that is infinite", each(("tf_static",), changes.mounting_position(changes.INFINITE), True), answered=0,
           state="waiting_for_extrinsics"),
 
     Fault("features_nan", "features", "every other message holds a number that is none", features=changes.feature_field(changes.NAN)),

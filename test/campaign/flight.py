@@ -13,7 +13,7 @@ ODOMETRY_AHEAD_NS = 6_000_000  # an image is sent after the odometry that comes 
 @dataclass
 class Item:
     """One message, or something that is done at its time."""
-    kind: str  # image, info, odometry, tf_static; call
+    kind: str  # image, info, odometry, tf_static, clock; call
     time_ns: int  # when it comes, in the flight's time
     message: Any = None
     call: Optional[Callable] = None  # gets the nodelets, while messages go on

@@ -19,14 +19,15 @@ def free_port():
 class Nodelets:
     """Start it before rospy.init_node of this process: it says where the master is."""
 
-    def __init__(self, folder, *launch):
-        """folder: of the logs; launch: arguments of roslaunch"""
+    def __init__(self, folder, *launch, uses_clock=False):
+        """folder: of the logs; launch: arguments of roslaunch; uses_clock: time is what /clock says"""
         self.folder, self.port = folder, free_port()
         os.environ.update(ROS_MASTER_URI=f"http://127.0.0.1:{self.port}", ROS_IP="127.0.0.1", ROS_HOME=folder, ROS_LOG_DIR=folder)
         os.environ.pop("ROS_HOSTNAME", None)
         self.processes = {}
         self.launch_arguments = launch
         self.start_master()
+        xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"]).setParam("/campaign", "/use_sim_time", uses_clock)
         self.launch()
 
     def start(self, name, *command):

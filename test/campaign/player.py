@@ -8,7 +8,7 @@ import rospy
 from ardrone_vslam.msg import Features, Status
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
-from rosgraph_msgs.msg import Log
+from rosgraph_msgs.msg import Clock, Log
 from sensor_msgs.msg import CameraInfo, Image
 from tf2_msgs.msg import TFMessage
 
@@ -73,7 +73,8 @@ class Player:
         self.publishers = {"image": rospy.Publisher("/camera/image_raw", Image, queue_size=100),
                            "info": rospy.Publisher("/camera/camera_info", CameraInfo, queue_size=100),
                            "odometry": rospy.Publisher("/odometry", Odometry, queue_size=1000),
-                           "tf_static": rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)}
+                           "tf_static": rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True),
+                           "clock": rospy.Publisher("/clock", Clock, queue_size=100)}
         self.answers = Answers()
         self.images_sent, self.silent = 0, 0
         self.needed = [self.publishers[kind] for kind in ("image", "info", "odometry")] + self.answers.subscribers[:2]

@@ -52,7 +52,7 @@ def fly(fault, flight, other, seed, folder):
     launch = ("ardrone_vslam", "vslam.launch")
     if fault.features or fault.is_loose:
         launch = (LOOSE_LAUNCH, "mapped:=" + ("/relay/features" if fault.features else "features"))
-    nodelets = Nodelets(folder, *launch)
+    nodelets = Nodelets(folder, *launch, uses_clock=fault.uses_clock)
     try:
         rospy.init_node("campaign", disable_signals=True)
         player = Player(change_features if fault.features else None)
