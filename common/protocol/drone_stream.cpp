@@ -28,7 +28,7 @@ bool allFinite(const double (&values)[N]) {
 }
 
 bool isRotation(const double (&q)[4]) {
-  const double norm = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   return std::abs(norm - 1) < kNormTolerance;  // false for what is not finite
 }
 

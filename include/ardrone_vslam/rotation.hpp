@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -11,23 +10,21 @@
 namespace ardrone_vslam {
 
 /// Rotation matrix of a rotation vector [rad].
-inline Eigen::Matrix3d rotationOf(const Eigen::Vector3d& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  constexpr double kNone = 1e-15;
-  if (angle < kNone) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
-}
+Eigen::Matrix3d rotationOf(const Eigen::Vector3d& rotation_vector);
+
+Eigen::Matrix3d rotationAboutZ(double angle_rad);
 
 /// Rotation vector [rad] of a rotation matrix.
-inline Eigen::Vector3d rotationVectorOf(const Eigen::Matrix3d& R) {
-  const Eigen::AngleAxisd angle_axis(R);
-  return angle_axis.angle() * angle_axis.axis();
-}
+Eigen::Vector3d rotationVectorOf(const Eigen::Matrix3d& R);
+
+/// Of the rotation vector, from 0 to pi.
+double angleOf_rad(const Eigen::Matrix3d& R);
 
 /// Heading [rad]: about z, of R = Rz(yaw) Ry(pitch) Rx(roll).
-inline double yawOf(const Eigen::Matrix3d& R) {
-  return std::atan2(R(1, 0), R(0, 0));
-}
+double yawOf(const Eigen::Matrix3d& R);
+
+/// The way from A to B in one turn, of which share is done: 0 is A, to the bit.
+Eigen::Matrix3d rotationBetween(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B, double share);
 
 /// All 24 rotations that take axes to axes, the identity among them.
 inline std::vector<Eigen::Matrix3d> quarterTurns() {
@@ -57,11 +54,6 @@ inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
 /// @param R_odom_cam  optical frame (x right, y down, z forward) to a frame whose z axis points up
 /// @return nothing where the camera looks within 15 degrees of straight up or down: gravity then
 ///   says little about the image's turn
-inline std::optional<float> imageRoll_rad(const Eigen::Matrix3d& R_odom_cam) {
-  constexpr double kSmallest = 0.2588;  // sine of 15 degrees
-  const Eigen::Vector3d down_cam = -R_odom_cam.row(2).transpose();
-  if (!(std::hypot(down_cam.x(), down_cam.y()) > kSmallest)) return std::nullopt;
-  return static_cast<float>(std::atan2(-down_cam.x(), down_cam.y()));
-}
+std::optional<float> imageRoll_rad(const Eigen::Matrix3d& R_odom_cam);
 
 }  // namespace ardrone_vslam

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "ardrone_vslam/delayed_fusion.hpp"
+#include "ardrone_vslam/rotation.hpp"
 #include "configs/node_config.hpp"
 #include "configs/section_values.hpp"
 #include "files/shortened.hpp"
@@ -143,12 +144,13 @@ Eigen::Isometry3d extrinsicsOf(const OnboardConfig& config) {
   readVector("camera_position_m", config.camera_position_m, position_m, faults);
   readVector("camera_rotation_deg", config.camera_rotation_deg, rotation_deg, faults);
   if (!faults.empty()) throw ConfigError(faults);
-  const auto rotation = [](double angle_deg, const Eigen::Vector3d& axis) {
-    return Eigen::AngleAxisd(angle_deg * M_PI / 180, axis);
+  const auto rotation = [&rotation_deg](int axis) {
+    return rotationOf(rotation_deg[axis] * M_PI / 180 * Eigen::Vector3d::Unit(axis));
   };
-  return Eigen::Translation3d(position_m) * rotation(rotation_deg.z(), Eigen::Vector3d::UnitZ()) *
-         rotation(rotation_deg.y(), Eigen::Vector3d::UnitY()) *
-         rotation(rotation_deg.x(), Eigen::Vector3d::UnitX());
+  Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();
+  T_base_cam.translation() = position_m;
+  T_base_cam.linear() = rotation(2) * rotation(1) * rotation(0);
+  return T_base_cam;
 }
 
 }  // namespace ardrone_vslam

@@ -149,10 +149,11 @@ Surroundings surroundingsOf(const ImageView& image, int x_px, int y_px) {
 }
 
 std::optional<AlignPatch> patchOf(const Surroundings& surroundings, const ViewChange& change) {
-  assert(std::abs(change) >= Surroundings::kLeastGrowth && "the surroundings do not reach so far");
+  assert(std::sqrt(squareOf(change)) >= Surroundings::kLeastGrowth &&
+         "the surroundings do not reach so far");
   constexpr auto kFirst = static_cast<float>(-kernels::kPatchCentre);
   constexpr auto kCentre = static_cast<float>(Surroundings::kCentre);
-  const ViewChange back = kSameView / change;
+  const ViewChange back = quotientOf(kSameView, change);
   const Place column_step(back);
   const Place row_step(back * ViewChange(0, 1));
   Place row_begin(back * ViewChange(kFirst, kFirst) + ViewChange(kCentre, kCentre));

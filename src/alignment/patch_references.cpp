@@ -21,7 +21,7 @@ void PatchReference::begin(const ImageView& image, const Eigen::Vector2f& point_
 void PatchReference::adaptTo(const ViewChange& change_since) {
   constexpr float kAdaptAgain = 0.05F;  // 3 degrees, or 5 %
   constexpr float kMostGrowth = 1.6F;   // beyond it the surroundings have too little detail
-  const float growth = std::abs(change_since);
+  const float growth = std::sqrt(squareOf(change_since));
   const bool is_adapted = differenceOf(change_since, applied) >= kAdaptAgain &&
                           growth >= Surroundings::kLeastGrowth && growth <= kMostGrowth;
   if (!std::exchange(is_to_be_made, false) && !(patch && is_adapted)) return;
@@ -29,7 +29,7 @@ void PatchReference::adaptTo(const ViewChange& change_since) {
   const auto made = patchOf(surroundings, wanted);
   if (!made) return;
   patch = made;
-  const ViewChange more = wanted / applied;
+  const ViewChange more = quotientOf(wanted, applied);
   offset_px = vectorOf(more * complexOf(offset_px));
   Eigen::Matrix2f rotation;
   rotation << more.real(), -more.imag(), more.imag(), more.real();

@@ -22,12 +22,12 @@ Fit betterFit(const std::vector<TrackMove>& moves, const Fit& fit) {
   std::complex<float> now_px;
   std::complex<float> product_px2;
   for (const auto& [before, now] : moves) {
-    const float distance_px2 = std::norm(now - fit.change * before - fit.shift_px);
+    const float distance_px2 = squareOf(now - fit.change * before - fit.shift_px);
     const float ratio = 1 + distance_px2 / fit.scale_px2;
     const float weight = 1 / (ratio * ratio);
     weights += weight;
     rest_px2 += weight * distance_px2;
-    squared_px2 += weight * std::norm(before);
+    squared_px2 += weight * squareOf(before);
     before_px += weight * before;
     now_px += weight * now;
     product_px2 += weight * (std::conj(before) * now);
@@ -35,8 +35,8 @@ Fit betterFit(const std::vector<TrackMove>& moves, const Fit& fit) {
   constexpr float kLeast_px2 = 0.5F;  // corners lie on whole pixels
   const std::complex<float> middle_px = before_px / weights;
   Fit better;
-  better.change = (product_px2 - std::conj(middle_px) * now_px) /
-                  (squared_px2 - weights * std::norm(middle_px));
+  better.change =
+      (product_px2 - std::conj(middle_px) * now_px) / (squared_px2 - weights * squareOf(middle_px));
   better.shift_px = now_px / weights - better.change * middle_px;
   better.scale_px2 = 2 * rest_px2 / weights + kLeast_px2;
   return better;

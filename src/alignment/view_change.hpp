@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <complex>
 #include <vector>
 
@@ -19,10 +20,18 @@ inline Eigen::Vector2f vectorOf(const std::complex<float>& px) {
   return {px.real(), px.imag()};
 }
 
+// Libraries differ in std::norm (a hypotenuse, or a sum of squares) and in how they divide.
+inline float squareOf(const std::complex<float>& z) {
+  return z.real() * z.real() + z.imag() * z.imag();
+}
+inline std::complex<float> quotientOf(const std::complex<float>& a, const std::complex<float>& b) {
+  return a * std::conj(b) / squareOf(b);
+}
+
 /// How far `change` moves a pixel otherwise than `other`, as a share of its distance from the
 /// middle.
 inline float differenceOf(const ViewChange& change, const ViewChange& other) {
-  return std::abs(change - other) / std::abs(other);
+  return std::sqrt(squareOf(change - other) / squareOf(other));
 }
 
 /// Where a track was in one image, and where it is in the next: column + i row [px].

@@ -4,31 +4,30 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kBrake_per_s = 1.2;  // deceleration per speed, of a drone that is told to hover
 
-Eigen::Matrix3d heading(double yaw_rad) {
-  return Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-}
-
 }  // namespace
 
 CommandedFlight::CommandedFlight(const DroneMeasurement& begin, double tilt_rad, double time_s)
-    : measured_(begin), steepest_(std::tan(tilt_rad)), time_s_(time_s) {
+    : measured_(begin), steepest_(portable::tan(tilt_rad)), time_s_(time_s) {
   const Eigen::Matrix3d& R = begin.R_odom_base;
-  const Eigen::Vector3d up = heading(std::atan2(R(1, 0), R(0, 0))).transpose() * R.col(2);
+  const Eigen::Vector3d up = rotationAboutZ(yawOf(R)).transpose() * R.col(2);
   lean_ = between_ = up.head<2>() / up.z();
 }
 
 DroneMeasurement CommandedFlight::step(const Eigen::Vector2d& command,
                                        const Eigen::Vector3d& velocity_odom_m_s, double yaw_rad,
                                        double dt_s) {
-  const Eigen::Matrix3d R_odom_heading = heading(yaw_rad);
+  const Eigen::Matrix3d R_odom_heading = rotationAboutZ(yaw_rad);
   const Eigen::Vector2d speed_m_s = (R_odom_heading.transpose() * velocity_odom_m_s).head<2>();
-  const double share = 1 - std::exp(-dt_s / time_s_);
+  const double share = 1 - portable::exp(-dt_s / time_s_);
   for (int axis = 0; axis < 2; ++axis) {
     const double told = command[axis] != 0 ? steepest_ * command[axis]
                                            : -kBrake_per_s * speed_m_s[axis] / kGravity_m_s2;

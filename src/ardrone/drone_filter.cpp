@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -52,7 +53,7 @@ void DroneFilter::predict(const DroneMeasurement& measured, double dt_s, Known k
                          : known == Known::kCommanded ? kCommandedNoise
                                                       : kInterpolatedNoise;
   const double measured_noise =
-      std::hypot(errors_.gust_m_s2_per_sqrt_hz, errors_.force_noise_m_s2_per_sqrt_hz);
+      portable::hypot(errors_.gust_m_s2_per_sqrt_hz, errors_.force_noise_m_s2_per_sqrt_hz);
   addNoise(dt_s, std::max(measured_noise, guessed));
 }
 
@@ -67,8 +68,8 @@ void DroneFilter::rest(double dt_s) {
 /// White accelerations, and what the slow errors forget and gain in this time.
 void DroneFilter::addNoise(double dt_s, double acceleration_noise) {
   State keep = State::Ones();
-  keep.segment<2>(kTilt).setConstant(std::exp(-dt_s / errors_.tilt_time_s));
-  keep.segment<2>(kFlowBias).setConstant(std::exp(-dt_s / errors_.flow_bias_time_s));
+  keep.segment<2>(kTilt).setConstant(portable::exp(-dt_s / errors_.tilt_time_s));
+  keep.segment<2>(kFlowBias).setConstant(portable::exp(-dt_s / errors_.flow_bias_time_s));
   x_ = keep.cwiseProduct(x_);
   P_ = keep.asDiagonal() * P_ * keep.asDiagonal();
   const double tilt = squared(radians(errors_.tilt_sigma_deg));

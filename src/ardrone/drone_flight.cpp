@@ -79,13 +79,13 @@ std::optional<OdometryState> DroneFlight::advance(const NavdataSample& sample) {
 /// A drone that was switched on anew reports another yaw: odom stays where it was.
 void DroneFlight::keepYaw(NavdataReading& packet, double dt_s) {
   Eigen::Matrix3d& R = packet.measured.R_odom_base;
-  R = Eigen::AngleAxisd(yaw_offset_rad_, Eigen::Vector3d::UnitZ()) * R;
+  R = rotationAboutZ(yaw_offset_rad_) * R;
   const double rotation_rad =
       std::remainder(yawOf(R) - yawOf(last_->measured.R_odom_base), 2 * M_PI);
   if (std::abs(rotation_rad) <= kYawJump_rad + kFastestRotation_rad_s * dt_s) return;
   count(OdometryFault::kReset);
   yaw_offset_rad_ -= rotation_rad;
-  R = Eigen::AngleAxisd(-rotation_rad, Eigen::Vector3d::UnitZ()) * R;
+  R = rotationAboutZ(-rotation_rad) * R;
 }
 
 void DroneFlight::fly(const NavdataReading& packet, double dt_s) {

@@ -37,8 +37,8 @@ State motion(const State& x, const DroneMeasurement& measured, double dt_s) {
       R * push(x, R.transpose() * velocity, measured.force_base_m_s2) -
       kGravity_m_s2 * Eigen::Vector3d::UnitZ();
   State next = x;
-  next.segment<3>(kPosition) += Eigen::AngleAxisd(x[kYaw], Eigen::Vector3d::UnitZ()) *
-                                (velocity * dt_s + 0.5 * dt_s * dt_s * acceleration);
+  next.segment<3>(kPosition) +=
+      rotationAboutZ(x[kYaw]) * (velocity * dt_s + 0.5 * dt_s * dt_s * acceleration);
   next.segment<3>(kVelocity) += dt_s * acceleration;
   return next;
 }
@@ -58,8 +58,7 @@ Covariance motionJacobian(const State& x, const DroneMeasurement& measured, doub
   A.col(kForceBias + 2) = -R.col(2);
   A.col(kDrag) = -R * kAcross * velocity_base;
 
-  const Eigen::Matrix3d rotation =
-      Eigen::AngleAxisd(x[kYaw], Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d rotation = rotationAboutZ(x[kYaw]);
   const Eigen::Vector3d acceleration = R * push_base - kGravity_m_s2 * Eigen::Vector3d::UnitZ();
   Covariance F = Covariance::Identity();
   F.middleRows<3>(kPosition) += 0.5 * dt_s * dt_s * rotation * A;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "linear/median.hpp"
+#include "linear/portable_math.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -153,7 +154,7 @@ bool Associator::isLandmarkMismatch(const FrameView& view, const Landmark& landm
   const double distance_m = offset.norm();
   const Eigen::Vector3d predicted = offset / distance_m;
   const double angle = mismatchThreshold_rad(config_, view, landmark, distance_m);
-  return !(predicted.dot(ray.direction_map) > std::cos(angle));  // (5.36)
+  return !(predicted.dot(ray.direction_map) > portable::cos(angle));  // (5.36)
 }
 
 }  // namespace ardrone_vslam

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "linear/portable_math.hpp"
 #include "map/triangulation.hpp"
 
 namespace ardrone_vslam {
@@ -73,7 +74,8 @@ bool MapFeatureAssociator::isEpipolarMismatch(const FrameView& view, const MapFe
   const double rotation_rad =
       config_.threshold_sigmas * view.sigmaSince_m(first.position_variance_m2) / baseline_m;
   const double pixels_rad = config_.epipolar_threshold_px / view.focalLength_px();
-  const double threshold = pixels_rad + rotation_rad * std::hypot(offset->along, offset->across);
+  const double threshold =
+      pixels_rad + rotation_rad * portable::hypot(offset->along, offset->across);
   return offset->across > threshold || offset->along < -threshold ||
          offset->ahead < -(pixels_rad + rotation_rad);
 }

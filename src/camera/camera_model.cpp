@@ -10,6 +10,7 @@
 
 #include "camera/brown_model.hpp"
 #include "camera/lens_table.hpp"
+#include "linear/portable_math.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -44,7 +45,7 @@ std::string lensFault(const CameraIntrinsics& c) {
   constexpr double kLargestShare = 0.2;  // of the radius, by which a pixel may move there
   constexpr int kSteps = 64;
   const double radius =
-      kMiddle * 0.5 * std::hypot(c.width_px, c.height_px) / std::sqrt(c.fx_px * c.fy_px);
+      kMiddle * 0.5 * portable::hypot(c.width_px, c.height_px) / std::sqrt(c.fx_px * c.fy_px);
   bool folds = false;
   double moved = 3 * (std::abs(c.p1) + std::abs(c.p2)) * radius;
   for (int i = 1; i <= kSteps; ++i) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "camera/brown_model.hpp"
+#include "linear/portable_math.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -60,7 +61,7 @@ std::vector<LensTable::Piece> LensTable::build(const CameraIntrinsics& c, double
       const double distorted2 = (i + share) * width;
       const Eigen::Array2d exact = exactNode(c, widest, distorted2).value;
       const Eigen::Array2d error = piece.at(share) - exact;
-      const double angle_rad = std::hypot(std::sqrt(distorted2) * error.x(), error.y());
+      const double angle_rad = portable::hypot(std::sqrt(distorted2) * error.x(), error.y());
       if (!(angle_rad * focal_px / (exact.y() * exact.y()) < kTolerance_px)) return false;
     }
     return true;

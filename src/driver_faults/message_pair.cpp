@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -32,7 +33,7 @@ Eigen::Vector3d displacementBetween_m(const OdometryState& a, const OdometryStat
 
 double turnBetween_rad(const OdometryState& a, const OdometryState& b) {
   const Eigen::Matrix3d R = b.T_odom_base.linear() * a.T_odom_base.linear().transpose();
-  return std::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1));
+  return portable::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1));
 }
 
 bool isJump(const OdometryState& a, const OdometryState& b) {
@@ -51,7 +52,7 @@ bool isStartedAgain(const OdometryState& a, const OdometryState& b) {
   return secondsBetween(a, b) > kStart_s &&
          a.T_odom_base.translation().head<2>().norm() > kFarFromStart_m &&
          start.translation().head<2>().norm() < kAtStart_m &&
-         std::abs(std::atan2(start.linear()(1, 0), start.linear()(0, 0))) < kAtStart_rad;
+         std::abs(portable::atan2(start.linear()(1, 0), start.linear()(0, 0))) < kAtStart_rad;
 }
 
 bool isRepeated(const OdometryState& a, const OdometryState& b) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "ardrone_vslam/rotation.hpp"
 #include "driver_faults/message_pair.hpp"
 
 namespace ardrone_vslam {
@@ -60,8 +61,7 @@ std::optional<OdometryFault> OdomFrameWatch::see(const OdometryState& message) {
   const Eigen::Vector3d told_m = message.T_odom_base.translation();
   Eigen::Vector3d position_m = T_straight_odom_ * last.T_odom_base * way_base_m;
   position_m.z() = told_m.z();  // drivers measure it
-  T_straight_odom_.linear() =
-      Eigen::AngleAxisd(-jump_rad, Eigen::Vector3d::UnitZ()) * T_straight_odom_.linear();
+  T_straight_odom_.linear() = rotationAboutZ(-jump_rad) * T_straight_odom_.linear();
   T_straight_odom_.translation() = position_m - T_straight_odom_.linear() * told_m;
   return OdometryFault::kTurn;
 }

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "freak/freak_pattern.hpp"
+#include "linear/portable_math.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -26,7 +27,7 @@ float roughArcTangent(float t) {
 float freakAngle_deg(std::int32_t sum_x, std::int32_t sum_y) {
   const double y = sum_y;
   const double x = sum_x;
-  return static_cast<float>(std::atan2(y, x) * (180.0 / M_PI));
+  return static_cast<float>(portable::atan2(y, x) * (180.0 / M_PI));
 }
 
 int freakOrientation(float angle_deg) {

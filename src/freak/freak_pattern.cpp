@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "freak/freak_pairs.hpp"
+#include "linear/portable_math.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -81,9 +82,9 @@ FreakPixelBox boxAround(const FreakField& field, int x_px, int y_px) {
 }
 
 FreakPattern::FreakPattern() {
-  const double step = std::pow(2.0, static_cast<double>(kOctaves) / kFreakScales);
-  for (int scale = 0; scale < kFreakScales; ++scale) {
-    const double factor = std::pow(step, scale);
+  const double step = portable::exp(M_LN2 * kOctaves / kFreakScales);
+  double factor = 1;
+  for (int scale = 0; scale < kFreakScales; ++scale, factor *= step) {
     enlargement_[static_cast<std::size_t>(scale)] = factor;
     border_px_[static_cast<std::size_t>(scale)] =
         static_cast<int>(std::ceil((kRadius[0] + ringSigma(0)) * factor * kPatternScale_px)) + 1;
@@ -95,7 +96,7 @@ FreakPattern::FreakPattern() {
       const double half_step = k < kFreakPointsPerRing ? 0.0 : M_PI / kFreakPointsPerRing;
       const double alpha =
           (k % kFreakPointsPerRing) * 2 * M_PI / kFreakPointsPerRing + half_step + theta;
-      directions[static_cast<std::size_t>(k)] = {std::cos(alpha), std::sin(alpha)};
+      directions[static_cast<std::size_t>(k)] = {portable::cos(alpha), portable::sin(alpha)};
     }
     computeBoxes(orientation);
   }
@@ -120,8 +121,9 @@ FreakField FreakPattern::field(int scale, int orientation, int index) const {
 
 int FreakPattern::scaleOf(float size_px) {
   if (!(size_px > kSmallestSize_px)) return 0;  // NaN too
-  const auto per_log = static_cast<float>(kFreakScales / (std::log(2.0) * kOctaves));
-  const double scale = std::log(size_px / kSmallestSize_px) * per_log + 0.5;
+  const auto per_log = static_cast<float>(kFreakScales / (portable::log(2.0) * kOctaves));
+  const double scale =
+      static_cast<float>(portable::log(size_px / kSmallestSize_px)) * per_log + 0.5;
   return static_cast<int>(std::min(scale, kFreakScales - 1.0));
 }
 

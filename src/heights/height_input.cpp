@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -50,7 +51,7 @@ std::optional<double> HeightInput::at(const OdometryState& odometry) {
     return std::nullopt;
   }
   const double cosine = odometry.T_odom_base.linear()(2, 2);  // between the two z axes
-  if (!(cosine >= std::cos(kMostTilt_deg * M_PI / 180))) {
+  if (!(cosine >= portable::cos(kMostTilt_deg * M_PI / 180))) {
     ++tilted_;
     return std::nullopt;
   }

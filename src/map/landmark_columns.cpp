@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/kernels.hpp"
+#include "linear/portable_math.hpp"
 #include "map/landmark_map.hpp"
 
 namespace ardrone_vslam {
@@ -14,7 +15,7 @@ constexpr float kNearest_m = 1e-3F;
 
 /// c |c| for the smallest cosine; half a turn culls nothing, however the cosine is rounded.
 float signedSquareOfCosine(double angle_deg) {
-  const double cosine = std::cos(angle_deg * M_PI / 180);
+  const double cosine = portable::cos(angle_deg * M_PI / 180);
   return angle_deg >= 180 ? -2.F : static_cast<float>(cosine * std::abs(cosine));
 }
 

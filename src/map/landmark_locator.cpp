@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "linear/median.hpp"
+#include "linear/portable_math.hpp"
 #include "map/triangulation.hpp"
 
 namespace ardrone_vslam {
@@ -35,8 +36,8 @@ std::optional<PositionFix> LandmarkLocator::locate(const std::vector<Observation
           ? printedMean(observations, predicted_camera_map, angle_sigma_rad)
           : exactMean(observations, predicted_camera_map, angle_sigma_rad);
   if (!fix || !fix->position_map.allFinite()) return std::nullopt;
-  const double floor_m = std::hypot(config_.fix_sigma_floor_m,
-                                    config_.fix_angle_floor_deg * M_PI / 180 * fix->distance_m);
+  const double floor_m = portable::hypot(
+      config_.fix_sigma_floor_m, config_.fix_angle_floor_deg * M_PI / 180 * fix->distance_m);
   fix->covariance += floor_m * floor_m * Eigen::Matrix3d::Identity();
   return fix;
 }

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "linear/portable_math.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -36,7 +38,7 @@ void Mapper::refine(const FrameView& view, const std::vector<Association>& match
     const double depth = (landmark.position_map - ray.origin_map).dot(ray.direction_map);  // (5.20)
     const Eigen::Vector3d measured = ray.origin_map + depth * ray.direction_map;           // (5.21)
     const double sigma_p =
-        std::hypot(config_.position_sigma_m, view.sigmaSince_m(landmark.position_variance_m2));
+        portable::hypot(config_.position_sigma_m, view.sigmaSince_m(landmark.position_variance_m2));
     const double sigma = measurementSigma_m(sigma_p, std::abs(depth), sigma_a);  // (5.22)
     const double variance = landmark.sigma_m * landmark.sigma_m;
     const double gain = variance / (variance + sigma * sigma);           // (5.30-5.32)
@@ -58,7 +60,7 @@ void Mapper::widenBaseline(const FrameView& view, std::size_t feature, Landmark&
   // After a long way round the drift between the two views would turn the map: then the wider
   // baseline gives no better depth.
   const double sigma_p =
-      std::hypot(config_.position_sigma_m, view.sigmaSince_m(landmark.position_variance_m2));
+      portable::hypot(config_.position_sigma_m, view.sigmaSince_m(landmark.position_variance_m2));
   const double sigma =
       measurementSigma_m(sigma_p, point->depth_m, angleSigma_rad(view.focalLength_px()));
   const double depth_sigma_m = depthSigma_m(sigma, point->parallax_rad);
@@ -122,7 +124,7 @@ int Mapper::triangulateMatches(const FrameView& view, const std::vector<Associat
     used[feature] = true;
     Landmark landmark;
     const double sigma_p =
-        std::hypot(config_.position_sigma_m, view.sigmaSince_m(first.position_variance_m2));
+        portable::hypot(config_.position_sigma_m, view.sigmaSince_m(first.position_variance_m2));
     landmark.position_map = point->position_map;
     landmark.position_variance_m2 = view.positionVariance_m2();
     landmark.sigma_m = measurementSigma_m(sigma_p, point->depth_m, sigma_a);  // (5.19)

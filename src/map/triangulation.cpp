@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/portable_math.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -44,7 +46,7 @@ std::optional<TriangulatedPoint> triangulate(const Ray& first, const Ray& presen
   TriangulatedPoint point;
   point.position_map = present.origin_map + depth * s_1;  // (5.16)
   point.depth_m = depth;
-  point.parallax_rad = std::atan2(sine, s_0.dot(s_1));
+  point.parallax_rad = portable::atan2(sine, s_0.dot(s_1));
   return point;
 }
 
@@ -58,7 +60,7 @@ std::optional<EpipolarOffset> epipolarOffset(const Ray& first, const Ray& presen
 }
 
 double depthSigma_m(double sigma_m, double parallax_rad) {
-  return sigma_m / std::max(std::sin(parallax_rad), kSmallestSine);
+  return sigma_m / std::max(portable::sin(parallax_rad), kSmallestSine);
 }
 
 }  // namespace ardrone_vslam

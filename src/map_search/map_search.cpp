@@ -6,7 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "ardrone_vslam/rotation.hpp"
 #include "linear/median.hpp"
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 #include "map_update/observation_rays.hpp"
 #include "map_update/relocation.hpp"
@@ -36,7 +38,7 @@ constexpr double kPriorVariance = 9;
 const Eigen::Vector3d kCamera = Eigen::Vector3d::Zero();  // in the rig, which here is the camera
 
 double headingOf(const Eigen::Matrix3d& R) {
-  return std::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1));
+  return portable::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1));
 }
 
 /// Position and heading by the landmarks that agree; roll and pitch are the prediction's.
@@ -125,8 +127,7 @@ std::optional<MapSearch::Observation> MapSearch::look(const ImageFeatures& featu
   MapEntry& entry = observation.entry;
   entry.camera_loaded = consensus->position_map;
   const double heading_rad = headingOf(consensus->R_map_rig * T_flight_cam.linear().transpose());
-  entry.T_loaded_flight.linear() =
-      Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  entry.T_loaded_flight.linear() = rotationAboutZ(heading_rad);
   entry.T_loaded_flight.translation() =
       entry.camera_loaded - entry.T_loaded_flight.linear() * observation.camera_flight;
   entry.covariance = kPriorVariance * covarianceOf(*consensus, sigma_a);

@@ -4,6 +4,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
+
 namespace ardrone_vslam {
 
 std::vector<LevelPose> posesOfPair(const Eigen::Vector3d& ray_a, const Eigen::Vector3d& point_a,
@@ -32,10 +35,9 @@ std::vector<LevelPose> posesOfPair(const Eigen::Vector3d& ray_a, const Eigen::Ve
     if (!(depths_m.minCoeff() > 0)) continue;
     const Eigen::Vector2d seen = v + t * u;
     LevelPose pose;
-    pose.heading_rad = std::atan2(between.y(), between.x()) - std::atan2(seen.y(), seen.x());
-    pose.camera_map =
-        point_a -
-        depths_m.x() * (Eigen::AngleAxisd(pose.heading_rad, Eigen::Vector3d::UnitZ()) * ray_a);
+    pose.heading_rad =
+        portable::atan2(between.y(), between.x()) - portable::atan2(seen.y(), seen.x());
+    pose.camera_map = point_a - depths_m.x() * (rotationAboutZ(pose.heading_rad) * ray_a);
     poses.push_back(pose);
     if (root2 == 0) break;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
 #include "map_update/level_pose.hpp"
 #include "map_update/observation_rays.hpp"
 #include "window/rays.hpp"
@@ -78,8 +79,7 @@ void Relocator::forEachPose(std::size_t a, std::size_t b, const Visit& visit) co
        posesOfPair(predicted_.R_map_rig * one.bearing_rig, one.point_map,
                    predicted_.R_map_rig * other.bearing_rig, other.point_map)) {
     Clone pose = predicted_;
-    pose.R_map_rig =
-        Eigen::AngleAxisd(level.heading_rad, Eigen::Vector3d::UnitZ()) * predicted_.R_map_rig;
+    pose.R_map_rig = rotationAboutZ(level.heading_rad) * predicted_.R_map_rig;
     pose.position_map = level.camera_map - pose.R_map_rig * camera_rig_;
     visit(pose);
   }
@@ -153,7 +153,7 @@ std::optional<Clone> Relocator::search() const {
     // Until two right ones have been drawn with a probability of 0.999; of these every other pair
     // lies well.
     const double share = its_score / static_cast<double>(observations_.size());
-    samples = std::min(samples, std::log(0.001) / std::log1p(-0.5 * share * share));
+    samples = std::min(samples, portable::log(0.001) / portable::log1p(-0.5 * share * share));
   };
   Draws draws;
   for (int k = 0; k < samples; ++k) {
@@ -196,14 +196,15 @@ double Relocator::shareByChance(const Clone& pose) const {
 }  // namespace
 
 double agreementsByChance(std::size_t matches, std::size_t agreeing, double share) {
-  const double poses = std::pow(static_cast<double>(matches), 3) / 6;
+  const double poses = static_cast<double>(matches) * static_cast<double>(matches) *
+                       static_cast<double>(matches) / 6;
   if (agreeing < kFewest || matches < agreeing || !(share < 1)) return poses;
   const double others = static_cast<double>(matches - 3);
   const double q = static_cast<double>(agreeing - 3) / others;
   if (q <= share) return poses;
-  double divergence = q * std::log(q / share);
-  if (q < 1) divergence += (1 - q) * std::log((1 - q) / (1 - share));
-  return poses * std::exp(-others * divergence);
+  double divergence = q * portable::log(q / share);
+  if (q < 1) divergence += (1 - q) * portable::log((1 - q) / (1 - share));
+  return poses * portable::exp(-others * divergence);
 }
 
 bool chanceExplains(const Clone& pose, const Eigen::Vector3d& camera_rig,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "ardrone_vslam/rotation.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -20,8 +22,7 @@ void Anchors::choose(const WindowState& state, double point_distance_m) {
   if (const auto frame = indexOf(state.frames(), current_id_)) {
     const Clone& anchor = state.frames()[*frame];
     const double displacement_m = (newest.position_map - anchor.position_map).norm();
-    const double rotation_rad =
-        Eigen::AngleAxisd(newest.R_map_rig.transpose() * anchor.R_map_rig).angle();
+    const double rotation_rad = angleOf_rad(newest.R_map_rig.transpose() * anchor.R_map_rig);
     if (displacement_m < kSpacing * point_distance_m && rotation_rad < kRotation_deg * M_PI / 180)
       return;
   }

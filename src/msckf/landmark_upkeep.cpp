@@ -20,7 +20,7 @@ Eigen::Matrix3d covarianceByStretch(double stretch_sigma, const Eigen::Vector3d&
   constexpr double kLittle = 0.1;
   constexpr double kCaution = 3;  // a velocity error is one draw for all of them
   if (stretch_sigma < kLittle) return Eigen::Matrix3d::Zero();
-  return std::pow(kCaution * stretch_sigma, 2) * offset * offset.transpose();
+  return squared(kCaution * stretch_sigma) * offset * offset.transpose();
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardrone_vslam/rotation.hpp"
 #include "map/landmark_map.hpp"
 
 namespace ardrone_vslam {
@@ -22,8 +23,7 @@ AnchorCorrection moveBetween(const Clone& placed, const Clone& now) {
 
 bool isSeen(const AnchorCorrection& move, double distance_m, double tolerance_rad) {
   return (move.to_map - move.from_map).norm() > tolerance_rad * distance_m ||
-         Eigen::AngleAxisd(move.rotation).angle() > tolerance_rad ||
-         std::abs(move.stretch - 1) > tolerance_rad;
+         angleOf_rad(move.rotation) > tolerance_rad || std::abs(move.stretch - 1) > tolerance_rad;
 }
 
 }  // namespace

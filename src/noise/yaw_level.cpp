@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 #include "noise/bias_level.hpp"
 
@@ -36,21 +37,21 @@ void YawLevel::learn(const SetupFinding& finding) {
   learned_ns_ = yaw.stamp_ns;
   const double walk_rad2 = configuredWalk_rad2(yaw.span_s, yaw.displacement_m);
   const double rest_rad2 = yaw.variance_rad2 + 2 * squared(radians(config_.attitude_noise_deg));
-  const double kept = std::exp(-new_s / kNoiseMemory_s);
+  const double kept = portable::exp(-new_s / kNoiseMemory_s);
   double most = -std::numeric_limits<double>::infinity();
   double most_probable = 1;
   for (std::size_t i = 0; i < kFactors; ++i) {
     const double exponent = kStep * static_cast<double>(i);
-    const double variance_rad2 = std::exp2(exponent) * walk_rad2 + rest_rad2;
+    const double variance_rad2 = portable::exp(M_LN2 * exponent) * walk_rad2 + rest_rad2;
     const double squares = squared(yaw.off_rad) / variance_rad2;
     const double log_density =
-        -0.5 * (std::log(variance_rad2) +
-                (kDegreesOfFreedom + 1) * std::log1p(squares / kDegreesOfFreedom));
+        -0.5 * (portable::log(variance_rad2) +
+                (kDegreesOfFreedom + 1) * portable::log1p(squares / kDegreesOfFreedom));
     log_likelihood_[i] = kept * log_likelihood_[i] + new_s / yaw.span_s * log_density;
     const double log_posterior = log_likelihood_[i] - 0.5 * squared(exponent / kExponentSigma);
     if (log_posterior <= most) continue;
     most = log_posterior;
-    most_probable = std::exp2(exponent);
+    most_probable = portable::exp(M_LN2 * exponent);
   }
   variance_factor_ = most_probable < kLeastFactor ? 1 : most_probable;
 }

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -100,7 +101,7 @@ DelayedFusion::Answer DelayedFusion::correct(const LateCorrection& correction) {
   }
   const Eigen::Isometry3d difference = correction.T_odom_base.inverse() * then.T_odom_base;
   if (difference.translation().norm() > kLargestDifference_m ||
-      Eigen::AngleAxisd(difference.linear()).angle() > kLargestDifference_rad) {
+      angleOf_rad(difference.linear()) > kLargestDifference_rad) {
     return Answer::kOtherOdometry;
   }
   correction_ = correction;
@@ -181,7 +182,7 @@ Matrix6d DelayedFusion::growth(const OdometryState& state, double travelled_m) c
   }
   position.diagonal().array() += squared(config_.velocity_bias_m_s * dt_s);
   position += squared(config_.scale_sigma) * step_map * step_map.transpose();
-  const double keep_tilt = std::exp(-dt_s / config_.tilt_time_s);
+  const double keep_tilt = portable::exp(-dt_s / config_.tilt_time_s);
   const double tilt_rad2 = squared(radians(config_.tilt_sigma_deg)) * (1 - keep_tilt * keep_tilt);
   const double yaw_rad2 = squared(radians(config_.yaw_walk_deg_per_sqrt_s)) * dt_s +
                           squared(radians(config_.yaw_walk_deg_per_sqrt_m)) * travelled_m;

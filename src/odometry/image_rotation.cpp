@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/scalars.hpp"
 #include "odometry/common_rotation.hpp"
 
 namespace ardrone_vslam {
@@ -38,7 +39,7 @@ Prior priorOf(const DisplacementGuess& guess, double corner_sigma_rad) {
   // Of the direction; a way much shorter than its sigma may point anywhere.
   const double sigma_rad =
       std::max(guess.sigma_m, 1e-3 * displacement_m) / std::max(displacement_m, 1e-9);
-  prior.weight = std::pow(corner_sigma_rad / std::min(sigma_rad, 1.0), 2);
+  prior.weight = squared(corner_sigma_rad / std::min(sigma_rad, 1.0));
   return prior;
 }
 
@@ -172,7 +173,7 @@ double squaresAgainst(const KnownMotion& known, const ImageMotion& fitted,
                       const std::vector<BearingPair>& pairs, double corner_sigma_rad) {
   Prior prior = priorOf(known.displacement, corner_sigma_rad);
   prior.R_then_now = known.R_then_now;
-  prior.rotation_weight = std::pow(corner_sigma_rad / known.rotation_sigma_rad, 2);
+  prior.rotation_weight = squared(corner_sigma_rad / known.rotation_sigma_rad);
   ImageMotion motion;
   motion.direction_then = prior.direction_then;
   motion.R_then_now = known.R_then_now;

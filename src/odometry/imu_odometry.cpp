@@ -5,6 +5,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -12,10 +15,6 @@ using Push = OdometryBuffer::Push;
 
 constexpr std::size_t kMostKept = 10000;            // of each input, whatever their stamps are
 constexpr std::int64_t kNewRun_ns = 1'000'000'000;  // stamps further back are a new run
-
-double heading_rad(const Eigen::Matrix3d& R_world_base) {
-  return std::atan2(R_world_base(1, 0), R_world_base(0, 0));
-}
 
 }  // namespace
 
@@ -83,7 +82,7 @@ void ImuOdometry::use(const OdometryState& odometry, const Eigen::Quaterniond& R
                       std::vector<OdometryState>& ready) {
   const Eigen::Vector3d up_by_imu = R_world_base.inverse() * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d up = odometry.T_odom_base.linear().row(2);
-  if (!last_ && up.dot(up_by_imu) < std::cos(kMostTilt_deg * M_PI / 180)) {
+  if (!last_ && up.dot(up_by_imu) < portable::cos(kMostTilt_deg * M_PI / 180)) {
     ++tilted_;
     return;
   }
@@ -102,16 +101,15 @@ std::optional<Eigen::Quaterniond> ImuOdometry::attitudeAt(std::int64_t stamp_ns)
   if (gap_ns > kLongestGap_ns) return std::nullopt;
   const double share =
       static_cast<double>(stamp_ns - before.stamp_ns) / static_cast<double>(gap_ns);
-  return before.R_world_base.slerp(share, after->R_world_base);
+  return Eigen::Quaterniond(rotationBetween(before.R_world_base.toRotationMatrix(),
+                                            after->R_world_base.toRotationMatrix(), share));
 }
 
 OdometryState ImuOdometry::laid(const OdometryState& odometry,
                                 const Eigen::Quaterniond& R_world_base) {
   const Eigen::Matrix3d reported = odometry.T_odom_base.linear();
   if (!last_) {
-    R_odom_world_ =
-        Eigen::AngleAxisd(heading_rad(reported) - heading_rad(R_world_base.toRotationMatrix()),
-                          Eigen::Vector3d::UnitZ());
+    R_odom_world_ = rotationAboutZ(yawOf(reported) - yawOf(R_world_base.toRotationMatrix()));
     T_odom_base_.translation() = odometry.T_odom_base.translation();
   }
   const Eigen::Matrix3d attitude = (R_odom_world_ * R_world_base).toRotationMatrix();

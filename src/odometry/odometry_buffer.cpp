@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "ardrone_vslam/rotation.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -74,12 +76,10 @@ std::string covarianceFault(const OdometryState& state) {
 OdometryState interpolate(const OdometryState& a, const OdometryState& b, std::int64_t stamp_ns) {
   const auto span = static_cast<double>(b.stamp_ns - a.stamp_ns);
   const double s = span > 0 ? static_cast<double>(stamp_ns - a.stamp_ns) / span : 0.0;
-  const Eigen::Quaterniond q_a(a.T_odom_base.linear());
-  const Eigen::Quaterniond q_b(b.T_odom_base.linear());
   OdometryState state;
   state.stamp_ns = stamp_ns;
   state.start = b.start;
-  state.T_odom_base.linear() = q_a.slerp(s, q_b).normalized().toRotationMatrix();
+  state.T_odom_base.linear() = rotationBetween(a.T_odom_base.linear(), b.T_odom_base.linear(), s);
   // In this form equal values stay equal to the bit: a covariance that does not grow must not seem
   // to grow by rounding.
   state.T_odom_base.translation() =

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "ardrone_vslam/frame_result.hpp"
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -58,7 +59,7 @@ std::optional<OdometryStep> OdometryStepWatch::see(const OdometryState& state) {
     return OdometryStep{expected_m, excess_m, most_m / 3};
   }
   const bool is_anew = !has_velocity_ || is_other;
-  const double share = is_anew ? 1 : 1 - std::exp(-dt_s / kMemory_s);
+  const double share = is_anew ? 1 : 1 - portable::exp(-dt_s / kMemory_s);
   velocity_odom_m_s_ += share * (displacement_m / dt_s - velocity_odom_m_s_);
   has_velocity_ = true;
   stepping_s_ = 0;

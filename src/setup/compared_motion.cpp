@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -74,8 +75,8 @@ double squaresBetween(const ImageMotion& seen, const ToldMotion& told, double sp
   off.head<3>() = rotationVectorOf(seen.R_then_now * told.R_then_now.transpose());
   const Eigen::Vector3d direction =
       told.displacement_then_m / std::max(told.displacement_then_m.norm(), 1e-9);
-  const double angle_rad =
-      std::atan2(seen.direction_then.cross(direction).norm(), seen.direction_then.dot(direction));
+  const double angle_rad = portable::atan2(seen.direction_then.cross(direction).norm(),
+                                           seen.direction_then.dot(direction));
   const Eigen::Vector2d across = tangentsOf(seen.direction_then).transpose() * direction;
   // Of the opposite direction all tangents are alike.
   off.tail<2>() = across.norm() > 1e-9 ? Eigen::Vector2d(across.normalized() * angle_rad)
@@ -121,7 +122,8 @@ double squaresTold(const std::vector<BearingPair>& pairs, double corner_sigma_ra
   known.rotation_sigma_rad = rotationSigma_rad(seen, told);
   const double displacement_m = told.displacement_then_m.norm();
   known.displacement.displacement_m = told.displacement_then_m;
-  known.displacement.sigma_m = displacement_m * std::hypot(kDirection_rad, direction_sigma_rad);
+  known.displacement.sigma_m =
+      displacement_m * portable::hypot(kDirection_rad, direction_sigma_rad);
   return std::min(squares, squaresAgainst(known, seen, pairs, corner_sigma_rad));
 }
 

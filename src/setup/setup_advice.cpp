@@ -7,7 +7,9 @@
 #include <iomanip>
 #include <sstream>
 
+#include "ardrone_vslam/rotation.hpp"
 #include "ardrone_vslam/setup_watch.hpp"
+#include "linear/portable_math.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -95,11 +97,11 @@ std::string staticTransformLine(const Eigen::Isometry3d& T_base_cam, const std::
                                 const std::string& camera) {
   // Fixed axes roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll).
   const Eigen::Matrix3d& R = T_base_cam.linear();
-  const double pitch = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
+  const double pitch = portable::atan2(-R(2, 0), portable::hypot(R(0, 0), R(1, 0)));
   const bool is_steep = std::abs(R(2, 0)) > 1 - 1e-9;  // yaw and roll about one axis: all is roll
-  const double yaw = is_steep ? 0 : std::atan2(R(1, 0), R(0, 0));
+  const double yaw = is_steep ? 0 : yawOf(R);
   const double roll =
-      is_steep ? std::atan2(-R(0, 1) * R(2, 0), R(1, 1)) : std::atan2(R(2, 1), R(2, 2));
+      is_steep ? portable::atan2(-R(0, 1) * R(2, 0), R(1, 1)) : portable::atan2(R(2, 1), R(2, 2));
   const Eigen::Vector3d& t = T_base_cam.translation();
   const auto round = [](double value) { return std::round(value * 1e5) / 1e5 + 0.0; };
   std::array<char, 160> numbers{};

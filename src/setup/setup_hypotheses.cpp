@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -89,7 +90,7 @@ double SetupHypotheses::squaresOf(const Hypothesis& h, const ComparedMotion& mot
 }
 
 void SetupHypotheses::add(const ComparedMotion& motion) {
-  static const double kKept = std::exp(-1 / kMemory);
+  static const double kKept = portable::exp(-1 / kMemory);
   const bool has_factors = wantsFactors();
   motions_ = kKept * motions_ + 1;
   for (Hypothesis& h : hypotheses_) {

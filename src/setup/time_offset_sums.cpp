@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -87,7 +88,7 @@ void TimeOffsetSums::add(const ComparedRotation& rotation) {
 
   const double passed_s = added_ns_ != 0 ? seconds(rotation.stamp_ns - added_ns_) : 0;
   added_ns_ = rotation.stamp_ns;
-  const double kept = std::exp(-passed_s / TimeOffsetEstimator::kMemory_s);
+  const double kept = portable::exp(-passed_s / TimeOffsetEstimator::kMemory_s);
   for (std::size_t i = 0; i < kOffsetCount; ++i) {
     const Eigen::Vector3d weighed = weight * (information * differences_rad[i]);
     offsets_[i].squares = kept * offsets_[i].squares + differences_rad[i].dot(weighed);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 #include "window/odometry_noise.hpp"
 
@@ -186,8 +187,8 @@ void Propagator::propagateGlobals(const OdometryState& odometry, const Increment
   const double dt_s = increment.duration_s;
   // Roll and pitch come back to the odometry's, which gravity holds; yaw walks; biases fade.
   const Eigen::Vector3d up = state.R_map_odom_ * odometry.T_odom_base.linear().col(2);
-  const double keep_tilt = std::exp(-dt_s / config_.tilt_time_s);
-  const double keep_bias = std::exp(-dt_s / config_.velocity_bias_time_s);
+  const double keep_tilt = portable::exp(-dt_s / config_.tilt_time_s);
+  const double keep_bias = portable::exp(-dt_s / config_.velocity_bias_time_s);
   state.R_map_odom_ =
       rotationOf(-(1 - keep_tilt) * acrossOf(up) * rotationVectorOf(state.R_map_odom_)) *
       state.R_map_odom_;

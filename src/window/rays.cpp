@@ -8,6 +8,7 @@
 
 #include "ardrone_vslam/landmark.hpp"
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -66,7 +67,7 @@ RayRoot across(const RayRoot& root_map, const Eigen::Vector3d& direction_map) {
 }
 
 double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  return portable::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 /// @param rowsAcross  gives the two rows, across the predicted direction, that residuals are taken

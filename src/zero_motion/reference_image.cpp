@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/portable_math.hpp"
 #include "matching/hamming.hpp"
 
 namespace ardrone_vslam {
@@ -74,7 +75,7 @@ void ReferenceImage::findAgain(const ImageFeatures& features,
 std::vector<const ReferenceImage::Corner*>::iterator ReferenceImage::sameCorner(
     const Eigen::Vector3d& bearing, const Descriptor& descriptor, double reach_rad,
     std::vector<const Corner*>& lost) {
-  const double nearest_cosine = std::cos(reach_rad);
+  const double nearest_cosine = portable::cos(reach_rad);
   int fewest = kSameCorner_bits;
   auto best = lost.end();
   auto corner =

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -49,7 +51,8 @@ SceneDepth::SceneDepth() : hypotheses_(kDepths) {
   double depth_m = kNearest_m;
   for (Hypothesis& one : hypotheses_) {
     one.depth_m = depth_m;
-    one.probability = std::exp(-0.5 * squared(std::log(depth_m / kPriorDepth_m) / kPriorSigma));
+    one.probability =
+        portable::exp(-0.5 * squared(portable::log(depth_m / kPriorDepth_m) / kPriorSigma));
     one.covariance.diagonal().setConstant(squared(kBias_m_s));
     depth_m *= kDepthRatio;
   }
@@ -79,7 +82,7 @@ void SceneDepth::see(const ImageFeatures& features, const Eigen::Isometry3d& T_o
     motion.seen.displacement = R_odom_then * seen->displacement;
     motion.seen.covariance = R_odom_then * seen->covariance * R_odom_then.transpose();
     judge(motion);
-    spread(motion.passed_s, Eigen::AngleAxisd(R_then_now).angle());
+    spread(motion.passed_s, angleOf_rad(R_then_now));
   }
   reference_ = now_;
 }
@@ -109,7 +112,7 @@ void SceneDepth::judge(const Motion& motion) {
 /// Corrects the bias. @return how probable the motion is at this depth
 double SceneDepth::explain(const Motion& motion, Hypothesis& hypothesis) {
   const double passed_s = motion.passed_s;
-  const double keep = std::exp(-passed_s / kBiasTime_s);
+  const double keep = portable::exp(-passed_s / kBiasTime_s);
   Eigen::Vector3d bias = keep * hypothesis.bias_m_s;
   Eigen::Matrix3d B = squared(keep) * hypothesis.covariance;
   B.diagonal().array() += squared(kBias_m_s) * (1 - squared(keep));
@@ -138,7 +141,7 @@ double SceneDepth::explain(const Motion& motion, Hypothesis& hypothesis) {
         motion.seen.displacement.dot(S_seen_inverse * motion.seen.displacement);
     const double squares = std::min(off_squares, kMostOff) + std::min(seen_squares, kMostSeen);
     const double density =
-        std::exp(-0.5 * squares) / std::sqrt(S.determinant() * S_seen.determinant());
+        portable::exp(-0.5 * squares) / std::sqrt(S.determinant() * S_seen.determinant());
     const Eigen::Matrix3d gain = passed_s * B * S_inverse;
     // No further than by what it costs: else a bias that nothing explains would explain all.
     const double share = std::sqrt(kMostOff / std::max(off_squares, kMostOff));
@@ -157,7 +160,7 @@ double SceneDepth::explain(const Motion& motion, Hypothesis& hypothesis) {
 void SceneDepth::spread(double passed_s, double rotation_rad) {
   const double variance =
       squared(kWalk_per_sqrt_s) * passed_s + squared(kWalk_per_sqrt_rad) * rotation_rad;
-  const double to_each_side = std::min(0.25, variance / (2 * squared(std::log(kDepthRatio))));
+  const double to_each_side = std::min(0.25, variance / (2 * squared(portable::log(kDepthRatio))));
   double moved_on = 0;  // from the next nearer depth
   for (std::size_t i = 0; i < kDepths; ++i) {
     const double moving = to_each_side * hypotheses_[i].probability;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/portable_math.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -40,7 +41,7 @@ DisplacementFit fitAround(const std::vector<BearingPair>& pairs, const Eigen::Ma
     J << then * then.transpose() - Eigen::Matrix3d::Identity(), -skew(then);
     const double by_displacement = (J.leftCols<3>() * last.head<3>()).norm();
     const double scale =
-        kInlierSigmas * std::hypot(corner_sigma_rad, kDepthSpread * by_displacement);
+        kInlierSigmas * portable::hypot(corner_sigma_rad, kDepthSpread * by_displacement);
     const double off = (J * last - shift).squaredNorm() / squared(scale);
     const double weight = is_first ? 1 : 1 / squared(1 + off);
     fit.A += weight * J.transpose() * J;

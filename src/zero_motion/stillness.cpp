@@ -113,11 +113,11 @@ Stillness stillnessOf(const std::vector<BearingPair>& pairs, const OdometryRotat
   s.inlier_share = static_cast<double>(rest.inliers) / static_cast<double>(pairs.size());
   s.median_px = medianLeft_rad(pairs, R) * focal_length_px;
   if (s.inlier_share < kInlierShare) return s;
-  const double off_rad = Eigen::AngleAxisd(R * odometry.R_reference_now.transpose()).angle();
+  const double off_rad = angleOf_rad(R * odometry.R_reference_now.transpose());
   s.is_still = rest.squaredShift() < kShiftGate && off_rad < kRotationSigmas * odometry.sigma_rad;
 
   // A turn may stand for a shift by as much as it turned, or as little as the attitude is known.
-  const double rotation_rad = std::min(Eigen::AngleAxisd(R).angle(), odometry.sigma_rad) + 1e-6;
+  const double rotation_rad = std::min(angleOf_rad(R), odometry.sigma_rad) + 1e-6;
   s.hidden =
       rest.shiftGiven(rest.rotation() + Eigen::Matrix3d::Identity() / (rotation_rad * rotation_rad))
           .inverse();

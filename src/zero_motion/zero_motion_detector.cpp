@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardrone_vslam/rotation.hpp"
 #include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
@@ -100,7 +101,7 @@ void ZeroMotionDetector::followRotation(std::int64_t stamp_ns) {
   const double passed_s = seconds(stamp_ns - before_ns_);
   if (passed_s < kRotationWindow_s) return;
   const Eigen::Matrix3d R_rest_now = R_rest_reference_ * stillness_.R_reference_now;
-  const double rotation_rad = Eigen::AngleAxisd(R_rest_before_.transpose() * R_rest_now).angle();
+  const double rotation_rad = angleOf_rad(R_rest_before_.transpose() * R_rest_now);
   is_rotating_ = rotation_rad > kRotating_deg_per_s * M_PI / 180 * passed_s;
   R_rest_before_ = R_rest_now;
   before_ns_ = stamp_ns;

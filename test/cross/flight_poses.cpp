@@ -151,7 +151,7 @@ void run(int argc, char** argv) {
     const FrameResult& result = slam.process(features, state, hook);
     const Eigen::Vector3d p = result.T_map_base.translation();
     const Eigen::Quaterniond q(result.T_map_base.linear());
-    std::printf("%" PRId64 " %.15g %.15g %.15g %.15g %.15g %.15g %.15g %s %d %d\n", result.stamp_ns,
+    std::printf("%" PRId64 " %.17g %.17g %.17g %.17g %.17g %.17g %.17g %s %d %d\n", result.stamp_ns,
                 p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(),
                 kSlamStateNames[static_cast<std::size_t>(result.state)], result.features,
                 result.landmarks);
