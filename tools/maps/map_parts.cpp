@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "maps/map_parts.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "ardrone_vslam/rotation.hpp"
+
+namespace ardrone_vslam {
+
+SavedMap withAnchors(const SavedMap& map, const std::vector<std::size_t>& anchors) {
+  SavedMap part = map;
+  part.anchors.clear();
+  part.landmarks.clear();
+  part.anchor_covariance.resize(coordinateOf(anchors.size()), coordinateOf(anchors.size()));
+  std::vector<std::uint32_t> number(map.anchors.size(), 0);
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    part.anchors.push_back(map.anchors[anchors[i]]);
+    number[anchors[i]] = static_cast<std::uint32_t>(i + 1);
+    for (std::size_t j = 0; j < anchors.size(); ++j) {
+      part.anchor_covariance.block<SavedMap::kAnchor, SavedMap::kAnchor>(coordinateOf(i),
+                                                                         coordinateOf(j)) =
+          map.anchor_covariance.block<SavedMap::kAnchor, SavedMap::kAnchor>(
+              coordinateOf(anchors[i]), coordinateOf(anchors[j]));
+    }
+  }
+  for (const Landmark& landmark : map.landmarks) {
+    const std::uint32_t anchor_id = number[landmark.anchor_id - 1];
+    if (anchor_id == 0) continue;
+    part.landmarks.push_back(landmark);
+    part.landmarks.back().anchor_id = anchor_id;
+  }
+  return part;
+}
+
+SavedMap partOf(const SavedMap& map, const std::function<bool(const Landmark&)>& isKept) {
+  SavedMap part = map;
+  const auto end =
+      std::remove_if(part.landmarks.begin(), part.landmarks.end(), std::not_fn(isKept));
+  part.landmarks.erase(end, part.landmarks.end());
+  std::vector<bool> is_used(map.anchors.size(), false);
+  for (const Landmark& landmark : part.landmarks) is_used[landmark.anchor_id - 1] = true;
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < is_used.size(); ++i) {
+    if (is_used[i]) used.push_back(i);
+  }
+  return withAnchors(part, used);
+}
+
+SavedMap prune(const SavedMap& map, const PruneRules& rules) {
+  SavedMap part = partOf(map, [&rules](const Landmark& landmark) {
+    return landmark.times_seen >= rules.least_seen && landmark.sigma_m <= rules.most_sigma_m;
+  });
+  if (part.landmarks.size() <= rules.most) return part;
+  const auto is_better = [](const Landmark& a, const Landmark& b) {
+    return std::tuple(-a.times_seen, a.sigma_m, a.id) < std::tuple(-b.times_seen, b.sigma_m, b.id);
+  };
+  std::vector<Landmark> best = part.landmarks;
+  const auto end = best.begin() + static_cast<std::ptrdiff_t>(rules.most);
+  std::nth_element(best.begin(), end, best.end(), is_better);
+  return partOf(part, [&](const Landmark& landmark) { return is_better(landmark, *end); });
+}
+
+Eigen::Matrix<double, 3, SavedMap::kAnchor> byAnchor(const MapAnchor& anchor,
+                                                     const Eigen::Vector3d& position_map) {
+  const Eigen::Vector3d from_anchor = position_map - anchor.T_map_rig.translation();
+  Eigen::Matrix<double, 3, SavedMap::kAnchor> J;
+  J << Eigen::Matrix3d::Identity(), -skew(from_anchor), from_anchor;
+  return J;
+}
+
+Eigen::Matrix3d covarianceOf(const SavedMap& map, const Landmark& landmark) {
+  const std::size_t anchor = landmark.anchor_id - 1;
+  const auto J = byAnchor(map.anchors[anchor], landmark.position_map);
+  const auto P = map.anchor_covariance.block<SavedMap::kAnchor, SavedMap::kAnchor>(
+      coordinateOf(anchor), coordinateOf(anchor));
+  return landmark.covariance_m2 + J * P * J.transpose();
+}
+
+}  // namespace ardrone_vslam
