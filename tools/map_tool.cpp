@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// map_tool: looks into map files, and makes others of them (docs/map_tool.md).
+// map_tool: looks into map files, and makes others of them (docs/fly_again.md).
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "ardrone_vslam/rotation.hpp"
 #include "ardrone_vslam/saved_map.hpp"
@@ -30,11 +35,18 @@ struct Options {
 
 /// Writes the map, and says what became of the landmarks of before.
 int write(const std::string& path, const SavedMap& map, std::size_t before) {
-  if (map.landmarks.empty()) throw std::runtime_error("no landmark is left; nothing is written");
   const std::size_t written = writeMap(path, map);
   std::printf("%s: %zu landmarks of %zu, %zu anchors\n", path.c_str(), written, before,
               map.anchors.size());
   return 0;
+}
+
+/// Writes what is left of a map. @param remedy  what to do where that is nothing
+int writePart(const Options& o, const SavedMap& part, std::size_t before, const char* remedy) {
+  if (part.landmarks.empty())
+    throw std::runtime_error(o.map + ": no landmark is left of " + std::to_string(before) +
+                             ", so nothing is written; " + remedy);
+  return write(o.out, part, before);
 }
 
 int info(const Options& o) {
@@ -66,7 +78,8 @@ int exportMap(const Options& o) {
 
 int pruneMap(const Options& o) {
   const SavedMap map = readMap(o.map);
-  return write(o.out, prune(map, o.rules), map.landmarks.size());
+  return writePart(o, prune(map, o.rules), map.landmarks.size(),
+                   "loosen --least-seen or --most-sigma-m");
 }
 
 int crop(const Options& o) {
@@ -79,24 +92,37 @@ int crop(const Options& o) {
     const auto& p = landmark.position_map.array();
     return (p >= from_m.array()).all() && (p <= to_m.array()).all();
   });
-  return write(o.out, part, map.landmarks.size());
+  return writePart(o, part, map.landmarks.size(), "map_tool info says where they are");
+}
+
+/// @throws MapFileError where they cannot be merged whatever they show
+void requireMergeable(const Options& o, const SavedMap& a, const SavedMap& b) {
+  const std::string fault = mergeFault(a, b);
+  if (!fault.empty()) throw MapFileError(o.map + " and " + o.other + ": " + fault);
 }
 
 int mergeMaps(const Options& o) {
   const SavedMap a = readMap(o.map);
   const SavedMap b = readMap(o.other);
+  requireMergeable(o, a, b);
   std::vector<LandmarkPair> pairs;
   {
     ProgressLine progress("map_tool: landmarks matched", a.landmarks.size());
     pairs = pairsOf(a, b, [&progress](std::size_t done) { progress.update(done); });
   }
+  if (areOfOneFlight(a, b, pairs)) {
+    throw MapFileError(
+        o.map + " and " + o.other +
+        ": one was made from the other, so that both know the same; use the newer one");
+  }
   const MapAlignment alignment = align(a, b, pairs);
   std::printf("%zu landmarks look alike, %zu of them lie in one place\n", pairs.size(),
               alignment.agreed.size());
   if (alignment.is_chance) {
-    throw std::runtime_error(
-        "that many agree by chance, too: the maps are not of one place, or share too little of it; "
-        "nothing is written");
+    throw MapFileError(
+        o.map + " and " + o.other +
+        ": that many agree by chance, too, so nothing is written: they are not of one place, "
+        "or share too little of it; fly through both places in one more flight");
   }
   const MergedMap merged = merge(a, b, alignment);
   const Eigen::Vector3d p = alignment.T_a_b.translation();
@@ -129,11 +155,11 @@ void addOptions(CLI::App& app, Options& o) {
          "file that ends in .ply (points for viewers) or .csv");
   CLI::App* prune = addCommand(app, "prune", "leaves out the landmarks that are worth least", o);
   prune->add_option("--least-seen", o.rules.least_seen, "keep what was seen so many times")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, 1'000'000'000));
   prune->add_option("--most-sigma-m", o.rules.most_sigma_m, "keep what is known so well [m]")
       ->check(numberWithin(0.0, 1e9));
   prune->add_option("--most", o.rules.most, "keep so many: those that were seen most often")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1'000'000'000));
   addOut(prune, o);
   CLI::App* crop = addCommand(app, "crop", "keeps what lies within a box", o);
   for (const auto& [name, corner] : {std::pair("--from", &o.from_m), std::pair("--to", &o.to_m)})

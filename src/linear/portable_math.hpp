@@ -4,12 +4,12 @@
 namespace ardrone_vslam::portable {
 
 // Elementary functions with the same bits on every processor and with every C library, whose own
-// differ in the last bit: one such bit once made a comparison fall otherwise, and poses differ by
-// 26 mm after a minute (docs/reliability.md, determinism). Made of sums, products, divisions and
-// square roots, which IEEE 754 rounds in one way (with -ffp-contract=off).
+// differ in the last bit: one such bit makes a comparison fall otherwise, and poses differ by
+// millimetres after minutes (docs/reliability.md, determinism). Made of sums, products, divisions
+// and square roots, which IEEE 754 rounds in one way (with -ffp-contract=off).
 //
-// Errors: at most 2 units in the last place of the result, sine and cosine 2^-53 beside 0; of
-// angles beyond 1e5 rad those of the remainder by 2 pi besides. What is not a number stays so.
+// Errors: at most 3 units in the last place of the result, log1p 6, sine and cosine 2^-52 beside 0;
+// of angles beyond 1e5 rad those of the remainder by 2 pi besides. What is not a number stays so.
 
 double sin(double angle_rad);
 double cos(double angle_rad);

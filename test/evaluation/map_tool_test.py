@@ -106,9 +106,21 @@ class MapTool(unittest.TestCase):
         self.refused(1, "not of one place", "merge", self.path("first.vmap"), self.path("corridor.vmap"), "--out", self.path("no.vmap"))
         self.assertFalse(os.path.exists(self.path("no.vmap")))
 
+    def test_a_map_is_not_merged_with_itself(self):
+        self.refused(1, "one was made from the other", "merge", self.path("first.vmap"), self.path("first.vmap"), "--out", self.path("no.vmap"))
+        self.make(REPLAY, self.path("laps"), "--frames", "100:300", "--odometry-profile", "drone", "--seed", 4, "--odometry-at-zero", "--map",
+                  self.path("first.vmap"), "--save-map", self.path("later.vmap"), "--out", self.path("run"))
+        self.refused(1, "one was made from the other", "merge", self.path("first.vmap"), self.path("later.vmap"), "--out", self.path("no.vmap"))
+
+    def test_maps_of_two_cameras_are_not_merged(self):
+        self.make(MAKE_WORLD, "laps", "--seconds", 10, "--rate", 10, "--camera", "bottom", "--out", self.path("below"), "--seed", 1)
+        self.make(REPLAY, self.path("below"), "--odometry-profile", "drone", "--seed", 1, "--save-map", self.path("below.vmap"), "--out", self.path("run"))
+        self.refused(1, "of two cameras", "merge", self.path("first.vmap"), self.path("below.vmap"), "--out", self.path("no.vmap"))
+
     def test_wrong_usage(self):
         self.refused(2, "subcommand", self.path("first.vmap"))
         self.refused(2, "--out", "prune", self.path("first.vmap"))
+        self.refused(2, "--most", "prune", self.path("first.vmap"), "--most", 0, "--out", self.path("no.vmap"))
         self.refused(2, "--most-sigma-m", "prune", self.path("first.vmap"), "--most-sigma-m", "nan", "--out", self.path("no.vmap"))
 
 

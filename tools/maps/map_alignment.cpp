@@ -89,12 +89,12 @@ std::vector<std::size_t> agreeingOf(const std::vector<Points>& points,
 /// By two points that are apart as far in both maps. @return false where they are not
 bool byTwo(const Points& first, const Points& second, Eigen::Isometry3d& T_a_b) {
   constexpr double kLeastApart_m = 0.3;
-  constexpr double kMostStretch = 0.2;
+  constexpr double kMostStretch = 0.3;  // as maps may differ in scale
   const Eigen::Vector3d in_a = second.of_a - first.of_a;
   const Eigen::Vector3d in_b = second.of_b - first.of_b;
-  const double apart_m = in_b.head<2>().norm();
-  if (apart_m < kLeastApart_m ||
-      std::abs(in_a.head<2>().norm() - apart_m) > kMostStretch * apart_m ||
+  const double apart_m = std::max(in_a.head<2>().norm(), in_b.head<2>().norm());
+  const double stretch_m = std::abs(in_a.head<2>().norm() - in_b.head<2>().norm());
+  if (apart_m < kLeastApart_m || stretch_m > kMostStretch * apart_m ||
       std::abs(in_a.z() - in_b.z()) > kMostStretch * apart_m)
     return false;
   const double heading_rad = std::atan2(in_a.y(), in_a.x()) - std::atan2(in_b.y(), in_b.x());
@@ -128,7 +128,7 @@ void improve(const std::vector<Points>& points, const std::vector<std::size_t>& 
 }
 
 /// Whether so many of random pairs agree more often than once in a million trials of all
-/// alignments by two pairs (Chernoff's bound of the binomial tail).
+/// alignments by two pairs, which agree themselves (Chernoff's bound of the binomial tail).
 bool isChance(const std::vector<Points>& points, std::size_t agreed,
               const Eigen::Isometry3d& T_a_b) {
   constexpr double kMostProbable = 1e-6;
@@ -146,9 +146,9 @@ bool isChance(const std::vector<Points>& points, std::size_t agreed,
   }
   if (trials == 0) return true;
   const double q = static_cast<double>(by_chance) / static_cast<double>(trials);
-  const auto n = static_cast<double>(count);
-  const double p = static_cast<double>(agreed) / n;
-  if (p <= q) return true;
+  const double n = static_cast<double>(count) - 2;
+  const double p = (static_cast<double>(agreed) - 2) / n;
+  if (!(p > q)) return true;
   double divergence = p * std::log(p / q);
   if (p < 1) divergence += (1 - p) * std::log((1 - p) / (1 - q));
   return std::log(n * n / 2) - n * divergence > std::log(kMostProbable);
@@ -175,6 +175,14 @@ std::vector<LandmarkPair> pairsOf(const SavedMap& a, const SavedMap& b,
       pairs.push_back({i, nearest.index});
   }
   return pairs;
+}
+
+bool areOfOneFlight(const SavedMap& a, const SavedMap& b, const std::vector<LandmarkPair>& pairs) {
+  constexpr int kFewest = 3;
+  const auto same = std::count_if(pairs.begin(), pairs.end(), [&](const LandmarkPair& pair) {
+    return a.landmarks[pair.of_a].descriptor == b.landmarks[pair.of_b].descriptor;
+  });
+  return same >= kFewest;
 }
 
 MapAlignment align(const SavedMap& a, const SavedMap& b, const std::vector<LandmarkPair>& pairs) {

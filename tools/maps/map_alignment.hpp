@@ -22,6 +22,11 @@ struct LandmarkPair {
 std::vector<LandmarkPair> pairsOf(const SavedMap& a, const SavedMap& b,
                                   const std::function<void(std::size_t)>& progress = {});
 
+/// Whether one of the maps was made from the other: no two flights see a corner as the very same
+/// descriptor, and less so several. Their errors are the same ones, and merging would count them as
+/// two.
+bool areOfOneFlight(const SavedMap& a, const SavedMap& b, const std::vector<LandmarkPair>& pairs);
+
 /// Where b lies in a: both know where up is, so position and heading are all.
 struct MapAlignment {
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();

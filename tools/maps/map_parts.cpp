@@ -65,7 +65,7 @@ Eigen::Matrix<double, 3, SavedMap::kAnchor> byAnchor(const MapAnchor& anchor,
                                                      const Eigen::Vector3d& position_map) {
   const Eigen::Vector3d from_anchor = position_map - anchor.T_map_rig.translation();
   Eigen::Matrix<double, 3, SavedMap::kAnchor> J;
-  J << Eigen::Matrix3d::Identity(), -skew(from_anchor), from_anchor;
+  J << Eigen::Matrix3d::Identity(), -skew(from_anchor), -from_anchor;
   return J;
 }
 

@@ -35,7 +35,8 @@ struct PruneRules {
 
 SavedMap prune(const SavedMap& map, const PruneRules& rules);
 
-/// How a landmark follows from its anchor's errors, [m] a coordinate of SavedMap::kAnchor.
+/// How a landmark follows from its anchor's errors, [m] a coordinate of SavedMap::kAnchor: where
+/// the share of distance is positive, it is nearer to the anchor than thought.
 Eigen::Matrix<double, 3, SavedMap::kAnchor> byAnchor(const MapAnchor& anchor,
                                                      const Eigen::Vector3d& position_map);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "maps/map_text.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -9,19 +8,12 @@
 #include <vector>
 
 #include "maps/map_parts.hpp"
+#include "trajectory/metrics.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The value that this share of all is below.
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
 
 Json medianAnd90(const std::vector<double>& values) {
   return {{"median", quantile(values, 0.5)}, {"90 %", quantile(values, 0.9)}};
@@ -77,7 +69,7 @@ std::string csvOf(const SavedMap& map) {
   std::string text = "id,x_m,y_m,z_m,sigma_m,times_seen,anchor,first_seen_ns,last_seen_ns\n";
   for (const Landmark& l : map.landmarks) {
     const Eigen::Vector3d& p = l.position_map;
-    append(text, "%u,%.6f,%.6f,%.6f,%.6f,%d,%u,%lld,%lld\n", l.id, p.x(), p.y(), p.z(), l.sigma_m,
+    append(text, "%u,%.9g,%.9g,%.9g,%.6g,%d,%u,%lld,%lld\n", l.id, p.x(), p.y(), p.z(), l.sigma_m,
            l.times_seen, l.anchor_id, static_cast<long long>(l.first_seen_ns),
            static_cast<long long>(l.last_seen_ns));
   }
@@ -92,7 +84,7 @@ std::string plyOf(const SavedMap& map) {
       "property int times_seen\nend_header\n";
   for (const Landmark& l : map.landmarks) {
     const Eigen::Vector3d& p = l.position_map;
-    append(text, "%.6g %.6g %.6g %.6g %d\n", p.x(), p.y(), p.z(), l.sigma_m, l.times_seen);
+    append(text, "%.9g %.9g %.9g %.6g %d\n", p.x(), p.y(), p.z(), l.sigma_m, l.times_seen);
   }
   return text;
 }

@@ -15,7 +15,13 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from drone import Recorder, play  # noqa: E402
 
 PLAY_TIMEOUT_S = 60
-MOST_WAITS = 0.01  # of all locks; measured: none of 3,140, as well beside a build on both cores
+MOST_WAITS = 0.01  # of all locks; measured: 1 of 12,551 beside six busy programs
+
+
+def report():
+    """Locks, waits, the longest wait [ns]: struct Report of lock_hook.cpp."""
+    with open(rospy.get_param("~report"), "rb") as file:
+        return struct.unpack("3q", file.read())
 
 
 class LockWaits(unittest.TestCase):
@@ -24,12 +30,12 @@ class LockWaits(unittest.TestCase):
         with rosbag.Bag(rospy.get_param("~bag")) as bag:
             images = bag.get_message_count("/camera/camera_info")
         poses = Recorder("/vslam/pose", PoseWithCovarianceStamped)
+        before = report()[0]
         play([poses])
         self.assertIsNotNone(poses.wait(lambda _: len(poses.all()) >= images - 2, PLAY_TIMEOUT_S))
-        with open(rospy.get_param("~report"), "rb") as file:
-            locks, waits, longest_ns = struct.unpack("3q", file.read())  # struct Report of lock_hook.cpp
+        locks, waits, longest_ns = report()
         print(f"{images} images, {locks} locks, {waits} of them waited, {longest_ns / 1e6} ms at most")
-        self.assertGreater(locks, images, "the manager does not run under the hook")
+        self.assertGreater(locks, before + images, "the manager does not run under the hook")
         self.assertLessEqual(waits, MOST_WAITS * locks)
 
 
