@@ -95,16 +95,11 @@ int crop(const Options& o) {
   return writePart(o, part, map.landmarks.size(), "map_tool info says where they are");
 }
 
-/// @throws MapFileError where they cannot be merged whatever they show
-void requireMergeable(const Options& o, const SavedMap& a, const SavedMap& b) {
-  const std::string fault = mergeFault(a, b);
-  if (!fault.empty()) throw MapFileError(o.map + " and " + o.other + ": " + fault);
-}
-
 int mergeMaps(const Options& o) {
   const SavedMap a = readMap(o.map);
   const SavedMap b = readMap(o.other);
-  requireMergeable(o, a, b);
+  const std::string fault = mergeFault(a, b);
+  if (!fault.empty()) throw MapFileError(o.map + " and " + o.other + ": " + fault);
   std::vector<LandmarkPair> pairs;
   {
     ProgressLine progress("map_tool: landmarks matched", a.landmarks.size());
@@ -113,7 +108,8 @@ int mergeMaps(const Options& o) {
   if (areOfOneFlight(a, b, pairs)) {
     throw MapFileError(
         o.map + " and " + o.other +
-        ": one was made from the other, so that both know the same; use the newer one");
+        ": one was made from the other or of the same images, so that both know the same; use the "
+        "newer one");
   }
   const MapAlignment alignment = align(a, b, pairs);
   std::printf("%zu landmarks look alike, %zu of them lie in one place\n", pairs.size(),

@@ -18,8 +18,8 @@ class MapTool(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.make(MAKE_WORLD, "laps", "--seconds", 42, "--rate", 10, "--out", cls.path("laps"), "--seed", 1)
-        cls.fly("first", "0:260", 1)
-        cls.fly("second", "160:420", 2, "--odometry-at-zero")
+        cls.fly("first", "0:250", 1)
+        cls.fly("second", "250:420", 2, "--odometry-at-zero")
 
     @classmethod
     def tearDownClass(cls):
