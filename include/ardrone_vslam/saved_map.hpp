@@ -28,8 +28,8 @@ struct MapCamera {
 /// well (docs/map_files.md has its file).
 struct SavedMap {
   /// Coordinates of an anchor in the covariance: position [m], attitude (a rotation vector, axes of
-  /// map) [rad], and the share by which the landmarks' distances from it err together [-]: too long where it is
-  /// positive.
+  /// map) [rad], and the share by which the landmarks' distances from it err together [-]: too long
+  /// where it is positive.
   static constexpr int kAnchor = 7;
 
   std::string frame_id = "map";       ///< that the positions are in

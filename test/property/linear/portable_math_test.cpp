@@ -82,8 +82,8 @@ TEST(PortableMath, KnowsTheEdges) {
     EXPECT_TRUE(std::isnan(none));
 }
 
-// Of all results a sum, by Fowler, Noll and Vo. The same with GCC 12 and clang 14, with -O0 and -O3,
-// on x86-64, ARMv7 and ARMv8.
+// Of all results a sum, by Fowler, Noll and Vo. The same with GCC 12 and clang 14, with -O0 and
+// -O3, on x86-64, ARMv7 and ARMv8.
 TEST(PortableMath, HasTheSameBitsEverywhere) {
   std::uint64_t sum = 14695981039346656037U;
   const auto add = [&sum](double value) {
