@@ -12,6 +12,7 @@ namespace ardrone_vslam {
 /// Rotation matrix of a rotation vector [rad].
 Eigen::Matrix3d rotationOf(const Eigen::Vector3d& rotation_vector);
 
+/// Rz: from axes that are turned by this angle about z.
 Eigen::Matrix3d rotationAboutZ(double angle_rad);
 
 /// Rotation vector [rad] of a rotation matrix.
