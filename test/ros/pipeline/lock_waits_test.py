@@ -30,8 +30,8 @@ class LockWaits(unittest.TestCase):
         with rosbag.Bag(rospy.get_param("~bag")) as bag:
             images = bag.get_message_count("/camera/camera_info")
         poses = Recorder("/vslam/pose", PoseWithCovarianceStamped)
+        play([poses])  # once the manager runs, and with it the hook
         before = report()[0]
-        play([poses])
         self.assertIsNotNone(poses.wait(lambda _: len(poses.all()) >= images - 2, PLAY_TIMEOUT_S))
         locks, waits, longest_ns = report()
         print(f"{images} images, {locks} locks, {waits} of them waited, {longest_ns / 1e6} ms at most")
