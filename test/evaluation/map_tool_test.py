@@ -3,8 +3,9 @@
 import json
 import os
 import subprocess
-import tempfile
 import unittest
+
+from paths import TestWithFolder
 
 MAP_TOOL, REPLAY, MAKE_WORLD = (os.environ["ARDRONE_VSLAM_" + name] for name in ("MAP_TOOL", "REPLAY", "MAKE_WORLD"))
 
@@ -13,21 +14,13 @@ def call(*command):
     return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
 
 
-class MapTool(unittest.TestCase):
+class MapTool(TestWithFolder):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
+        super().setUpClass()
         cls.make(MAKE_WORLD, "laps", "--seconds", 42, "--rate", 10, "--out", cls.path("laps"), "--seed", 1)
         cls.fly("first", "0:250", 1)
         cls.fly("second", "250:420", 2, "--odometry-at-zero")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
-
-    @classmethod
-    def path(cls, name):
-        return os.path.join(cls.temporary.name, name)
 
     @classmethod
     def make(cls, *command):

@@ -1,15 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Trajectories that are known exactly, and the command as users call it."""
+"""Trajectories that are known exactly, the command as users call it, and a folder for what tests make."""
 
 import dataclasses
 import os
 import subprocess
+import tempfile
+import unittest
 
 import numpy as np
 
 from ardrone_vslam_evaluation.trajectory import NS_PER_S, Trajectory, rotations_of_vectors
 
 SOURCE = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+
+
+class TestWithFolder(unittest.TestCase):
+    """All tests of a class share a folder that goes with them."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.temporary.name, name)
 
 
 def stamps_ns(count, rate_hz=10, start_s=0):

@@ -4,29 +4,20 @@
 import json
 import os
 import subprocess
-import tempfile
 import unittest
 
-from paths import evaluate
+from paths import TestWithFolder, evaluate
 
 REPLAY, MAKE_WORLD = os.environ.get("ARDRONE_VSLAM_REPLAY", ""), os.environ.get("ARDRONE_VSLAM_MAKE_WORLD", "")  # ctest sets them
 FRAMES = 40  # 2 s at 20 Hz
 
 
-class SlowReplayTest(unittest.TestCase):
+class SlowReplayTest(TestWithFolder):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
+        super().setUpClass()
         cls.flight = cls.path("flight")
         subprocess.run([MAKE_WORLD, "laps", "--seconds", "2", "--rate", "20", "--out", cls.flight], check=True, capture_output=True)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
-
-    @classmethod
-    def path(cls, name):
-        return os.path.join(cls.temporary.name, name)
 
     def replay(self, out, *options):
         done = subprocess.run([REPLAY, self.flight, "--odometry-profile", "drone", "--out", self.path(out), *options], capture_output=True, text=True,
