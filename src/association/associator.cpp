@@ -53,7 +53,7 @@ bool Associator::decideLandmark(const FrameView& view, const LandmarkMap& map,
 
 void Associator::matchLandmarks(const FrameView& view, LandmarkMap& map,
                                 AssociationResult& result) {
-  result = {};
+  result.clear();
   const LandmarkColumns& columns = map.columns(view.origin_map());
   columns.project(view, {config_.max_view_angle_deg, config_.max_distance_ratio}, visible_);
   result.in_view = static_cast<int>(visible_.count);

@@ -15,7 +15,7 @@ MapFeatureAssociator::MapFeatureAssociator(const AssociationConfig& config)
 
 void MapFeatureAssociator::match(const FrameView& view, const FeatureMap& map,
                                  const std::vector<bool>& taken, AssociationResult& result) {
-  result = {};
+  result.clear();
   search_.begin(view, map.size());
   searched_.clear();
   for (std::size_t f = 0; f < view.size(); ++f) {

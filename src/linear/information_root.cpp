@@ -17,15 +17,19 @@ InformationRoot::InformationRoot(const Information& information, const Eigen::Ve
   Eigen::VectorXd left = whole;
   rows.resize(size, size);
   measured.resize(size);
+  Eigen::VectorXd before(size);
+  Eigen::VectorXd explained(size);  // of the pivot's column, by the rows so far
   Eigen::Index rank = 0;
   for (; rank < size; ++rank) {
     Eigen::Index pivot = 0;
     const double share = left.cwiseProduct(per_whole).maxCoeff(&pivot);
     if (!(share > kRounding)) break;
-    const Eigen::RowVectorXd before = rows.row(pivot).head(rank);
+    before.head(rank) = rows.row(pivot).head(rank).transpose();
+    explained.noalias() = rows.leftCols(rank) * before.head(rank);
     const double root = std::sqrt(left(pivot));
-    rows.col(rank) = (N.col(pivot) - rows.leftCols(rank) * before.transpose()) / root;
-    measured(rank) = (information.vector(pivot) - before.dot(measured.head(rank))) / root;
+    rows.col(rank) = (N.col(pivot) - explained) / root;
+    measured(rank) =
+        (information.vector(pivot) - before.head(rank).dot(measured.head(rank))) / root;
     left -= rows.col(rank).cwiseAbs2();
     left(pivot) = 0;
   }

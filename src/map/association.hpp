@@ -21,6 +21,14 @@ struct AssociationResult {
   int candidates = 0;                         ///< descriptor or track matches
   int mismatches = 0;                         ///< removed of them
   std::vector<int> missed;  ///< targets in view without a match; none unless guided
+
+  /// Nothing was found yet. The lists keep their memory.
+  void clear() {
+    matches.clear();
+    missed.clear();
+    method = MatchMethod::kGuided;
+    in_view = candidates = mismatches = 0;
+  }
 };
 
 }  // namespace ardrone_vslam

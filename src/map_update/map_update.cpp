@@ -83,6 +83,7 @@ FixOutcome MapUpdate::fix(const std::vector<LandmarkObservation>& observations, 
   const auto& anchors = frame.state.anchors();
   std::vector<MapObservation> old;
   std::vector<MapObservation> wide;
+  old.reserve(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const LandmarkObservation& s = observations[i];
     const auto anchor = indexOf(anchors, s.anchor_id);

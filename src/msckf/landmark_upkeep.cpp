@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "linear/scalars.hpp"
 
@@ -108,20 +107,27 @@ std::vector<int> takeFailed(const AssociationResult& matches,
                             LandmarkMap& map) {
   // A place is in view when some of its landmarks are found; behind a wall none of them is.
   constexpr int kOneIn = 10;
-  struct Place {
-    int found = 0;
-    int missed = 0;
-  };
-  std::unordered_map<std::uint32_t, Place> places;
   const auto anchorOf = [&map](int target) {
     return map.all()[static_cast<std::size_t>(target)].anchor_id;
   };
-  for (const Association& match : trusted) ++places[anchorOf(match.target)].found;
-  for (const int target : matches.missed) ++places[anchorOf(target)].missed;
+  std::vector<std::uint32_t> found;  // the places, as often as landmarks of them were
+  std::vector<std::uint32_t> missed;
+  found.reserve(trusted.size());
+  missed.reserve(matches.missed.size());
+  for (const Association& match : trusted) found.push_back(anchorOf(match.target));
+  for (const int target : matches.missed) missed.push_back(anchorOf(target));
+  std::sort(found.begin(), found.end());
+  std::sort(missed.begin(), missed.end());
+  const auto countIn = [](const std::vector<std::uint32_t>& sorted, std::uint32_t place) {
+    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), place);
+    return last - first;
+  };
   std::vector<int> failed;
+  failed.reserve(matches.missed.size() + matches.matches.size());
   for (const int target : matches.missed) {
-    const Place& place = places[anchorOf(target)];
-    if (kOneIn * place.found >= place.found + place.missed) failed.push_back(target);
+    const std::uint32_t place = anchorOf(target);
+    const auto found_here = countIn(found, place);
+    if (kOneIn * found_here >= found_here + countIn(missed, place)) failed.push_back(target);
   }
   for (std::size_t i = 0; i < matches.matches.size(); ++i) {
     if (verdicts[i] != ObservationVerdict::kContradicts) continue;

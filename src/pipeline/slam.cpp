@@ -112,7 +112,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
     enter(Stage::kLocalise);
   }
   moveTo(std::move(camera), s.view);
-  s.matches = {};
+  s.matches.clear();
   // Of what is not finite nothing may reach the map; the result says so.
   if (isFinite(estimator.estimate())) {
     enter(Stage::kAssociate);

@@ -18,11 +18,11 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 constexpr double kInlierShare = 0.6;  // a third of the tracks may be wrong
 constexpr double kShiftGate = 16;     // chi-square with three degrees of freedom: 99.9 %
 
-std::vector<double> left_rad(const std::vector<BearingPair>& pairs, const Eigen::Matrix3d& R) {
-  std::vector<double> left;
-  left.reserve(pairs.size());
-  for (const BearingPair& pair : pairs) left.push_back((R * pair.now - pair.then).norm());
-  return left;
+void leftOf(const std::vector<BearingPair>& pairs, const Eigen::Matrix3d& R,
+            std::vector<double>& left_rad) {
+  left_rad.resize(pairs.size());
+  std::transform(pairs.begin(), pairs.end(), left_rad.begin(),
+                 [&R](const BearingPair& pair) { return (R * pair.now - pair.then).norm(); });
 }
 
 // The turn that most tracks agree on: weights fall with what is left (Geman and McClure), and what
@@ -30,9 +30,11 @@ std::vector<double> left_rad(const std::vector<BearingPair>& pairs, const Eigen:
 Eigen::Matrix3d agreedRotation(const std::vector<BearingPair>& pairs, Eigen::Matrix3d R,
                                double jump_rad) {
   constexpr int kRounds = 8;
+  std::vector<double> left;
+  std::vector<double> sorted;
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<double> left = left_rad(pairs, R);
-    std::vector<double> sorted = left;
+    leftOf(pairs, R, left);
+    sorted = left;
     const double scale = std::max(2 * medianOf(sorted), kInlierSigmas * jump_rad);
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
@@ -94,7 +96,8 @@ struct RotationAndShift {
 double medianLeft_rad(const std::vector<BearingPair>& pairs,
                       const Eigen::Matrix3d& R_reference_now) {
   if (pairs.empty()) return 0;
-  std::vector<double> left = left_rad(pairs, R_reference_now);
+  std::vector<double> left;
+  leftOf(pairs, R_reference_now, left);
   return medianOf(left);
 }
 
