@@ -4,6 +4,7 @@
 #include <getopt.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -14,7 +15,6 @@
 #include <vector>
 
 #include "ardrone_vslam/instruction_set.hpp"
-#include "loop/map_file.hpp"
 #include "loop/onboard_loop.hpp"
 #include "loop/self_test.hpp"
 #include "loop/stop_signal.hpp"
@@ -30,11 +30,14 @@ constexpr int kWrongUse = 2;
 
 constexpr const char* kUsage =
     "usage: vslam_onboard --config FILE [--frames SOURCE] [--camera FILE] [--observer FILE]\n"
-    "                     [--poses FILE] [--map FILE] [--priority NICE] [--cpu-share RATIO]\n"
-    "                     [--every-frame] [--set SECTION/KEY=VALUE]... [--self-test] [--version]\n"
+    "                     [--poses FILE] [--map FILE] [--save-map FILE] [--priority NICE]\n"
+    "                     [--cpu-share RATIO] [--every-frame] [--set SECTION/KEY=VALUE]... "
+    "[--self-test] [--version]\n"
     "Poses from a camera and a flight controller's observer, on the drone (docs/onboard.md).\n"
     "  --config     yaml with the sections onboard, tracker and mapper (docs/parameters.md)\n"
     "  --self-test  check processor, clock, kernels, memory and camera; exit code 1 if one fails\n"
+    "  --map        map file of an earlier flight, in whose map this one takes place\n"
+    "  --save-map   file that gets this flight's map, every minute and at the end\n"
     "  --poses      file that gets the answers, too\n"
     "  --every-frame  no image is dropped for a newer one (a FIFO; files never drop any)\n"
     "The other options are parameters of the section onboard. SIGTERM ends it and saves the map.\n";
@@ -50,7 +53,7 @@ struct Arguments {
 /// @return an exit code to end with, negative to go on
 int parse(int argc, char** argv, Arguments& arguments) {
   // Values above any letter: options that are parameters.
-  enum { kConfig = 256, kSet, kSelfTest, kVersion, kHelp, kEveryFrame, kPoses, kParameter };
+  enum { kConfig = 256, kSet, kSelfTest, kVersion, kHelp, kEveryFrame, kPoses, kMap, kParameter };
   static const option options[] = {{"config", required_argument, nullptr, kConfig},
                                    {"set", required_argument, nullptr, kSet},
                                    {"self-test", no_argument, nullptr, kSelfTest},
@@ -61,7 +64,8 @@ int parse(int argc, char** argv, Arguments& arguments) {
                                    {"camera", required_argument, nullptr, kParameter},
                                    {"observer", required_argument, nullptr, kParameter},
                                    {"poses", required_argument, nullptr, kPoses},
-                                   {"map", required_argument, nullptr, kParameter},
+                                   {"map", required_argument, nullptr, kMap},
+                                   {"save-map", required_argument, nullptr, kParameter},
                                    {"priority", required_argument, nullptr, kParameter},
                                    {"cpu-share", required_argument, nullptr, kParameter},
                                    {nullptr, 0, nullptr, 0}};
@@ -90,9 +94,12 @@ int parse(int argc, char** argv, Arguments& arguments) {
       case kPoses:
         arguments.poses = optarg;
         break;
+      case kMap:
+        arguments.overrides.push_back(std::string("mapper/map_file=") + optarg);
+        break;
       case kParameter: {
         std::string name = options[which].name;
-        if (name == "cpu-share") name = "cpu_share";
+        std::replace(name.begin(), name.end(), '-', '_');
         arguments.overrides.push_back("onboard/" + name + "=" + optarg);
         break;
       }
@@ -115,9 +122,6 @@ int run(const Settings& settings) {
   if (::setpriority(PRIO_PROCESS, 0, settings.onboard.priority) != 0)
     std::fprintf(stderr, "vslam_onboard: priority %d is refused: %s\n", settings.onboard.priority,
                  std::strerror(errno));
-  const std::string& map = settings.onboard.map;
-  const std::string map_fault = map.empty() ? "" : mapFileFault(map);
-  if (!map_fault.empty()) throw std::runtime_error(map_fault);
   OnboardLoop loop(settings, installStopSignal());
   const bool is_good = loop.run();
   loop.printSummary();
@@ -125,14 +129,9 @@ int run(const Settings& settings) {
   std::fprintf(stderr, "vslam_onboard: of %.1f MB of memory at most %.1f were in use\n",
                static_cast<double>(memory.capacity_bytes) / 1e6,
                static_cast<double>(memory.most_bytes) / 1e6);
-  if (map.empty()) return is_good ? 0 : kFault;
-  if (loop.answered() == 0) {
-    std::fprintf(stderr, "vslam_onboard: no image was answered: %s stays as it was\n", map.c_str());
-    return is_good ? 0 : kFault;
-  }
-  const std::string fault = writeLandmarks(map, loop.landmarks());
-  if (!fault.empty()) std::fprintf(stderr, "vslam_onboard: %s\n", fault.c_str());
-  return is_good && fault.empty() ? 0 : kFault;
+  const std::string said = loop.saveMap();
+  if (!said.empty()) std::fprintf(stderr, "vslam_onboard: %s\n", said.c_str());
+  return is_good ? 0 : kFault;
 }
 
 }  // namespace

@@ -113,7 +113,8 @@ void visitParameters(MapperNodeConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"map_file", "path", 0, 0,
                       "of an earlier flight, in whose map this one takes place; a relative path "
                       "begins in ~/.ros/maps (maps in ROS_HOME), where the service save_map writes "
-                      "(docs/fly_again.md); empty: none"},
+                      "(docs/fly_again.md). Also read by vslam_onboard, where it begins in the "
+                      "folder it is started in; empty: none"},
         c.map_file);
   visit(ParameterInfo{"queue_size", "images", 1, 10000, effects::kQueue}, c.queue_size);
 }

@@ -28,7 +28,7 @@ struct OnboardConfig {
   std::string pose_address = "127.0.0.1:5581";
   std::string telemetry_address;
   double telemetry_hz = 5;
-  std::string map;
+  std::string save_map;
   int priority = 10;
   double cpu_share = 0.5;
   int max_map_mb = 16;
@@ -42,6 +42,7 @@ struct OnboardConfig {
   /// Without a good record for so long answers say that the controller is silent. No parameter:
   /// only tests wait for longer.
   double controller_silent_s = 0.5;
+  double save_every_s = 60;  ///< likewise: how often the map is saved in flight
 };
 
 template <class Visitor>
@@ -81,10 +82,10 @@ void visitParameters(OnboardConfig& c, Visitor&& visit) {
                       "at most so many datagrams a second of features and landmarks, 1400 bytes "
                       "each"},
         c.telemetry_hz);
-  visit(ParameterInfo{"map", "name", 0, 0,
-                      "file that gets the landmarks at the end, as replay's landmarks.csv; empty: "
-                      "none"},
-        c.map);
+  visit(ParameterInfo{"save_map", "name", 0, 0,
+                      "file that gets the flight's map, every minute and at the end "
+                      "(docs/fly_again.md); empty: none"},
+        c.save_map);
   visit(
       ParameterInfo{
           "priority", "nice", -20, 19,

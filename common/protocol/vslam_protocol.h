@@ -53,7 +53,8 @@ enum {
   VSLAM_ROTATING = 8,
   VSLAM_RELOCATED = 9,
   VSLAM_DISTRUSTED = 10,
-  VSLAM_SEARCHING_MAP = 11,               /* not sent: vslam_onboard loads no maps */
+  VSLAM_SEARCHING_MAP =
+      11, /* not found yet in a loaded map, or after a restart: the pose is beside another origin */
   VSLAM_LAST_STATE = VSLAM_SEARCHING_MAP, /* of those with a pose */
   /* From here on there is no pose. */
   VSLAM_WAITING_FOR_IMAGES = 32,

@@ -26,7 +26,9 @@ OnboardLoop::OnboardLoop(const Settings& settings, int stop_fd)
     : settings_(settings),
       stop_fd_(stop_fd),
       pipeline_(settings.tracker, settings.mapper, readCalibration(settings.onboard.camera),
-                extrinsicsOf(settings.onboard)),
+                extrinsicsOf(settings.onboard),
+                FlightMap({settings.map_file, settings.onboard.save_map,
+                           settings.onboard.save_every_s, settings.mapper.msckf.localise_only})),
       observer_source_(settings.onboard, stop_fd),
       output_(settings.onboard),
       frames_(settings.onboard,
@@ -67,7 +69,7 @@ bool OnboardLoop::step() {
 /// Without the map there is memory again.
 void OnboardLoop::startOver() {
   ++images_.out_of_memory;
-  pipeline_.startOver();
+  pipeline_.startOverEmpty();
   share_.end(cpu_ns());
   output_.sendState(VSLAM_OUT_OF_MEMORY, pipeline_.features().stamp_ns, counters());
   said_ns_ = now_ns();
@@ -168,6 +170,7 @@ void OnboardLoop::answer() {
   }
   output_.saySetup(pipeline_.setup());
   output_.sendTelemetry(pipeline_.features(), pipeline_.landmarks(), now);
+  pipeline_.saveInFlight(now);
 }
 
 void OnboardLoop::giveUp(std::uint32_t state) {

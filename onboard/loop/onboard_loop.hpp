@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "input/frame_input.hpp"
 #include "input/observer_input.hpp"
@@ -34,6 +35,8 @@ class OnboardLoop {
   int observerPort() const { return portOf(observer_source_.descriptor()); }
   const std::vector<Landmark>& landmarks() const { return pipeline_.landmarks(); }
   std::uint32_t answered() const { return images_.answered; }
+  /// @copydoc FlightMap::saveAtEnd()
+  std::string saveMap() { return pipeline_.saveAtEnd(); }
   /// What was answered, lost and dropped, and what it cost: a line each.
   void printSummary() const;
 

@@ -1,32 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop/pose_pipeline.hpp"
 
+#include <cstdio>
+#include <utility>
+
 namespace ardrone_vslam {
 
 PosePipeline::PosePipeline(const TrackerConfig& tracker, const SlamConfig& slam,
-                           const CameraIntrinsics& camera, const Eigen::Isometry3d& T_base_cam)
+                           const CameraIntrinsics& camera, const Eigen::Isometry3d& T_base_cam,
+                           FlightMap map)
     : config_(slam),
       T_base_cam_(T_base_cam),
       tracker_(tracker, camera),
+      map_(std::move(map)),
       observer_(slam),
       setup_(slam.image_time_offset_s) {
   setup_.useCamera(T_base_cam);
-  slam_.emplace(config_, T_base_cam_);
-  slam_->reserveMap();
+  beginFlight();
   features_.reserve(static_cast<std::size_t>(tracker.corners.features_per_frame));
+}
+
+void PosePipeline::beginFlight() {
+  slam_.emplace(config_, T_base_cam_);
+  const CameraIntrinsics& camera = cameraModel().intrinsics();
+  auto map = map_.read({camera.width_px, camera.height_px, cameraModel().focalLength_px()},
+                       static_cast<std::size_t>(config_.landmark_map.max_landmarks));
+  if (map) slam_->load(*std::move(map));
+  slam_->reserveMap();
 }
 
 void PosePipeline::beginAnew() {
   result_ = nullptr;
-  slam_.emplace(config_, T_base_cam_);
-  slam_->reserveMap();
   ++restarts_;
+  try {
+    beginFlight();
+  } catch (const MapFileError& e) {
+    std::fprintf(stderr, "vslam_onboard: %s\n", e.what());
+    map_.giveUp();
+    beginFlight();
+  }
 }
 
 void PosePipeline::startOver() {
   is_waiting_ = false;
   observer_.clear();
   beginAnew();
+}
+
+void PosePipeline::startOverEmpty() {
+  slam_.reset();
+  map_.giveUp();
+  startOver();
 }
 
 bool PosePipeline::track(const Frame& frame) {

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "ardrone_vslam/setup_monitor.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "ardrone_vslam/tracker.hpp"
 #include "input/frame_source.hpp"
+#include "loop/flight_map.hpp"
 #include "loop/observer_states.hpp"
 
 namespace ardrone_vslam {
@@ -17,9 +19,10 @@ namespace ardrone_vslam {
 /// wait for the observer's state at its exposure.
 class PosePipeline {
  public:
-  /// @throws ConfigError, std::invalid_argument
+  /// @param map  where the flight is looked for
+  /// @throws ConfigError, std::invalid_argument, MapFileError
   PosePipeline(const TrackerConfig& tracker, const SlamConfig& slam, const CameraIntrinsics& camera,
-               const Eigen::Isometry3d& T_base_cam);
+               const Eigen::Isometry3d& T_base_cam, FlightMap map);
 
   /// @return whether the frame is used: its stamp is after the one before. After a stamp that is a
   /// second or more before it the map begins anew.
@@ -27,8 +30,9 @@ class PosePipeline {
   bool isWaiting() const { return is_waiting_; }
   /// Gives the waiting frame up.
   void forgetFrame() { is_waiting_ = false; }
-  /// Gives map, waiting frame and observer states up, and begins anew.
-  void startOver();
+  /// Memory has run out: gives map, waiting frame and observer states up, and begins anew, without
+  /// a loaded map.
+  void startOverEmpty();
 
   /// What the images are localised with.
   ObserverStates& observer() { return observer_; }
@@ -48,13 +52,20 @@ class PosePipeline {
   const SetupMonitor& setup() const { return setup_; }
   const std::vector<Landmark>& landmarks() const { return slam_->landmarks(); }
   int restarts() const { return restarts_; }
+  /// Between two frames. @copydetails FlightMap::saveInFlight()
+  void saveInFlight(std::int64_t now_ns) { map_.saveInFlight(*slam_, now_ns); }
+  /// @copydoc FlightMap::saveAtEnd()
+  std::string saveAtEnd() { return map_.saveAtEnd(*slam_); }
 
  private:
+  void beginFlight();
   void beginAnew();
+  void startOver();
 
   SlamConfig config_;
   Eigen::Isometry3d T_base_cam_;
   Tracker tracker_;
+  FlightMap map_;
   std::optional<Slam> slam_;
   ObserverStates observer_;
   SetupMonitor setup_;

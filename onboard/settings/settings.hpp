@@ -17,6 +17,7 @@ struct Settings {
   TrackerConfig tracker;
   SlamConfig mapper;
   double odometry_wait_s = 0;  ///< mapper/odometry_wait_s
+  std::string map_file;        ///< mapper/map_file
 };
 
 /// Reads a configuration file (an empty path: the defaults), then each "section/key=value" of

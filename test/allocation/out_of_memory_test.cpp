@@ -8,36 +8,13 @@
 
 #include "counted_allocations.hpp"
 #include "loop/onboard_loop.hpp"
-#include "onboard/flight_fixture.hpp"
+#include "onboard/wall_flight.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
 
-/// A flight along a wall, so that there is a map to lose.
-class OutOfMemory : public FlightFixture {
+class OutOfMemory : public WallFlight {
  protected:
-  OutOfMemory() {
-    constexpr int kStep_px = 6;
-    const TestImage wall = generatedImage(160 + kStep_px * kAlong, 120);
-    std::string frames;
-    std::string odometry;
-    for (int i = -1; i <= kAlong; ++i) {
-      VslamObserver state = odometryAt(stampOf(i), static_cast<std::uint32_t>(i + 10));
-      state.position_m[1] = -0.1 * i;
-      const Record record = recordOf(state);
-      odometry.append(record.begin(), record.end());
-      if (i < 0 || i == kAlong) continue;
-      TestImage image(160, 120);
-      for (int y = 0; y < 120; ++y)
-        for (int x = 0; x < 160; ++x) image.at(x, y) = wall.at(x + kStep_px * i, y);
-      frames += pgm(stampOf(i), image);
-    }
-    writeFile(file("frames"), frames);
-    writeFile(file("odometry"), odometry);
-    settings_.onboard.observer = file("odometry");
-    settings_.tracker.corners.features_per_frame = 30;
-    settings_.mapper.landmark_map.max_landmarks = 1000;
-  }
   ~OutOfMemory() override { failing_allocation = -1; }
 
   /// @return allocations of the flight when the one of this number fails, from 1 on; 0: none does
@@ -50,7 +27,6 @@ class OutOfMemory : public FlightFixture {
     return allocations - before;
   }
 
-  static constexpr int kAlong = 40;
   std::optional<OnboardLoop> loop_;
 };
 
@@ -82,6 +58,24 @@ TEST_F(OutOfMemory, InFlightTheMapBeginsAnew) {
     ASSERT_EQ(answers.back().state, static_cast<std::uint32_t>(VSLAM_ENDING));
     ASSERT_GE(answers.back().frames_dropped, 1U);
   }
+}
+
+TEST_F(OutOfMemory, ALoadedMapIsNeitherLoadedAgainNorWrittenOver) {
+  settings_.tracker.corners.features_per_frame = 200;
+  settings_.onboard.save_map = file("map");
+  fly(0);
+  loop_->saveMap();
+  const std::string map = readFile(file("map"));
+  ASSERT_GT(map.size(), 1000U);
+  settings_.map_file = file("map");
+  const long all = fly(0);
+  ASSERT_EQ(countOf(poses(), VSLAM_OUT_OF_MEMORY), 0);
+  fly(all / 2);
+  const auto answers = poses();
+  ASSERT_EQ(countOf(answers, VSLAM_OUT_OF_MEMORY), 1);
+  EXPECT_NE(answers[kAlong - 1].state, static_cast<std::uint32_t>(VSLAM_SEARCHING_MAP));
+  EXPECT_NE(loop_->saveMap().find("stays as it was"), std::string::npos);
+  EXPECT_EQ(readFile(file("map")), map);
 }
 
 TEST_F(OutOfMemory, AtTheStartItIsAnError) {

@@ -9,8 +9,6 @@
 #include <cstdio>
 #include <thread>
 
-#include "loop/map_file.hpp"
-#include "map/landmark_map.hpp"
 #include "onboard/flight_fixture.hpp"
 #include "protocol/udp.hpp"
 
@@ -240,22 +238,6 @@ TEST_F(OnboardLoopTest, WhatCannotBeOpenedIsSaidAtOnce) {
   EXPECT_NE(faultWith(&OnboardConfig::observer, file("none")).find("none"), std::string::npos);
   EXPECT_NE(faultWith(&OnboardConfig::pose_address, "drone").find("drone"), std::string::npos);
   EXPECT_NE(faultWith(&OnboardConfig::camera, file("none.yaml")).find("none.yaml"),
-            std::string::npos);
-}
-
-TEST(MapFile, IsWrittenWholeOrNotAtAll) {
-  LandmarkMap map{LandmarkMapConfig{}};
-  Landmark landmark;
-  landmark.position_map = {1, 2, 3};
-  landmark.sigma_m = 0.25;
-  map.add(landmark);
-  landmark.position_map.x() = std::numeric_limits<double>::quiet_NaN();
-  map.add(landmark);
-  const std::string path = ::testing::TempDir() + "onboard_landmarks.csv";
-  EXPECT_EQ(writeLandmarks(path, map.all()), "");
-  EXPECT_EQ(readFile(path), "id,x_m,y_m,z_m,sigma_m,depth_sigma_m,times_seen\n1,1,2,3,0.25,0,0\n");
-  std::remove(path.c_str());
-  EXPECT_NE(writeLandmarks("/nowhere/landmarks.csv", map.all()).find("/nowhere"),
             std::string::npos);
 }
 

@@ -94,8 +94,8 @@ class OnboardBridge(unittest.TestCase):
     @classmethod
     def command(cls, **sets):
         """The controller is the second bridge."""
-        sets = {"camera_position_m": "[0, 0, 0]", "camera_rotation_deg": "[-90, 0, -90]", "cpu_share": 1, "lock_memory": "false", "map": '""',
-                "observer": "127.0.0.1:0", "pose_address": f"127.0.0.1:{cls.port_of('estimated')}",
+        sets = {"camera_position_m": "[0, 0, 0]", "camera_rotation_deg": "[-90, 0, -90]", "cpu_share": 1, "lock_memory": "false",
+                "save_map": '""', "observer": "127.0.0.1:0", "pose_address": f"127.0.0.1:{cls.port_of('estimated')}",
                 "telemetry_address": f"127.0.0.1:{cls.port}", "telemetry_hz": 100, **sets}
         sets = [f"onboard/{name}={value}" for name, value in sets.items()]
         sets += ["tracker/features_per_frame=200", "tracker/cell_size_px=80", "tracker/track_search_radius_px=80"]
@@ -114,7 +114,7 @@ class OnboardBridge(unittest.TestCase):
         cls.frames = [stream[at:at + size] for at in range(0, len(stream), size)]
         cls.began_s = time.time()
         program = subprocess.Popen(
-            cls.command(observer=packed / "observer.bin", map=packed / "landmarks.csv") +
+            cls.command(observer=packed / "observer.bin", save_map=packed / "flight.vmap") +
             ["--poses", packed / "poses.bin", "--every-frame", "--frames", "-"], stdin=subprocess.PIPE)
         for frame in cls.frames:  # about as fast as the drone
             program.stdin.write(frame)
@@ -171,7 +171,9 @@ class OnboardBridge(unittest.TestCase):
         floats = np.frombuffer(cloud.data, np.float32).reshape(cloud.width, cloud.point_step // 4)
         ids = np.frombuffer(cloud.data, np.uint32).reshape(floats.shape)[:, 5]
         self.assertEqual(len(set(ids)), len(ids))
-        rows = np.loadtxt(self.out / "packed" / "landmarks.csv", delimiter=",", skiprows=1)
+        table = self.out / "packed" / "landmarks.csv"
+        subprocess.run([rospy.get_param("~map_tool"), "export", self.out / "packed" / "flight.vmap", "--out", table], check=True)
+        rows = np.loadtxt(table, delimiter=",", skiprows=1)
         at = {int(row[0]): row[1:4] for row in rows}
         apart_m = [np.linalg.norm(point[:3] - at[i]) for i, point in zip(ids, floats) if i in at]
         print(f"{len(ids)} landmarks in the cloud, {len(at)} in the map, {len(apart_m)} in both; apart: median "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -71,7 +73,7 @@ TEST_F(MapFileWriteTest, TheOldMapStaysWhenTheDiskIsFull) {
   const std::string old = readFile(path_);
   SavedMap larger = smallMap();
   larger.landmarks.resize(5000, larger.landmarks[0]);
-  for (const rlim_t bytes : {0, 100, 70'000, 800'000}) {
+  for (rlim_t bytes = 0; bytes < 800'000; bytes += 4'000) {
     std::string fault;
     {
       const FileSizeLimit full(bytes);
@@ -83,6 +85,36 @@ TEST_F(MapFileWriteTest, TheOldMapStaysWhenTheDiskIsFull) {
     EXPECT_TRUE(readFile(path_) == old) << "the old map changed";
     EXPECT_EQ(filesInFolder(), 1U);
   }
+}
+
+TEST_F(MapFileWriteTest, TheOldMapOrTheNewOneIsThereAfterAKill) {
+  SavedMap map = smallMap();
+  map.landmarks.resize(2000, map.landmarks[0]);
+  writeMap(path_, map);
+  constexpr int kSaves = 200;
+  int killed_within = 0;
+  for (int i = 0; i < kSaves; ++i) {
+    ++map.stamp_ns;
+    const pid_t writer = ::fork();
+    if (writer == 0) {
+      writeMap(path_, map);
+      ::_exit(0);
+    }
+    ::usleep(static_cast<useconds_t>(10 * i));  // of a save that takes one or a few milliseconds
+    ::kill(writer, SIGKILL);
+    int status = 0;
+    ASSERT_EQ(::waitpid(writer, &status, 0), writer);
+    killed_within += WIFSIGNALED(status) ? 1 : 0;
+    const SavedMap found = readMap(path_);
+    ASSERT_EQ(found.landmarks.size(), 2000U) << i;
+    ASSERT_LE(found.stamp_ns, map.stamp_ns) << i;
+    if (!WIFSIGNALED(status)) {
+      ASSERT_EQ(found.stamp_ns, map.stamp_ns) << i;
+    }
+  }
+  EXPECT_GT(killed_within, kSaves / 20) << "the saves were over before they could be killed";
+  writeMap(path_, map);
+  EXPECT_EQ(filesInFolder(), 1U) << "what a killed save leaves goes with the next one";
 }
 
 TEST_F(MapFileWriteTest, WhatIsNoFileIsNotReplaced) {

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "ardrone_vslam/slam.hpp"
+
+namespace ardrone_vslam {
+
+/// The map files of a flight (docs/map_files.md): it is looked for in the map of one, and its own
+/// map is written to the other, in flight and at the end.
+class FlightMap {
+ public:
+  struct Files {
+    std::string loaded;       ///< empty: the flight begins a map
+    std::string saved;        ///< empty: its map is not kept
+    double save_every_s = 0;  ///< in flight
+    bool is_fixed = false;    ///< with localise_only there is nothing new to save
+  };
+
+  /// @throws MapFileError when no file can be written there
+  explicit FlightMap(Files files);
+  ~FlightMap();
+  FlightMap(FlightMap&& other) noexcept;
+  FlightMap& operator=(FlightMap&&) = delete;
+
+  /// The map to look for the flight in, if there is one.
+  /// @param most_landmarks  that there is memory for
+  /// @throws MapFileError also for another camera's map and for too large a one
+  std::optional<SavedMap> read(const MapCamera& camera, std::size_t most_landmarks);
+  /// The flight has lost its map: what was loaded is not loaded again, and what was saved stays.
+  void giveUp();
+
+  /// Writes the flight's map if its time has come, without delaying the next image: a child of the
+  /// process, which has all memory as it is now, makes the file. Says on stderr what goes wrong.
+  /// @param now_ns  of any clock, that of all calls
+  void saveInFlight(const Slam& slam, std::int64_t now_ns);
+  /// @return what became of the map, a sentence; empty without a file
+  /// @throws MapFileError when the flight has a map that is not saved
+  std::string saveAtEnd(const Slam& slam);
+
+ private:
+  void waitForChild(int options);
+
+  Files files_;
+  std::int64_t next_save_ns_ = 0;  // 0: the first is after one period
+  pid_t child_ = 0;                // that writes; 0: none
+  bool has_map_ = false;           // loaded, or saved in flight
+  bool is_given_up_ = false;
+};
+
+}  // namespace ardrone_vslam
