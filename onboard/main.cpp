@@ -53,7 +53,18 @@ struct Arguments {
 /// @return an exit code to end with, negative to go on
 int parse(int argc, char** argv, Arguments& arguments) {
   // Values above any letter: options that are parameters.
-  enum { kConfig = 256, kSet, kSelfTest, kVersion, kHelp, kEveryFrame, kPoses, kMap, kParameter };
+  enum {
+    kConfig = 256,
+    kSet,
+    kSelfTest,
+    kVersion,
+    kHelp,
+    kEveryFrame,
+    kPoses,
+    kMap,
+    kSaveMap,
+    kParameter
+  };
   static const option options[] = {{"config", required_argument, nullptr, kConfig},
                                    {"set", required_argument, nullptr, kSet},
                                    {"self-test", no_argument, nullptr, kSelfTest},
@@ -65,7 +76,7 @@ int parse(int argc, char** argv, Arguments& arguments) {
                                    {"observer", required_argument, nullptr, kParameter},
                                    {"poses", required_argument, nullptr, kPoses},
                                    {"map", required_argument, nullptr, kMap},
-                                   {"save-map", required_argument, nullptr, kParameter},
+                                   {"save-map", required_argument, nullptr, kSaveMap},
                                    {"priority", required_argument, nullptr, kParameter},
                                    {"cpu-share", required_argument, nullptr, kParameter},
                                    {nullptr, 0, nullptr, 0}};
@@ -96,6 +107,9 @@ int parse(int argc, char** argv, Arguments& arguments) {
         break;
       case kMap:
         arguments.overrides.push_back(std::string("mapper/map_file=") + optarg);
+        break;
+      case kSaveMap:
+        arguments.overrides.push_back(std::string("mapper/save_map=") + optarg);
         break;
       case kParameter: {
         std::string name = options[which].name;

@@ -95,6 +95,7 @@ struct MapperNodeConfig {
   double odometry_wait_s = 0.5;
   OutputsConfig outputs;
   std::string map_file;  // empty: none
+  std::string save_map;  // empty: none
   int queue_size = 10;
 };
 
@@ -116,6 +117,11 @@ void visitParameters(MapperNodeConfig& c, Visitor&& visit) {
                       "(docs/fly_again.md). Also read by vslam_onboard, where it begins in the "
                       "folder it is started in; empty: none"},
         c.map_file);
+  visit(ParameterInfo{"save_map", "path", 0, 0,
+                      "file that gets the flight's map, every minute and at the end, unless "
+                      "`localise_only`; relative paths as those of `map_file`. Also read by "
+                      "vslam_onboard; empty: none"},
+        c.save_map);
   visit(ParameterInfo{"queue_size", "images", 1, 10000, effects::kQueue}, c.queue_size);
 }
 

@@ -28,7 +28,6 @@ struct OnboardConfig {
   std::string pose_address = "127.0.0.1:5581";
   std::string telemetry_address;
   double telemetry_hz = 5;
-  std::string save_map;
   int priority = 10;
   double cpu_share = 0.5;
   int max_map_mb = 16;
@@ -82,10 +81,6 @@ void visitParameters(OnboardConfig& c, Visitor&& visit) {
                       "at most so many datagrams a second of features and landmarks, 1400 bytes "
                       "each"},
         c.telemetry_hz);
-  visit(ParameterInfo{"save_map", "name", 0, 0,
-                      "file that gets the flight's map, every minute and at the end "
-                      "(docs/fly_again.md); empty: none"},
-        c.save_map);
   visit(
       ParameterInfo{
           "priority", "nice", -20, 19,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapper/map_services.hpp"
 
+#include <ros/console.h>
+
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -10,6 +12,8 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr std::chrono::seconds kPatience(10);  // for the mapper's thread
+constexpr double kFirstKept_s = 10;
+constexpr double kKeptEvery_s = 60;
 
 std::filesystem::path folderOfMaps() {
   const char* ros_home = std::getenv("ROS_HOME");
@@ -32,12 +36,18 @@ std::string pathOf(const std::string& name) {
 
 }  // namespace
 
-MapServices::MapServices(const ros::NodeHandle& private_nh, Calls calls)
-    : calls_(std::move(calls)), nh_(private_nh), spinner_(1, &queue_) {
+MapServices::MapServices(const ros::NodeHandle& private_nh, Calls calls, const std::string& kept)
+    : calls_(std::move(calls)),
+      nh_(private_nh),
+      kept_(kept.empty() ? "" : (folderOfMaps() / kept).string()),
+      spinner_(1, &queue_) {
   nh_.setCallbackQueue(&queue_);
   servers_ = {nh_.advertiseService("save_map", &MapServices::onSave, this),
               nh_.advertiseService("load_map", &MapServices::onLoad, this),
               nh_.advertiseService("reset", &MapServices::onReset, this)};
+  if (!kept_.empty())
+    minute_ = nh_.createWallTimer(ros::WallDuration(kFirstKept_s),
+                                  [this](const ros::WallTimerEvent&) { onMinute(); });
   spinner_.start();
 }
 
@@ -49,6 +59,12 @@ MapServices::~MapServices() {
     tasks_.clear();
   }
   spinner_.stop();
+  if (kept_.empty()) return;
+  try {
+    keep(calls_.save());
+  } catch (const std::exception& e) {
+    ROS_WARN_STREAM("save_map: " << kept_ << " gets no map at the end: " << e.what());
+  }
 }
 
 void MapServices::serve() {
@@ -81,18 +97,43 @@ void MapServices::inMapperThread(const std::function<void()>& work) {
 }
 
 std::shared_ptr<const SavedMap> MapServices::open(const std::string& file) {
-  const std::filesystem::path path(file);
-  return std::make_shared<const SavedMap>(
-      readMap((path.is_absolute() ? path : folderOfMaps() / path).string()));
+  return std::make_shared<const SavedMap>(readMap((folderOfMaps() / file).string()));
+}
+
+SavedMap MapServices::mapOfMapper() {
+  // The task may outlive this call, when it has given up.
+  const auto map = std::make_shared<SavedMap>();
+  inMapperThread([this, map] { *map = calls_.save(); });
+  return std::move(*map);
+}
+
+void MapServices::onMinute() {
+  minute_.setPeriod(ros::WallDuration(kKeptEvery_s));
+  SavedMap map;
+  try {
+    map = mapOfMapper();
+  } catch (const MapFileError&) {
+    return;  // there is none yet, or the flight is looked for in one: the status says so
+  }
+  try {
+    keep(map);
+  } catch (const MapFileError& e) {
+    ROS_WARN_STREAM("save_map: " << e.what());
+  }
+}
+
+void MapServices::keep(const SavedMap& map) {
+  if (map.stamp_ns == kept_ns_) return;
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(kept_).parent_path(), error);
+  writeMap(kept_, map);
+  kept_ns_ = map.stamp_ns;
 }
 
 bool MapServices::onSave(MapFile::Request& request, MapFile::Response& response) {
   try {
     const std::string path = pathOf(request.name);
-    // The task may outlive this call, when it has given up.
-    const auto map = std::make_shared<SavedMap>();
-    inMapperThread([this, map] { *map = calls_.save(); });
-    const std::size_t landmarks = writeMap(path, *map);
+    const std::size_t landmarks = writeMap(path, mapOfMapper());
     response.message = std::to_string(landmarks) + " landmarks written to " + path;
     response.success = 1;
   } catch (const std::exception& e) {

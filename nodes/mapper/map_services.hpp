@@ -29,7 +29,9 @@ class MapServices {
     std::function<void(std::shared_ptr<const SavedMap>)> use;  ///< nothing: an empty map
   };
 
-  MapServices(const ros::NodeHandle& private_nh, Calls calls);
+  /// @param kept  file that gets the map, as open()'s: after 10 s, every minute and at the end.
+  /// Empty: none
+  MapServices(const ros::NodeHandle& private_nh, Calls calls, const std::string& kept);
   ~MapServices();
   MapServices(const MapServices&) = delete;
   MapServices& operator=(const MapServices&) = delete;
@@ -44,6 +46,9 @@ class MapServices {
   bool onSave(MapFile::Request& request, MapFile::Response& response);
   bool onLoad(MapFile::Request& request, MapFile::Response& response);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void onMinute();
+  void keep(const SavedMap& map);
+  SavedMap mapOfMapper();
   void inMapperThread(const std::function<void()>& work);
 
   Calls calls_;
@@ -53,6 +58,9 @@ class MapServices {
   ros::CallbackQueue queue_;
   ros::NodeHandle nh_;
   std::vector<ros::ServiceServer> servers_;
+  std::string kept_;          // path; empty: none
+  std::int64_t kept_ns_ = 0;  // SavedMap::stamp_ns of what it has
+  ros::WallTimer minute_;
   ros::AsyncSpinner spinner_;
 };
 

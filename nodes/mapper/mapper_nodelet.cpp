@@ -57,13 +57,14 @@ void MapperNodelet::readParameters() {
 
 void MapperNodelet::makeMaps() {
   maps_ = std::make_unique<MapServices>(
-      getPrivateNodeHandle(), MapServices::Calls{[this] { return slam_->save(); },
-                                                 [this](std::shared_ptr<const SavedMap> map) {
-                                                   const std::string why = map ? "a map was loaded"
-                                                                               : "reset was called";
-                                                   slam_->useMap(std::move(map));
-                                                   if (slam_->hasMap()) beginMapAnew(why);
-                                                 }});
+      getPrivateNodeHandle(),
+      MapServices::Calls{[this] { return slam_->save(); },
+                         [this](std::shared_ptr<const SavedMap> map) {
+                           const std::string why = map ? "a map was loaded" : "reset was called";
+                           slam_->useMap(std::move(map));
+                           if (slam_->hasMap()) beginMapAnew(why);
+                         }},
+      settings_.slam.msckf.localise_only ? "" : settings_.node.save_map);
   if (settings_.node.map_file.empty()) return;
   try {
     slam_->useMap(MapServices::open(settings_.node.map_file));

@@ -41,7 +41,7 @@ FlightMap::FlightMap(Files files) : files_(std::move(files)) {
   std::FILE* file = std::fopen(part.c_str(), "w");
   if (file == nullptr)
     throw MapFileError(files_.saved + ": the map cannot be written: " + std::strerror(errno) +
-                       "; name another onboard/save_map");
+                       "; name another mapper/save_map");
   std::fclose(file);
   std::remove(part.c_str());
 }

@@ -127,15 +127,16 @@ Settings loadSettings(const std::string& path, const std::vector<std::string>& o
   if (s.mapper.odometry_adapter.mode != OdometryMode::kPose)
     faults.push_back("mapper/odometry_mode must be pose: the controller's records hold no more");
   if (s.tracker.use_attitude) faults.push_back("tracker/use_attitude must be false on board");
-  const bool has_maps = !mapper_node.map_file.empty() || !s.onboard.save_map.empty();
+  const bool has_maps = !mapper_node.map_file.empty() || !mapper_node.save_map.empty();
   if (const std::string fault = faultOfMaps(s.mapper); has_maps && !fault.empty())
-    faults.push_back(fault + ", or mapper/map_file and onboard/save_map to \"\"");
+    faults.push_back(fault + ", or map_file and save_map to \"\"");
   Eigen::Vector3d unused;
   readVector("camera_position_m", s.onboard.camera_position_m, unused, faults);
   readVector("camera_rotation_deg", s.onboard.camera_rotation_deg, unused, faults);
   if (!faults.empty()) throw ConfigError(faults);
   s.odometry_wait_s = mapper_node.odometry_wait_s;
   s.map_file = mapper_node.map_file;
+  s.save_map = mapper_node.save_map;
   int& landmarks = s.mapper.landmark_map.max_landmarks;
   landmarks = std::min(landmarks, s.onboard.max_map_mb * (1000000 / kBytesPerLandmark));
   return s;

@@ -18,6 +18,7 @@ struct Settings {
   SlamConfig mapper;
   double odometry_wait_s = 0;  ///< mapper/odometry_wait_s
   std::string map_file;        ///< mapper/map_file
+  std::string save_map;        ///< mapper/save_map
 };
 
 /// Reads a configuration file (an empty path: the defaults), then each "section/key=value" of

@@ -162,7 +162,7 @@ constexpr OldName kTable[] = {
     renamed("onboard", "camera_pitch_deg", "camera_rotation_deg", "as [roll, pitch, yaw]"),
     renamed("onboard", "camera_yaw_deg", "camera_rotation_deg", "as [roll, pitch, yaw]"),
     renamed("onboard", "map", "save_map",
-            "and gets a map file: map_tool export makes a table of it"),
+            "in the section mapper, and gets a map file (map_tool export makes a table of it)"),
     renamed("onboard", "observer_address", "observer", "as ADDRESS:PORT"),
     renamed("onboard", "observer_port", "observer", "as ADDRESS:PORT"),
     renamed("onboard", "pose_port", "pose_address", "as ADDRESS:PORT"),

@@ -62,7 +62,7 @@ TEST_F(OutOfMemory, InFlightTheMapBeginsAnew) {
 
 TEST_F(OutOfMemory, ALoadedMapIsNeitherLoadedAgainNorWrittenOver) {
   settings_.tracker.corners.features_per_frame = 200;
-  settings_.onboard.save_map = file("map");
+  settings_.save_map = file("map");
   fly(0);
   loop_->saveMap();
   const std::string map = readFile(file("map"));

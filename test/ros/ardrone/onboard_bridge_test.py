@@ -95,12 +95,12 @@ class OnboardBridge(unittest.TestCase):
     def command(cls, **sets):
         """The controller is the second bridge."""
         sets = {"camera_position_m": "[0, 0, 0]", "camera_rotation_deg": "[-90, 0, -90]", "cpu_share": 1, "lock_memory": "false",
-                "save_map": '""', "observer": "127.0.0.1:0", "pose_address": f"127.0.0.1:{cls.port_of('estimated')}",
+                "observer": "127.0.0.1:0", "pose_address": f"127.0.0.1:{cls.port_of('estimated')}",
                 "telemetry_address": f"127.0.0.1:{cls.port}", "telemetry_hz": 100, **sets}
         sets = [f"onboard/{name}={value}" for name, value in sets.items()]
         sets += ["tracker/features_per_frame=200", "tracker/cell_size_px=80", "tracker/track_search_radius_px=80"]
         return [rospy.get_param("~onboard"), "--config", str(SOURCE / "config" / "ardrone_onboard.yaml"),
-                "--camera", str(cls.out / "packed" / "camera.yaml"), *[x for text in sets for x in ("--set", text)]]
+                "--camera", str(cls.out / "packed" / "camera.yaml"), "--save-map", "", *[x for text in sets for x in ("--set", text)]]
 
     @classmethod
     def fly(cls):
@@ -114,8 +114,8 @@ class OnboardBridge(unittest.TestCase):
         cls.frames = [stream[at:at + size] for at in range(0, len(stream), size)]
         cls.began_s = time.time()
         program = subprocess.Popen(
-            cls.command(observer=packed / "observer.bin", save_map=packed / "flight.vmap") +
-            ["--poses", packed / "poses.bin", "--every-frame", "--frames", "-"], stdin=subprocess.PIPE)
+            cls.command(observer=packed / "observer.bin") +
+            ["--save-map", packed / "flight.vmap", "--poses", packed / "poses.bin", "--every-frame", "--frames", "-"], stdin=subprocess.PIPE)
         for frame in cls.frames:  # about as fast as the drone
             program.stdin.write(frame)
             program.stdin.flush()

@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A map is saved, the map begins anew, and in the loaded one the drone is found from another origin and heading of its
 odometry."""
+import json
 import math
 import os
 import shutil
+import subprocess
 import sys
+import time
 import unittest
 
 import rospy
@@ -18,6 +21,14 @@ from drone import STEP_M, TIMEOUT_S, Drone  # noqa: E402
 
 HEADING_RAD = 2.0
 ORIGIN_M = (5.0, -3.0, 1.0)
+
+
+KEPT = os.path.join(os.environ["ROS_HOME"], "maps", "kept.vmap")
+
+
+def landmarks_in(path):
+    told = subprocess.run([rospy.get_param("~map_tool"), "info", path, "--json"], check=True, capture_output=True, text=True).stdout
+    return json.loads(told)["landmarks"]
 
 
 class TurnedDrone(Drone):
@@ -71,12 +82,16 @@ class MapServicesTest(unittest.TestCase):
         answer = call("save_map", MapFile, "rostest.vmap")
         self.assertTrue(answer.success, answer.message)
         self.assertIn(f"{landmarks} landmarks written to ", answer.message)
+        end_s = time.time() + TIMEOUT_S
+        while not os.path.exists(KEPT) and time.time() < end_s:
+            time.sleep(0.1)
+        self.assertGreater(landmarks_in(KEPT), 100, "kept after ten seconds")
 
         self.assertTrue(call("reset", Trigger).success)
         self.drone.fly(2)
         self.assertEqual((self.status().landmarks, self.status().state_name), (0, "building_map"))
 
-        maps = os.path.join(os.environ["ROS_HOME"], "maps")
+        maps = os.path.dirname(KEPT)
         shutil.copy(os.path.join(rospy.get_param("~data"), "maps", "version_1.vmap"), os.path.join(maps, "other.vmap"))
         answer = call("load_map", MapFile, "other.vmap")
         self.assertFalse(answer.success)
@@ -97,6 +112,12 @@ class MapServicesTest(unittest.TestCase):
         self.assertLess(abs(pose.position.y - self.drone.position_m()), 2 * STEP_M)
         self.assertLess(math.hypot(pose.position.x, pose.position.z), 0.1)
         self.assertLess(abs(2 * math.asin(pose.orientation.z)), 0.05)
+
+    def test_3_the_map_is_kept_at_the_end(self):
+        os.remove(KEPT)
+        landmarks = self.status().landmarks
+        subprocess.run(["rosrun", "nodelet", "nodelet", "unload", "/vslam/mapper", "/vslam/manager"], check=True, timeout=TIMEOUT_S)
+        self.assertEqual(landmarks_in(KEPT), landmarks)
 
 
 if __name__ == "__main__":
