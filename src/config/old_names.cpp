@@ -161,8 +161,9 @@ constexpr OldName kTable[] = {
     renamed("onboard", "camera_roll_deg", "camera_rotation_deg", "as [roll, pitch, yaw]"),
     renamed("onboard", "camera_pitch_deg", "camera_rotation_deg", "as [roll, pitch, yaw]"),
     renamed("onboard", "camera_yaw_deg", "camera_rotation_deg", "as [roll, pitch, yaw]"),
-    renamed("onboard", "map", "save_map",
-            "in the section mapper, and gets a map file (map_tool export makes a table of it)"),
+    constant(
+        "onboard", "map",
+        "save_map of the section mapper gets a map file (map_tool export makes a table of it)"),
     renamed("onboard", "observer_address", "observer", "as ADDRESS:PORT"),
     renamed("onboard", "observer_port", "observer", "as ADDRESS:PORT"),
     renamed("onboard", "pose_port", "pose_address", "as ADDRESS:PORT"),
