@@ -139,13 +139,20 @@ int run(const Settings& settings) {
   OnboardLoop loop(settings, installStopSignal());
   const bool is_good = loop.run();
   loop.printSummary();
+  std::string said;
+  bool is_saved = true;
+  try {
+    said = loop.saveMap();
+  } catch (const MapFileError& e) {
+    said = e.what();
+    is_saved = false;
+  }
+  if (!said.empty()) std::fprintf(stderr, "vslam_onboard: %s\n", said.c_str());
   const MemoryUse memory = memoryUse();
   std::fprintf(stderr, "vslam_onboard: of %.1f MB of memory at most %.1f were in use\n",
                static_cast<double>(memory.capacity_bytes) / 1e6,
                static_cast<double>(memory.most_bytes) / 1e6);
-  const std::string said = loop.saveMap();
-  if (!said.empty()) std::fprintf(stderr, "vslam_onboard: %s\n", said.c_str());
-  return is_good ? 0 : kFault;
+  return is_good && is_saved ? 0 : kFault;
 }
 
 }  // namespace

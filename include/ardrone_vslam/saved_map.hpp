@@ -53,6 +53,9 @@ class MapFileError : public std::runtime_error {
 /// @return landmarks written
 std::size_t writeMap(const std::string& path, const SavedMap& map);
 
+/// @throws MapFileError when writeMap() could not write there, as far as can be told before
+void checkWritable(const std::string& path);
+
 /// Reads a map file of this or an earlier version and checks all of it before it answers.
 /// @throws MapFileError naming the file, what is wrong and what to do
 SavedMap readMap(const std::string& path);

@@ -9,6 +9,7 @@
 #include "ardrone_vslam/frame_result.hpp"
 #include "ardrone_vslam/landmark.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/place_hint.hpp"
 #include "ardrone_vslam/saved_map.hpp"
 #include "ardrone_vslam/setup_watch.hpp"
 #include "ardrone_vslam/slam_config.hpp"
@@ -59,6 +60,8 @@ class Slam {
   /// @throws std::invalid_argument with the faultOfMaps
   /// @pre there was no frame yet (asserted)
   void load(SavedMap map);
+  /// Looks for the flight near where base is said to be next. @throws as load(), or without a map
+  void lookNear(const PlaceHint& hint);
   /// Whether there is a map in which the flight has not been found.
   bool isSearching() const;
   /// Whether save() has the flight's map: not while the flight is looked for in a loaded one.

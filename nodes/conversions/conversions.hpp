@@ -43,6 +43,11 @@ Checked<RangeReading> toRangeReading(const sensor_msgs::Range& message);
 /// looked at.
 Checked<LateCorrection> toLateCorrection(const PoseCorrection& message);
 
+/// A click of rviz. A covariance that tells nothing (zero, not finite) is that of rviz.
+/// @param map_frame  that it must be in
+Checked<PlaceHint> toPlaceHint(const geometry_msgs::PoseWithCovarianceStamped& message,
+                               const std::string& map_frame);
+
 /// @return what is wrong with the message (sizes, values not finite, bearings not of unit length),
 /// or nothing
 std::string faultOf(const Features& message);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -133,6 +134,27 @@ void toFeatures(const Features& message, ImageFeatures& features) {
   if (count > 0) {
     std::memcpy(features.descriptor.data(), message.descriptor.data(), count * kDescriptorBytes);
   }
+}
+
+Checked<PlaceHint> toPlaceHint(const geometry_msgs::PoseWithCovarianceStamped& message,
+                               const std::string& map_frame) {
+  if (message.header.frame_id != map_frame)
+    return {{},
+            text("its frame is '", message.header.frame_id, "' and must be '", map_frame,
+                 "'; set rviz's Fixed Frame to that")};
+  const auto pose = toIsometry(message.pose.pose);
+  if (!pose.value) return {{}, pose.fault};
+  const Eigen::Matrix3d R = pose.value->linear();
+  PlaceHint hint;
+  hint.position_map_m = pose.value->translation().head<2>();
+  hint.heading_rad = std::atan2(R(1, 0), R(0, 0));
+  const auto takeSigma = [](double variance, double& sigma) {
+    if (variance > 0 && std::isfinite(variance)) sigma = std::sqrt(variance);
+  };
+  const Matrix6d covariance = toMatrix(message.pose.covariance);
+  takeSigma(std::max(covariance(0, 0), covariance(1, 1)), hint.position_sigma_m);
+  takeSigma(covariance(5, 5), hint.heading_sigma_rad);
+  return {hint, {}};
 }
 
 }  // namespace ardrone_vslam

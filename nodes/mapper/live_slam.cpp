@@ -46,6 +46,11 @@ SavedMap LiveSlam::save() const {
   return map;
 }
 
+void LiveSlam::lookNear(const PlaceHint& hint) {
+  if (!slam_) throw MapFileError("no image has come yet; say it again when one has");
+  slam_->lookNear(hint);
+}
+
 void LiveSlam::endMap() {
   ++counts_.restarts;
   slam_.reset();

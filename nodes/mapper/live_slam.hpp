@@ -37,6 +37,8 @@ class LiveSlam {
   std::string mapFault(const CameraIdentity& camera) const;
   /// The map for a file. @throws MapFileError when there is none, or none of the loaded map's frame
   SavedMap save() const;
+  /// @throws std::exception when there is no map to look in
+  void lookNear(const PlaceHint& hint);
   void countCameraChange() { ++counts_.camera_changes; }
   void endMap();
 

@@ -45,6 +45,7 @@ MapServices::MapServices(const ros::NodeHandle& private_nh, Calls calls, const s
   servers_ = {nh_.advertiseService("save_map", &MapServices::onSave, this),
               nh_.advertiseService("load_map", &MapServices::onLoad, this),
               nh_.advertiseService("reset", &MapServices::onReset, this)};
+  initial_pose_ = nh_.subscribe("/initialpose", 1, &MapServices::onInitialPose, this);
   if (!kept_.empty())
     minute_ = nh_.createWallTimer(ros::WallDuration(kFirstKept_s),
                                   [this](const ros::WallTimerEvent&) { onMinute(); });
@@ -100,6 +101,15 @@ std::shared_ptr<const SavedMap> MapServices::open(const std::string& file) {
   return std::make_shared<const SavedMap>(readMap((folderOfMaps() / file).string()));
 }
 
+void MapServices::onInitialPose(const InitialPose& pose) {
+  try {
+    inMapperThread([this, pose] { calls_.look_near(pose); });
+    ROS_INFO_STREAM("/initialpose: the flight is looked for near there");
+  } catch (const std::exception& e) {
+    ROS_WARN_STREAM("/initialpose: refused: " << e.what());
+  }
+}
+
 SavedMap MapServices::mapOfMapper() {
   // The task may outlive this call, when it has given up.
   const auto map = std::make_shared<SavedMap>();
@@ -108,24 +118,32 @@ SavedMap MapServices::mapOfMapper() {
 }
 
 void MapServices::onMinute() {
-  minute_.setPeriod(ros::WallDuration(kKeptEvery_s));
   SavedMap map;
   try {
     map = mapOfMapper();
-  } catch (const MapFileError&) {
-    return;  // there is none yet, or the flight is looked for in one: the status says so
+  } catch (const std::exception& e) {
+    ROS_INFO_STREAM_THROTTLE(kKeptEvery_s, "save_map: " << e.what());
+    return;
   }
   try {
     keep(map);
-  } catch (const MapFileError& e) {
-    ROS_WARN_STREAM("save_map: " << e.what());
+    minute_.setPeriod(ros::WallDuration(kKeptEvery_s));
+  } catch (const std::exception& e) {
+    ROS_WARN_STREAM_THROTTLE(kKeptEvery_s, "save_map: " << e.what());
   }
 }
 
 void MapServices::keep(const SavedMap& map) {
   if (map.stamp_ns == kept_ns_) return;
+  const std::filesystem::path path(kept_);
   std::error_code error;
-  std::filesystem::create_directories(std::filesystem::path(kept_).parent_path(), error);
+  std::filesystem::create_directories(path.parent_path(), error);
+  // There may be an earlier flight's map, or this one's before it began anew.
+  if (kept_ns_ == 0) {
+    const std::filesystem::path before(kept_ + ".before");
+    if (std::filesystem::exists(path, error)) std::filesystem::remove(before, error);
+    std::filesystem::create_hard_link(path, before, error);
+  }
   writeMap(kept_, map);
   kept_ns_ = map.stamp_ns;
 }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <ardrone_vslam/MapFile.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 #include <std_srvs/Trigger.h>
 
+#include <atomic>
 #include <functional>
 #include <future>
 #include <memory>
@@ -18,15 +20,18 @@
 
 namespace ardrone_vslam {
 
-/// The services save_map, load_map and reset, whose files are in ~/.ros/maps (maps in ROS_HOME).
-/// They are read and written in a thread of its own, so that no pose waits for a disk; what
-/// concerns the map in use is done by serve(), in the mapper's thread.
+/// What is asked of the map: the topic /initialpose and the services save_map, load_map and reset,
+/// whose files are in ~/.ros/maps (maps in ROS_HOME). They are read and written in a thread of its
+/// own, so that no pose waits for a disk; what concerns the map in use is done by serve(), in the
+/// mapper's thread.
 class MapServices {
  public:
+  using InitialPose = geometry_msgs::PoseWithCovarianceStamped;
   /// Called in the mapper's thread.
   struct Calls {
     std::function<SavedMap()> save;  ///< @throws MapFileError when there is nothing to save
     std::function<void(std::shared_ptr<const SavedMap>)> use;  ///< nothing: an empty map
+    std::function<void(const InitialPose&)> look_near;  ///< @throws std::exception with the reason
   };
 
   /// @param kept  file that gets the map, as open()'s: after 10 s, every minute and at the end.
@@ -38,6 +43,8 @@ class MapServices {
 
   /// Does what services wait for. In the mapper's thread, often.
   void serve();
+  /// The map begins anew: the file that is kept goes on as NAME.before.
+  void beginAnew() { kept_ns_ = 0; }
 
   /// @param file  a path; relative ones begin in the folder of maps. @throws MapFileError
   static std::shared_ptr<const SavedMap> open(const std::string& file);
@@ -46,6 +53,7 @@ class MapServices {
   bool onSave(MapFile::Request& request, MapFile::Response& response);
   bool onLoad(MapFile::Request& request, MapFile::Response& response);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void onInitialPose(const InitialPose& pose);
   void onMinute();
   void keep(const SavedMap& map);
   SavedMap mapOfMapper();
@@ -58,8 +66,9 @@ class MapServices {
   ros::CallbackQueue queue_;
   ros::NodeHandle nh_;
   std::vector<ros::ServiceServer> servers_;
-  std::string kept_;          // path; empty: none
-  std::int64_t kept_ns_ = 0;  // SavedMap::stamp_ns of what it has
+  ros::Subscriber initial_pose_;
+  std::string kept_;                      // path; empty: none
+  std::atomic<std::int64_t> kept_ns_{0};  // SavedMap::stamp_ns of what it has of this map
   ros::WallTimer minute_;
   ros::AsyncSpinner spinner_;
 };

@@ -56,17 +56,25 @@ void MapperNodelet::readParameters() {
 }
 
 void MapperNodelet::makeMaps() {
+  MapServices::Calls calls;
+  calls.save = [this] { return slam_->save(); };
+  calls.use = [this](std::shared_ptr<const SavedMap> map) {
+    const std::string why = map ? "a map was loaded" : "reset was called";
+    slam_->useMap(std::move(map));
+    if (slam_->hasMap()) beginMapAnew(why);
+  };
+  calls.look_near = [this](const MapServices::InitialPose& pose) {
+    const auto hint = toPlaceHint(pose, odometry_->frames().map);
+    if (!hint.value) throw MapFileError(hint.fault);
+    slam_->lookNear(*hint.value);
+  };
   maps_ = std::make_unique<MapServices>(
-      getPrivateNodeHandle(),
-      MapServices::Calls{[this] { return slam_->save(); },
-                         [this](std::shared_ptr<const SavedMap> map) {
-                           const std::string why = map ? "a map was loaded" : "reset was called";
-                           slam_->useMap(std::move(map));
-                           if (slam_->hasMap()) beginMapAnew(why);
-                         }},
+      getPrivateNodeHandle(), std::move(calls),
       settings_.slam.msckf.localise_only ? "" : settings_.node.save_map);
-  if (settings_.node.map_file.empty()) return;
   try {
+    const std::string fault = faultOfMaps(settings_.slam);
+    if (!settings_.node.save_map.empty() && !fault.empty()) throw MapFileError(fault);
+    if (settings_.node.map_file.empty()) return;
     slam_->useMap(MapServices::open(settings_.node.map_file));
   } catch (const MapFileError& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
@@ -201,6 +209,7 @@ void MapperNodelet::restartAt(std::int64_t stamp_ns, const std::string& topic) {
 void MapperNodelet::beginMapAnew(const std::string& why) {
   warnings_.event(why + ": the map begins anew");
   slam_->endMap();
+  maps_->beginAnew();
   odometry_->watch().beginMapAnew();
   outputs_->clear();
 }

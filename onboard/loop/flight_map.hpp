@@ -22,21 +22,25 @@ class FlightMap {
     bool is_fixed = false;    ///< with localise_only there is nothing new to save
   };
 
-  /// @throws MapFileError when no file can be written there
+  /// @throws MapFileError when no map can be written there
   explicit FlightMap(Files files);
   ~FlightMap();
-  FlightMap(FlightMap&& other) noexcept;
-  FlightMap& operator=(FlightMap&&) = delete;
+  FlightMap(const FlightMap&) = delete;
+  FlightMap& operator=(const FlightMap&) = delete;
 
   /// The map to look for the flight in, if there is one.
   /// @param most_landmarks  that there is memory for
   /// @throws MapFileError also for another camera's map and for too large a one
   std::optional<SavedMap> read(const MapCamera& camera, std::size_t most_landmarks);
-  /// The flight has lost its map: what was loaded is not loaded again, and what was saved stays.
+  /// The flight's map begins anew, empty: what was loaded is not loaded again, and stays in the
+  /// file, as does what was saved in flight.
   void giveUp();
+  /// The flight's map begins anew, in the loaded one. As giveUp() where there is none.
+  void beginAnew();
 
-  /// Writes the flight's map if its time has come, without delaying the next image: a child of the
-  /// process, which has all memory as it is now, makes the file. Says on stderr what goes wrong.
+  /// Writes the flight's map if its time has come. A child of the process, which has all memory as
+  /// it is now, makes the file; the flight waits for the fork alone. Says on stderr what goes
+  /// wrong.
   /// @param now_ns  of any clock, that of all calls
   void saveInFlight(const Slam& slam, std::int64_t now_ns);
   /// @return what became of the map, a sentence; empty without a file
@@ -49,7 +53,7 @@ class FlightMap {
   Files files_;
   std::int64_t next_save_ns_ = 0;  // 0: the first is after one period
   pid_t child_ = 0;                // that writes; 0: none
-  bool has_map_ = false;           // loaded, or saved in flight
+  bool is_saved_ = false;          // in flight
   bool is_given_up_ = false;
 };
 

@@ -33,8 +33,6 @@ class OnboardLoop {
 
   /// UDP; for one that was given as 0.
   int observerPort() const { return portOf(observer_source_.descriptor()); }
-  const std::vector<Landmark>& landmarks() const { return pipeline_.landmarks(); }
-  std::uint32_t answered() const { return images_.answered; }
   /// @copydoc FlightMap::saveAtEnd()
   std::string saveMap() { return pipeline_.saveAtEnd(); }
   /// What was answered, lost and dropped, and what it cost: a line each.

@@ -8,11 +8,11 @@ namespace ardrone_vslam {
 
 PosePipeline::PosePipeline(const TrackerConfig& tracker, const SlamConfig& slam,
                            const CameraIntrinsics& camera, const Eigen::Isometry3d& T_base_cam,
-                           FlightMap map)
+                           FlightMap::Files maps)
     : config_(slam),
       T_base_cam_(T_base_cam),
       tracker_(tracker, camera),
-      map_(std::move(map)),
+      map_(std::move(maps)),
       observer_(slam),
       setup_(slam.image_time_offset_s) {
   setup_.useCamera(T_base_cam);
@@ -32,6 +32,7 @@ void PosePipeline::beginFlight() {
 void PosePipeline::beginAnew() {
   result_ = nullptr;
   ++restarts_;
+  map_.beginAnew();
   try {
     beginFlight();
   } catch (const MapFileError& e) {

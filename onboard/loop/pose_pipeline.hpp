@@ -19,10 +19,10 @@ namespace ardrone_vslam {
 /// wait for the observer's state at its exposure.
 class PosePipeline {
  public:
-  /// @param map  where the flight is looked for
+  /// @param maps  of the flight before, and of this one
   /// @throws ConfigError, std::invalid_argument, MapFileError
   PosePipeline(const TrackerConfig& tracker, const SlamConfig& slam, const CameraIntrinsics& camera,
-               const Eigen::Isometry3d& T_base_cam, FlightMap map);
+               const Eigen::Isometry3d& T_base_cam, FlightMap::Files maps);
 
   /// @return whether the frame is used: its stamp is after the one before. After a stamp that is a
   /// second or more before it the map begins anew.

@@ -36,7 +36,9 @@ SavedMap readMap(const std::string& path) {
   } catch (const MapFileError& error) {
     throw MapFileError(path + ": " + error.what());
   } catch (const std::bad_alloc&) {
-    throw MapFileError(path + ": there is not enough memory for the map; use a machine with more");
+    throw MapFileError(path +
+                       ": there is not enough memory for the map; use a machine with more, or give "
+                       "it more (vslam_onboard: working_mb)");
   }
 }
 

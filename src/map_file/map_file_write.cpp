@@ -117,4 +117,8 @@ std::size_t writeMap(const std::string& path, const SavedMap& map) {
   }
 }
 
+void checkWritable(const std::string& path) {
+  const MapFileOutput output(path);
+}
+
 }  // namespace ardrone_vslam

@@ -30,6 +30,8 @@ constexpr double kAgreeHeading_rad = 0.09;
 // A place is recognised nearly all over the image, what only looks like a part of it in that part.
 // Of true observations in rendered rooms nine in ten pass, in a real kitchen half.
 constexpr double kLeastCover = 0.6;
+// A landmark is known again from so many times the distance that it was seen from.
+constexpr double kSeenAgain = 2;
 constexpr double kMapBends = 0.01;  // landmarks beside each other, of their distance
 // The landmarks that gave the observation correct the pose at once: what is entered with must not
 // say the same again, so it is taken for three times worse than it is.
@@ -71,14 +73,42 @@ MapSearch::MapSearch(SavedMap map, const SlamConfig& config, bool is_own)
       matcher_(config.association.matcher, config.association.index_probes),
       cover_(config.association),
       landmarks_(LandmarkMapConfig{}) {
+  gatherLandmarks();
+}
+
+void MapSearch::gatherLandmarks() {
+  landmarks_ = LandmarkMap(LandmarkMapConfig{});
   for (Landmark landmark : map_.landmarks) {
+    if (near_ && !near_->mayShow(landmark)) continue;
     landmark.track_id = kNoTrack;
     landmarks_.add(landmark);
   }
 }
 
+void MapSearch::lookNear(const PlaceHint& hint) {
+  near_ = Near{hint, std::nullopt};
+  observations_.clear();
+  gatherLandmarks();
+}
+
+bool MapSearch::Near::mayShow(const Landmark& landmark) const {
+  const double off_m = (landmark.position_map.head<2>() - hint.position_map_m).norm();
+  return off_m < kHintSigmas * hint.position_sigma_m + kSeenAgain * landmark.seen_distance_m;
+}
+
+bool MapSearch::Near::allows(const MapEntry& entry) const {
+  const Eigen::Isometry3d T_loaded_base = entry.T_loaded_flight * *T_flight_base;
+  const Eigen::Vector2d off_m = T_loaded_base.translation().head<2>() - hint.position_map_m;
+  const double turn_rad =
+      headingOf(T_loaded_base.linear() * rotationAboutZ(hint.heading_rad).transpose());
+  return off_m.norm() < kHintSigmas * hint.position_sigma_m &&
+         std::abs(turn_rad) < kHintSigmas * hint.heading_sigma_rad;
+}
+
 std::optional<MapEntry> MapSearch::see(const ImageFeatures& features,
-                                       const Eigen::Isometry3d& T_flight_cam) {
+                                       const Eigen::Isometry3d& T_flight_cam,
+                                       const Eigen::Isometry3d& T_base_cam) {
+  if (near_ && !near_->T_flight_base) near_->T_flight_base = T_flight_cam * T_base_cam.inverse();
   if (looked_ns_ != 0 && seconds(features.stamp_ns - looked_ns_) < kBetweenLooks_s)
     return std::nullopt;
   looked_ns_ = features.stamp_ns;
@@ -131,7 +161,7 @@ std::optional<MapSearch::Observation> MapSearch::look(const ImageFeatures& featu
   entry.T_loaded_flight.translation() =
       entry.camera_loaded - entry.T_loaded_flight.linear() * observation.camera_flight;
   entry.covariance = kPriorVariance * covarianceOf(*consensus, sigma_a);
-  if (!entry.covariance.allFinite()) return std::nullopt;
+  if (!entry.covariance.allFinite() || (near_ && !near_->allows(entry))) return std::nullopt;
   std::vector<double> distances_m;
   std::vector<int> seen_of_anchor(map_.anchors.size(), 0);
   for (const MapObservation& s : consensus->observations) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/place_hint.hpp"
 #include "ardrone_vslam/saved_map.hpp"
 #include "ardrone_vslam/slam_config.hpp"
 #include "association/global_matcher.hpp"
@@ -31,7 +32,11 @@ class MapSearch {
   /// @param T_flight_cam  the camera in the flight's own map: roll and pitch count, and what lies
   /// between two images
   /// @return where the flight is, once
-  std::optional<MapEntry> see(const ImageFeatures& features, const Eigen::Isometry3d& T_flight_cam);
+  std::optional<MapEntry> see(const ImageFeatures& features, const Eigen::Isometry3d& T_flight_cam,
+                              const Eigen::Isometry3d& T_base_cam);
+  /// From now on only places near the hint count, of where base is at the next image, and only
+  /// landmarks that may be seen from there. O(landmarks).
+  void lookNear(const PlaceHint& hint);
 
   /// The map that is searched.
   const SavedMap& map() const { return map_; }
@@ -45,6 +50,16 @@ class MapSearch {
     Eigen::Vector3d camera_flight = Eigen::Vector3d::Zero();  // its position
   };
 
+  /// What was said, and where the flight had base then.
+  struct Near {
+    PlaceHint hint;
+    std::optional<Eigen::Isometry3d> T_flight_base;
+
+    bool mayShow(const Landmark& landmark) const;
+    bool allows(const MapEntry& entry) const;
+  };
+
+  void gatherLandmarks();
   std::vector<MapObservation> observe(const ImageFeatures& features);
   std::optional<Observation> look(const ImageFeatures& features,
                                   const Eigen::Isometry3d& T_flight_cam);
@@ -59,7 +74,8 @@ class MapSearch {
   std::size_t index_from_landmarks_;
   GlobalMatcher matcher_;
   ImageCover cover_;
-  LandmarkMap landmarks_;
+  LandmarkMap landmarks_;  // that are looked for
+  std::optional<Near> near_;
   std::int64_t looked_ns_ = 0;
   std::vector<Observation> observations_;  // the last few
 };

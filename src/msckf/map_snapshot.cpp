@@ -78,6 +78,7 @@ class Gathering {
 }  // namespace
 
 SavedMap savedMapOf(const WindowState& state, const std::vector<Landmark>& landmarks) {
+  if (state.frames().empty()) return {};  // nothing was seen yet
   const Gathering gathering(state, landmarks);
   SavedMap map = gathering.map();
   map.landmarks.reserve(landmarks.size());

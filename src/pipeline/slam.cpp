@@ -57,6 +57,14 @@ void Slam::load(SavedMap map) {
   state_->search = std::make_unique<MapSearch>(std::move(map), state_->config);
 }
 
+void Slam::lookNear(const PlaceHint& hint) {
+  refuseMaps(state_->config);
+  if (!isSearching() && landmarks().size() < kFewestFixLandmarks)
+    throw std::invalid_argument("there is no map yet to look in: fly first");
+  if (!isSearching()) state_ = state_->flyAgain();
+  state_->search->lookNear(hint);
+}
+
 bool Slam::isSearching() const {
   return state_->search != nullptr;
 }

@@ -72,7 +72,7 @@ class Poses(unittest.TestCase):
 class EmulatedBoard(unittest.TestCase):
     FACTS = "== part 0xc08\r\n== features half thumb neon vfpv3\r\n== memory 128080 kB\r\n"
     RUNS = (("self_test", 0, "self-test passed"), ("no_camera", 1, "FAULT  camera     /dev/video2: see above"),
-            ("self_test_memory", 1, "FAULT  memory     15 MB cannot be had"), ("flight", 0, "vslam_onboard: 9 images answered"),
+            ("self_test_memory", 1, "FAULT  memory     19 MB cannot be had"), ("flight", 0, "vslam_onboard: 9 images answered"),
             ("stopped", 0, "vslam_onboard: 4 images answered"), ("cut_off", 1, "vslam_onboard: -: the images end within one"),
             ("memory_2", 1, "vslam_onboard: out of memory: set it lower"),
             ("memory_4", 0, "vslam_onboard: 9 images answered"))

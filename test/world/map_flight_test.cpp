@@ -62,20 +62,24 @@ struct Again {
   FrameResult last;
 };
 
+/// @param x_m  the map's flight was so far along x
 Again flyAgain(PointWorld& world, const Flight& flight, const SavedMap& map, std::uint64_t seed,
-               const SlamConfig& config = test::configForDrift()) {
+               const SlamConfig& config = test::configForDrift(),
+               const std::optional<PlaceHint>& hint = std::nullopt, double x_m = 0) {
   const auto odometry = odometryOf(flight, seed);
   const auto frames = test::film(world, flight);
   Slam slam(config, test::forwardExtrinsics());
   slam.load(map);
+  if (hint) slam.lookNear(*hint);
   Again again;
   double squares_m2 = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const FrameResult& result = slam.process(frames[i], odometry[i]);
     if (slam.isSearching()) continue;
     if (!again.found_frame) again.found_frame = i;
-    const Eigen::Vector3d error =
-        result.T_map_base.translation() - flight[i].T_map_base.translation();
+    const Eigen::Vector3d error = result.T_map_base.translation() -
+                                  flight[i].T_map_base.translation() -
+                                  x_m * Eigen::Vector3d::UnitX();
     squares_m2 += error.squaredNorm();
     again.nees += error.dot(result.covariance.topLeftCorner<3, 3>().inverse() * error);
   }
@@ -141,6 +145,86 @@ TEST(MapFlight, LocaliseOnlyLeavesTheMapAsItIs) {
   std::printf("error %.3f m, nees %.2f (medians)\n", test::median(errors_m), test::median(nees));
   EXPECT_LT(test::median(errors_m), 0.11);  // measured: 0.076
   EXPECT_LT(test::median(nees), 1.8);       // 3 is honest; measured: 1.1
+}
+
+/// The map of two rooms that are equal in all, this far apart.
+constexpr double kTwin_m = 30;
+
+SavedMap twins(const SavedMap& map) {
+  SavedMap both = map;
+  const Eigen::Index n = map.anchor_covariance.rows();
+  both.anchor_covariance.setZero(2 * n, 2 * n);
+  both.anchor_covariance.topLeftCorner(n, n) = map.anchor_covariance;
+  both.anchor_covariance.bottomRightCorner(n, n) = map.anchor_covariance;
+  for (MapAnchor anchor : map.anchors) {
+    anchor.T_map_rig.translation().x() += kTwin_m;
+    both.anchors.push_back(anchor);
+  }
+  for (Landmark landmark : map.landmarks) {
+    landmark.id += 1'000'000;
+    landmark.position_map.x() += kTwin_m;
+    landmark.anchor_id += static_cast<std::uint32_t>(map.anchors.size());
+    both.landmarks.push_back(landmark);
+  }
+  return both;
+}
+
+/// By the first image, with the error of a click.
+PlaceHint clickNear(const Flight& flight, double x_m) {
+  const Eigen::Isometry3d& T = flight.front().T_map_base;
+  PlaceHint hint;
+  hint.position_map_m = T.translation().head<2>() + Eigen::Vector2d(x_m + 0.6, -0.4);
+  hint.heading_rad = std::atan2(T.linear()(1, 0), T.linear()(0, 0)) + 0.3;
+  return hint;
+}
+
+TEST(MapFlight, AHintTellsWhichOfTwoRoomsThatAreEqual) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    PointWorld world = test::pointRoom(seed, 0.1);
+    const SavedMap map = twins(mapOf(world, seed));
+    const Flight flight = anotherFlight(seed);
+    EXPECT_FALSE(flyAgain(world, flight, map, seed).found_frame) << "by chance alone";
+    for (const double x_m : {0.0, kTwin_m}) {
+      const Again again =
+          flyAgain(world, flight, map, seed, test::configForDrift(), clickNear(flight, x_m), x_m);
+      ASSERT_TRUE(again.found_frame) << seed;
+      EXPECT_LT(*again.found_frame, 15U) << seed;
+      EXPECT_LT(again.rmse_m, 0.155) << seed;  // as without the twin
+    }
+    PlaceHint turned = clickNear(flight, 0);
+    turned.heading_rad += 2;
+    for (const PlaceHint& wrong : {clickNear(flight, kTwin_m / 2), turned})
+      EXPECT_FALSE(flyAgain(world, flight, map, seed, test::configForDrift(), wrong).found_frame)
+          << seed;
+  }
+}
+
+TEST(MapFlight, AHintInFlightBeginsTheSearchAnew) {
+  PointWorld world = test::pointRoom(1);
+  const Flight flight = test::lapsFlight(200, 2, kMapRate_hz);
+  const auto odometry = test::observe(flight, {}, 1);
+  const auto frames = test::film(world, flight);
+  Slam slam(test::configForDrift(), test::forwardExtrinsics());
+  EXPECT_THROW(slam.lookNear({}), std::invalid_argument) << "there is no map";
+  EXPECT_TRUE(slam.save().landmarks.empty());
+  std::size_t i = 0;
+  for (; i < 250; ++i) slam.process(frames[i], odometry[i]);
+  slam.lookNear(clickNear({flight[i]}, 0));
+  std::size_t searched = 0;
+  double worst_m = 0;
+  for (; i < frames.size(); ++i) {
+    const FrameResult& result = slam.process(frames[i], odometry[i]);
+    if (slam.isSearching()) {
+      EXPECT_EQ(result.state, SlamState::kSearchingMap);
+      ++searched;
+      continue;
+    }
+    worst_m = std::max(
+        worst_m, (result.T_map_base.translation() - flight[i].T_map_base.translation()).norm());
+  }
+  EXPECT_GE(searched, 4U);
+  EXPECT_LT(searched, 15U);
+  EXPECT_LT(worst_m, 0.3);
 }
 
 TEST(MapFlight, AnotherRoomIsNotTakenForTheMaps) {

@@ -7,6 +7,7 @@
 
 #include "loop/onboard_loop.hpp"
 #include "onboard/wall_flight.hpp"
+#include "support/file_size_limit.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
@@ -95,6 +96,41 @@ TEST_F(FlightMapTest, AFlightThatIsNotFoundSavesNothing) {
   const std::string fault = fly();
   EXPECT_TRUE(has(fault, "was not found")) << fault;
   EXPECT_EQ(readFile(file("map")), before);
+}
+
+TEST_F(FlightMapTest, AFlightWithoutALandmarkLeavesTheFile) {
+  ASSERT_EQ(fly(), "");
+  const std::string before = readFile(file("map"));
+  writeFile(file("frames"), "");
+  settings_.onboard.save_every_s = 1e-9;
+  EXPECT_EQ(fly(), "");
+  EXPECT_TRUE(has(said_, "no landmark")) << said_;
+  EXPECT_EQ(readFile(file("map")), before);
+}
+
+TEST_F(FlightMapTest, AClockThatIsSetLosesNoMap) {
+  makeLoaded();
+  // After the flight its beginning once more: the map begins anew, in the loaded one.
+  const std::string once = readFile(file("frames"));
+  writeFile(file("frames"), once + once.substr(0, once.size() / kAlong));
+  for (const bool has_loaded : {true, false}) {
+    if (!has_loaded) settings_.map_file.clear();
+    settings_.onboard.save_every_s = 1e-9;
+    const std::string fault = fly();
+    EXPECT_EQ(has(fault, "not found in this map"), has_loaded) << fault;
+    EXPECT_GT(readMap(file("map")).landmarks.size(), 50U) << "an empty map took its place";
+  }
+  EXPECT_TRUE(has(said_, "stays as it was")) << said_;
+}
+
+TEST_F(FlightMapTest, AFailedWriterIsNoFaultOfTheFlight) {
+  settings_.onboard.save_every_s = 1e-9;
+  const FileSizeLimit full(100);
+  settings_.onboard.poses = "";
+  OnboardLoop loop(settings_, stop_.ends[0]);
+  EXPECT_TRUE(loop.run());
+  EXPECT_THROW(loop.saveMap(), MapFileError);
+  EXPECT_EQ(readFile(file("map")), "");
 }
 
 TEST_F(FlightMapTest, WhatCannotBeLoadedIsRefusedAtTheStart) {

@@ -303,5 +303,31 @@ TEST(InputsConversion, RangeKeepsItsBounds) {
   EXPECT_EQ(reading.value->max_m, 4);
 }
 
+TEST(PlaceHintConversion, IsRvizsClick) {
+  geometry_msgs::PoseWithCovarianceStamped click;
+  click.header.frame_id = "map";
+  click.pose.pose.position.x = 1.5;
+  click.pose.pose.position.y = -2;
+  click.pose.pose.orientation.z = std::sin(0.35);
+  click.pose.pose.orientation.w = std::cos(0.35);
+  click.pose.covariance[0] = 0.25;
+  click.pose.covariance[7] = 4;
+  click.pose.covariance[35] = 0.09;
+  const PlaceHint hint = *toPlaceHint(click, "map").value;
+  EXPECT_EQ(hint.position_map_m, Eigen::Vector2d(1.5, -2));
+  EXPECT_NEAR(hint.heading_rad, 0.7, 1e-12);
+  EXPECT_EQ(hint.position_sigma_m, 2);
+  EXPECT_EQ(hint.heading_sigma_rad, 0.3);
+
+  click.pose.covariance[0] = click.pose.covariance[7] = 0;
+  click.pose.covariance[35] = kNaN;
+  EXPECT_EQ(toPlaceHint(click, "map").value->position_sigma_m, PlaceHint{}.position_sigma_m);
+  EXPECT_EQ(toPlaceHint(click, "map").value->heading_sigma_rad, PlaceHint{}.heading_sigma_rad);
+
+  EXPECT_NE(toPlaceHint(click, "vslam_map").fault.find("must be 'vslam_map'"), std::string::npos);
+  click.pose.pose.position.x = kNaN;
+  EXPECT_FALSE(toPlaceHint(click, "map").value);
+}
+
 }  // namespace
 }  // namespace ardrone_vslam
