@@ -90,8 +90,12 @@ void FlightMap::saveInFlight(const Slam& slam, std::int64_t now_ns) {
 }
 
 std::string FlightMap::saveAtEnd(const Slam& slam) {
-  if (child_ != 0) ::kill(child_, SIGKILL);  // what it writes is older
-  waitForChild(0);
+  if (child_ != 0) {  // what it writes is older
+    ::kill(child_, SIGKILL);
+    while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    child_ = 0;
+  }
   if (!slam.hasWholeMap())
     throw MapFileError(files_.loaded + ": the flight was not found in this map; none is saved" +
                        (is_saved_ ? " but what was in flight" : ""));
@@ -113,7 +117,7 @@ void FlightMap::waitForChild(int options) {
   if (ended == 0) return;
   child_ = 0;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) is_saved_ = true;
-  if (WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL)
+  if (WIFSIGNALED(status))
     say(files_.saved, "the map is not saved in flight: its writer ended by signal " +
                           std::to_string(WTERMSIG(status)));
 }
