@@ -31,8 +31,8 @@ constexpr int kWrongUse = 2;
 constexpr const char* kUsage =
     "usage: vslam_onboard --config FILE [--frames SOURCE] [--camera FILE] [--observer FILE]\n"
     "                     [--poses FILE] [--map FILE] [--save-map FILE] [--priority NICE]\n"
-    "                     [--cpu-share RATIO] [--every-frame] [--set SECTION/KEY=VALUE]... "
-    "[--self-test] [--version]\n"
+    "                     [--cpu-share RATIO] [--every-frame] [--set SECTION/KEY=VALUE]...\n"
+    "                     [--self-test] [--version]\n"
     "Poses from a camera and a flight controller's observer, on the drone (docs/onboard.md).\n"
     "  --config     yaml with the sections onboard, tracker and mapper (docs/parameters.md)\n"
     "  --self-test  check processor, clock, kernels, memory and camera; exit code 1 if one fails\n"
@@ -40,7 +40,7 @@ constexpr const char* kUsage =
     "  --save-map   file that gets this flight's map, every minute and at the end\n"
     "  --poses      file that gets the answers, too\n"
     "  --every-frame  no image is dropped for a newer one (a FIFO; files never drop any)\n"
-    "The other options are parameters of the section onboard. SIGTERM ends it and saves the map.\n";
+    "The other options are parameters, too. SIGTERM ends it and saves the map.\n";
 
 struct Arguments {
   std::string config;
@@ -50,21 +50,17 @@ struct Arguments {
   bool is_self_test = false;
 };
 
+/// Section and name of the parameter that an option gives.
+std::string parameterOf(std::string name) {
+  if (name == "map") return "mapper/map_file";
+  std::replace(name.begin(), name.end(), '-', '_');
+  return (name == "save_map" ? "mapper/" : "onboard/") + name;
+}
+
 /// @return an exit code to end with, negative to go on
 int parse(int argc, char** argv, Arguments& arguments) {
   // Values above any letter: options that are parameters.
-  enum {
-    kConfig = 256,
-    kSet,
-    kSelfTest,
-    kVersion,
-    kHelp,
-    kEveryFrame,
-    kPoses,
-    kMap,
-    kSaveMap,
-    kParameter
-  };
+  enum { kConfig = 256, kSet, kSelfTest, kVersion, kHelp, kEveryFrame, kPoses, kParameter };
   static const option options[] = {{"config", required_argument, nullptr, kConfig},
                                    {"set", required_argument, nullptr, kSet},
                                    {"self-test", no_argument, nullptr, kSelfTest},
@@ -75,8 +71,8 @@ int parse(int argc, char** argv, Arguments& arguments) {
                                    {"camera", required_argument, nullptr, kParameter},
                                    {"observer", required_argument, nullptr, kParameter},
                                    {"poses", required_argument, nullptr, kPoses},
-                                   {"map", required_argument, nullptr, kMap},
-                                   {"save-map", required_argument, nullptr, kSaveMap},
+                                   {"map", required_argument, nullptr, kParameter},
+                                   {"save-map", required_argument, nullptr, kParameter},
                                    {"priority", required_argument, nullptr, kParameter},
                                    {"cpu-share", required_argument, nullptr, kParameter},
                                    {nullptr, 0, nullptr, 0}};
@@ -105,18 +101,9 @@ int parse(int argc, char** argv, Arguments& arguments) {
       case kPoses:
         arguments.poses = optarg;
         break;
-      case kMap:
-        arguments.overrides.push_back(std::string("mapper/map_file=") + optarg);
+      case kParameter:
+        arguments.overrides.push_back(parameterOf(options[which].name) + "=" + optarg);
         break;
-      case kSaveMap:
-        arguments.overrides.push_back(std::string("mapper/save_map=") + optarg);
-        break;
-      case kParameter: {
-        std::string name = options[which].name;
-        std::replace(name.begin(), name.end(), '-', '_');
-        arguments.overrides.push_back("onboard/" + name + "=" + optarg);
-        break;
-      }
       default:
         std::fputs(kUsage, stderr);
         return kWrongUse;
