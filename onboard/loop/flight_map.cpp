@@ -81,6 +81,7 @@ void FlightMap::saveInFlight(const Slam& slam, std::int64_t now_ns) {
   const auto period_ns = static_cast<std::int64_t>(files_.save_every_s * 1e9);
   if (next_save_ns_ == 0) next_save_ns_ = now_ns + period_ns;
   if (child_ != 0 || now_ns < next_save_ns_ || !slam.hasWholeMap()) return;
+  if (slam.landmarks().empty() && !slam.isSearching()) return;
   next_save_ns_ = now_ns + period_ns;
   child_ = ::fork();
   if (child_ == 0) ::_exit(writeInChild(files_.saved, slam));
