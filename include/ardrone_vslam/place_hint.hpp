@@ -10,7 +10,7 @@ struct PlaceHint {
   Eigen::Vector2d position_map_m = Eigen::Vector2d::Zero();  ///< x and y; the height is not told
   double heading_rad = 0;                                    ///< of base, about z of map
   double position_sigma_m = 0.5;                             ///< per axis
-  double heading_sigma_rad = 0.26;
+  double heading_sigma_rad = 0.26;                           ///< 15 degrees, as rviz has it
 };
 
 /// So many sigmas around a hint a place is looked for.
