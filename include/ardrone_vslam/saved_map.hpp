@@ -40,6 +40,14 @@ struct SavedMap {
   std::vector<Landmark> landmarks;    ///< `anchor_id` is 1 + the index into `anchors`
 };
 
+/// Where in a map somebody says that base is: a click in a picture of it.
+struct PlaceHint {
+  Eigen::Vector2d position_map_m = Eigen::Vector2d::Zero();  ///< x and y; the height is not told
+  double heading_rad = 0;                                    ///< of base, about z of map
+  double position_sigma_m = 0.5;                             ///< per axis
+  double heading_sigma_rad = 0.26;                           ///< 15 degrees, as rviz has it
+};
+
 /// A map file that cannot be read, and why; a file that cannot be written.
 class MapFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;

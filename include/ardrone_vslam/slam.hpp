@@ -9,7 +9,6 @@
 #include "ardrone_vslam/frame_result.hpp"
 #include "ardrone_vslam/landmark.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
-#include "ardrone_vslam/place_hint.hpp"
 #include "ardrone_vslam/saved_map.hpp"
 #include "ardrone_vslam/setup_watch.hpp"
 #include "ardrone_vslam/slam_config.hpp"

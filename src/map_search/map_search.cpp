@@ -32,6 +32,7 @@ constexpr double kAgreeHeading_rad = 0.09;
 constexpr double kLeastCover = 0.6;
 // A landmark is known again from so many times the distance that it was seen from.
 constexpr double kSeenAgain = 2;
+constexpr double kHintSigmas = 3;   // so far from what was said a place is looked for
 constexpr double kMapBends = 0.01;  // landmarks beside each other, of their distance
 // The landmarks that gave the observation correct the pose at once: what is entered with must not
 // say the same again, so it is taken for three times worse than it is.

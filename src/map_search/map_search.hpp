@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
-#include "ardrone_vslam/place_hint.hpp"
 #include "ardrone_vslam/saved_map.hpp"
 #include "ardrone_vslam/slam_config.hpp"
 #include "association/global_matcher.hpp"
