@@ -13,12 +13,14 @@
 #include "program/profile_option.hpp"
 #include "program/progress_line.hpp"
 #include "program/tool_main.hpp"
+#include "refine/refine_runs.hpp"
 #include "report/earlier_run.hpp"
 #include "report/report_runs.hpp"
 #include "report/run_files.hpp"
 #include "report/run_page.hpp"
 #include "report/unfinished_runs.hpp"
 #include "run/loaded_map.hpp"
+#include "run/recorded_inputs.hpp"
 #include "run/run_all.hpp"
 #include "run/run_odometry.hpp"
 #include "sequences/faulty_sequence.hpp"
@@ -194,9 +196,11 @@ std::vector<RunOdometry> odometriesOf(const Sequence& sequence, const Options& o
 }
 
 RunMaps mapsOf(const Options& o, const Sequence& sequence, const PipelineConfig& config) {
-  const std::string fault = faultOfMaps(config.mapper);
-  RunMaps maps{std::nullopt, !o.maps.saved.empty()};
-  if (!fault.empty() && (maps.is_saved || !o.maps.loaded.empty())) throw UsageError(fault);
+  const std::string fault =
+      o.maps.is_refined ? faultOfRefining(config.mapper) : faultOfMaps(config.mapper);
+  RunMaps maps{std::nullopt, !o.maps.saved.empty(), o.maps.is_refined};
+  const bool is_wanted = maps.is_saved || maps.is_recorded || !o.maps.loaded.empty();
+  if (!fault.empty() && is_wanted) throw UsageError(fault);
   if (!o.maps.loaded.empty()) maps.loaded = loadMap(o.maps.loaded, sequence.camera());
   return maps;
 }
@@ -232,20 +236,6 @@ void checkOdometry(const Options& o, const PipelineConfig& config) {
   }
 }
 
-void checkHeights(const Sequence& sequence, const HeightInputConfig& heights) {
-  if (!sequence.ranges().empty()) return;
-  if (heights.use_navdata_height) {
-    std::cerr << "replay: " << sequence.name()
-              << ": holds no heights of an AR.Drone's navdata (use_navdata_height); the scale "
-                 "stays the odometry's\n";
-  }
-  if (heights.use_range) {
-    throw std::runtime_error(sequence.name() +
-                             ": holds no ranges, which use_range asks for: record the sensor's "
-                             "topic (a folder: range.txt), or set use_range to false");
-  }
-}
-
 int run(const Options& o) {
   PipelineConfig config = configOf(o);
   config.tracker.align_tracks = !o.whole_pixels;
@@ -272,9 +262,10 @@ int run(const Options& o) {
     progress->update(done);
     unfinished.offer(so_far);
   };
-  const std::vector<RunResult> results =
+  std::vector<RunResult> results =
       runAll(*sequence, config, odometries, o.threads, show, speed, maps);
   progress.reset();  // ends its line
+  if (maps.is_recorded) refineRuns(results, o.threads);
   if (!unfinished.hasWritten()) removeEarlierRun(o.out);
   const auto of_runs = reportRuns(*sequence, odometries, results, report);
   faults.insert(faults.end(), of_runs.begin(), of_runs.end());

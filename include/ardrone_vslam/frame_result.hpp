@@ -88,6 +88,7 @@ struct FrameResult {
   std::optional<Eigen::Vector3d> landmark_position_map;
   double landmark_sigma_m = 0;  ///< of landmark_position_map, per axis
 
+  bool is_keyframe = false;                         ///< MSCKF: its pose stays in the window
   MatchMethod match_method = MatchMethod::kGuided;  ///< how landmarks were looked for
   int features = 0;                                 ///< in the image
   int tracks = 0;                                   ///< features that carry on a track

@@ -2,6 +2,7 @@
 """From files and folders to rows."""
 
 import os
+from dataclasses import replace
 
 import numpy as np
 
@@ -119,17 +120,22 @@ def rows_of_folders(arguments, settings):
     for name, run in zip(names, runs):
         if run.summary.get("is_finished") is False:
             notes.append(f"{name}: the run was interrupted, so its numbers are of the part that it had done")
-        row = Row(name, "estimate", run.truth, run.fused, run)
-        evaluate_row(row, settings)
-        estimates.append(row)
+        its_rows = [Row(name, "estimate", run.truth, run.fused, run)]
+        if run.refined is not None:  # frames and landmarks are those of the flight
+            refined = replace(run, fused=run.refined, frames={}, landmarks={})
+            its_rows.append(Row(f"{name}, refined", "estimate", run.truth, run.refined, refined))
+        estimates += its_rows
+        for row in its_rows:
+            evaluate_row(row, settings)
+            for key in ("sequence", "profile", "seed", "estimator"):
+                row.numbers[key] = run.summary.get(key)
         if run.odometry is None:
             notes.append(f"{name}: no odometry.tum, so no comparison with the odometry")
             continue
         odometry = _odometry_row(run, odometries, f"odometry of {name}", settings)
         is_truth = run.summary.get("profile") == "truth"  # nothing to compare with, as in replay
-        compare_with_odometry(row, None if is_truth else odometry, run.summary.get("odometry_scale_error"))
-        for key in ("sequence", "profile", "seed", "estimator"):
-            row.numbers[key] = run.summary.get(key)
+        for row in its_rows:
+            compare_with_odometry(row, None if is_truth else odometry, run.summary.get("odometry_scale_error"))
     if len(odometries) == 1:
         odometries[0].name = odometries[0].numbers["name"] = "odometry"
     notes_of_odometries(odometries)

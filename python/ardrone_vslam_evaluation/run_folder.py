@@ -25,6 +25,7 @@ class RunFolder:
     frames: dict  # column of frames.csv -> array; empty cells are NaN
     landmarks: dict  # the same of landmarks.csv
     summary: dict  # summary.json
+    refined: Trajectory = None  # replay --refine
 
     def column(self, name):
         """None when there is none, or it is empty."""
@@ -110,4 +111,5 @@ def read_run(folder):
 
     return RunFolder(folder, read_tum(os.path.join(folder, "fused.tum")), read("odometry.tum", read_tum, None),
                      read("truth.tum", read_tum, None), read("frames.csv", read_frames, {}),
-                     read("landmarks.csv", read_columns, {}), read("summary.json", read_summary, {}))
+                     read("landmarks.csv", read_columns, {}), read("summary.json", read_summary, {}),
+                     read("refined.tum", read_tum, None))

@@ -54,6 +54,7 @@ struct MapChanges {
   int feature_candidates = 0;
   int feature_matches = 0;
   int map_features = 0;
+  bool is_keyframe = false;
   std::optional<SlamState> state;  ///< what the pose rests on now; else as corrected
 };
 
@@ -66,8 +67,7 @@ class Estimator {
   /// The frame's pose by the odometry alone. At the first frame map equals odom.
   /// @param step  a jump in the odometry's increment since the last frame
   virtual void predict(const OdometryState& odometry, const std::optional<OdometryStep>& step) = 0;
-  /// The camera after what has been called last. Not const: anchors count from when it first names
-  /// them.
+  /// The camera after what has been called last. Not const: anchors it names count from then on.
   virtual CameraPose camera() = 0;
   /// Whether correct() would look at landmarks found now.
   virtual bool wantsLandmarks() const { return true; }

@@ -163,6 +163,7 @@ MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView
   }
   changes.feature_candidates = filter_.candidates();
   changes.feature_matches = filter_.used();
+  changes.is_keyframe = filter_.isKeyframe();
   return changes;
 }
 

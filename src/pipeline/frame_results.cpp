@@ -28,6 +28,7 @@ FrameResult resultOf(const Estimate& estimate, const Correction& correction,
   result.new_landmarks = changes.new_landmarks;
   result.removed_landmarks = changes.removed_landmarks;
   result.map_features = changes.map_features;
+  result.is_keyframe = changes.is_keyframe;
   return result;
 }
 

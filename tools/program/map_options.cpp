@@ -12,6 +12,9 @@ void MapOptions::addTo(CLI::App& app) {
       ->check(CLI::ExistingFile);
   app.add_option("--save-map", saved, "write the map there at the end")->excludes("--seeds");
   app.add_flag("--localise-only", localise_only, "leave the loaded map as it is")->needs("--map");
+  app.add_flag("--refine", is_refined,
+               "then optimise the whole flight at once: refined.tum beside fused.tum, and "
+               "--save-map writes the refined map");
 }
 
 }  // namespace ardrone_vslam

@@ -9,11 +9,12 @@ class App;
 
 namespace ardrone_vslam {
 
-/// --map, --save-map and --localise-only.
+/// --map, --save-map, --localise-only and --refine.
 struct MapOptions {
   std::string loaded;  ///< file of an earlier flight's map; empty: none
   std::string saved;   ///< where the map goes; empty: nowhere
   bool localise_only = false;
+  bool is_refined = false;  ///< afterwards, path and map
 
   /// @pre the program has an option --seeds: a map is of one flight
   void addTo(CLI::App& app);

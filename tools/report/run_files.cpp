@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "summary/refined_summary.hpp"
 #include "trajectory/text_file.hpp"
 
 namespace ardrone_vslam {
@@ -102,6 +103,7 @@ void writeRun(const std::string& folder, const RunResult& run, const RunEvaluati
                              "); choose another --out");
   writeTum(folder + "/odometry.tum", evaluation.odometry);
   writeTum(folder + "/fused.tum", evaluation.fused);
+  if (run.refined) writeTum(folder + "/refined.tum", refinedTrajectory(run));
   if (!evaluation.truth.empty()) writeTum(folder + "/truth.tum", evaluation.truth);
   std::ostringstream frames;
   writeFrames(frames, run, evaluation);

@@ -11,8 +11,9 @@
 namespace ardrone_vslam {
 
 /// All that a run writes.
-constexpr std::array<const char*, 6> kRunFiles{"odometry.tum", "fused.tum",     "truth.tum",
-                                               "frames.csv",   "landmarks.csv", "summary.json"};
+constexpr std::array<const char*, 7> kRunFiles{"odometry.tum", "fused.tum",  "refined.tum",
+                                               "truth.tum",    "frames.csv", "landmarks.csv",
+                                               "summary.json"};
 
 /// What scripts/evaluate writes beside them when it is asked for a report of the folder.
 constexpr std::array<const char*, 2> kPageFiles{"report.html", "evaluation.json"};

@@ -9,7 +9,8 @@ namespace ardrone_vslam {
 
 BackEnd::BackEnd(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
                  const std::vector<OdometryState>& odometry, std::vector<RangeReading> ranges)
-    : slam_(config, T_base_cam),
+    : config_(config),
+      slam_(config, T_base_cam),
       T_base_cam_(T_base_cam),
       setup_(config.image_time_offset_s),
       odometry_(config, odometry),
@@ -28,6 +29,7 @@ void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
     throw std::runtime_error(
         "the images are of several cameras, and extrinsics_sigma_deg is of one: set it to 0");
   slam_.changeCamera(T_base_cam);
+  if (recorder_) recorder_->useCamera(T_base_cam);
   T_base_cam_ = T_base_cam;
   setup_.useCamera(T_base_cam);
   watch_.reset();
@@ -54,6 +56,7 @@ double BackEnd::process(const TrackedFrame& frame) {
   run_frame.times_ms = frame.times_ms;
   StageTimer timer(run_frame.times_ms);
   run_frame.result = slam_.process(frame.features, state, timer.hook());
+  if (recorder_) recorder_->see(frame.features, state, run_frame.result, slam_.landmarks());
   run_.frames.push_back(std::move(run_frame));
   return total_ms(run_.frames.back().times_ms);
 }
@@ -67,9 +70,10 @@ void BackEnd::watchSetup(const ImageFeatures& features) {
   if (is_fault && run_.setup_fault_ns == 0) run_.setup_fault_ns = features.stamp_ns;
 }
 
-RunResult BackEnd::result(bool is_map_saved) const {
+RunResult BackEnd::result(bool is_finished, bool is_map_saved) const {
   RunResult run = run_;
   if (is_map_saved && slam_.hasWholeMap()) run.map = slam_.save();
+  if (is_finished && recorder_) run.record = recorder_->record();
   run.time_offset = setup_.clock().estimate();
   run.image_time_offset_s = setup_.clock().used_s();
   run.images_travel = watch_.isStuck();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/flight_record.hpp"
 #include "ardrone_vslam/saved_map.hpp"
 #include "ardrone_vslam/setup_monitor.hpp"
 #include "ardrone_vslam/slam.hpp"
@@ -28,6 +29,16 @@ struct RunFrame {
   std::int64_t exposed_ns() const { return result.stamp_ns + image_time_offset_ns; }
 };
 
+/// What a refinement afterwards made of a run.
+struct RefinedRun {
+  std::vector<Eigen::Isometry3d> T_map_base;  ///< of each frame
+  std::size_t keyframes = 0;
+  std::size_t points = 0;
+  std::size_t views = 0;           ///< of points by keyframes, those that count
+  std::size_t views_left_out = 0;  ///< as they contradict the others
+  double seconds = 0;              ///< that it took
+};
+
 /// One pass over a sequence with one odometry.
 struct RunResult {
   bool is_finished = false;  ///< false: what there is so far
@@ -35,6 +46,8 @@ struct RunResult {
   std::vector<Landmark> landmarks;
   bool is_in_loaded_map = false;  ///< frames before it was found there are kSearchingMap
   std::optional<SavedMap> map;    ///< when it was asked for, and is not that of another origin
+  FlightRecord record;            ///< when it was asked for
+  std::optional<RefinedRun> refined;
   int frames_without_odometry =
       0;  ///< no odometry at the image's stamp: before the first state, in a gap, or after the last
   int frames_dropped_slow = 0;      ///< that the emulated slower computer had no time for
@@ -65,6 +78,7 @@ std::int64_t countDistrusted(const RunResult& run);
 struct RunMaps {
   std::optional<SavedMap> loaded;  ///< in which the flight takes place
   bool is_saved = false;           ///< into RunResult::map
+  bool is_recorded = false;        ///< RunResult::record is made
 };
 
 /// Images before the flight was found in a loaded map.
@@ -84,18 +98,23 @@ class BackEnd {
           const std::vector<OdometryState>& odometry, std::vector<RangeReading> ranges = {});
   /// Before the first frame. @throws std::invalid_argument as Slam::load
   void load(const SavedMap& map);
+  /// RunResult::record is wanted. Before the first frame
+  void record() { recorder_.emplace(config_.msckf, T_base_cam_); }
   /// @throws std::runtime_error when the camera changes and extrinsics_sigma_deg forbids it
   /// @return what the image has cost, front end included [ms]
   double process(const TrackedFrame& frame);
+  /// @param is_finished  no frame will follow: the record goes along
   /// @param is_map_saved  the map goes along. @throws std::invalid_argument as Slam::save
-  RunResult result(bool is_map_saved = false) const;
+  RunResult result(bool is_finished = false, bool is_map_saved = false) const;
 
  private:
   void changeCamera(const Eigen::Isometry3d& T_base_cam);
   void watchSetup(const ImageFeatures& features);
 
+  SlamConfig config_;
   Slam slam_;
   Eigen::Isometry3d T_base_cam_;
+  std::optional<FlightRecorder> recorder_;
   SetupMonitor setup_;
   StandstillWatch watch_;       ///< sees odometry that only turns: what moves then is the images
   StandstillWatch standstill_;  ///< the same with its positions

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/recorded_inputs.hpp"
 
+#include <iostream>
+#include <stdexcept>
 #include <utility>
 
 namespace ardrone_vslam {
@@ -44,6 +46,20 @@ std::optional<double> RecordedHeights::at(const OdometryState& state) {
   };
   while (next_ < readings_.size() && isWanted(readings_[next_])) input_.push(readings_[next_++]);
   return input_.at(state);
+}
+
+void checkHeights(const Sequence& sequence, const HeightInputConfig& heights) {
+  if (!sequence.ranges().empty()) return;
+  if (heights.use_navdata_height) {
+    std::cerr << "replay: " << sequence.name()
+              << ": holds no heights of an AR.Drone's navdata (use_navdata_height); the scale "
+                 "stays the odometry's\n";
+  }
+  if (heights.use_range) {
+    throw std::runtime_error(sequence.name() +
+                             ": holds no ranges, which use_range asks for: record the sensor's "
+                             "topic (a folder: range.txt), or set use_range to false");
+  }
 }
 
 }  // namespace ardrone_vslam

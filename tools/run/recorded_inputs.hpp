@@ -9,6 +9,7 @@
 #include "ardrone_vslam/odometry_adapter.hpp"
 #include "ardrone_vslam/slam_config.hpp"
 #include "input_checks/speed_watch.hpp"
+#include "sequences/sequence.hpp"
 
 namespace ardrone_vslam {
 
@@ -56,5 +57,9 @@ class RecordedHeights {
   std::size_t next_ = 0;
   HeightInput input_;
 };
+
+/// Warns on stderr of heights of navdata that the sequence lacks.
+/// @throws std::runtime_error without the ranges that `use_range` asks for
+void checkHeights(const Sequence& sequence, const HeightInputConfig& heights);
 
 }  // namespace ardrone_vslam

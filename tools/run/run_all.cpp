@@ -29,6 +29,7 @@ void BackEnds::add(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam
                    const RunMaps& maps) {
   back_ends_.push_back(std::make_unique<BackEnd>(config, T_base_cam, odometry.run.states, ranges));
   if (maps.loaded) back_ends_.back()->load(*maps.loaded);
+  if (maps.is_recorded) back_ends_.back()->record();
   are_maps_saved_ = maps.is_saved;
   scale_errors_.push_back(odometry.run.scale_error);
   are_late_.push_back(odometry.run.is_late);
@@ -44,7 +45,7 @@ double BackEnds::process(const TrackedFrame& frame) {
 std::vector<RunResult> BackEnds::results(bool is_finished) const {
   std::vector<RunResult> results;
   for (std::size_t i = 0; i < back_ends_.size(); ++i) {
-    results.push_back(back_ends_[i]->result(are_maps_saved_ && is_finished));
+    results.push_back(back_ends_[i]->result(is_finished, are_maps_saved_ && is_finished));
     results.back().scale_error = scale_errors_[i];
     results.back().is_finished = is_finished;
     if (are_late_[i])  // an image's stamp is the truth's time of it, whatever the offset in use

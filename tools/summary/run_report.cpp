@@ -11,6 +11,7 @@
 #include "ardrone_vslam/instruction_set.hpp"
 #include "summary/flight_summary.hpp"
 #include "summary/map_summary.hpp"
+#include "summary/refined_summary.hpp"
 #include "summary/run_words.hpp"
 #include "summary/track_summary.hpp"
 #include "trajectory/metrics.hpp"
@@ -88,6 +89,7 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   summary["ratio_scale_removed"] = drifts ? ifKnown(fused_scaled / odometry_scaled) : Json(nullptr);
   summary["fused_ate_rmse_aligned_m"] = ifKnown(alignedRmse_m(e.fused_at_truth, e.truth));
   summary["odometry_scale_error"] = run.scale_error;
+  addRefinement(run, e.truth, summary);
 
   summary["fused_error_last_m"] =
       known && !e.fused_error_m.empty() ? orNull(e.fused_error_m.back()) : Json(nullptr);

@@ -79,6 +79,18 @@ std::string covarianceLine(const Json& summary) {
          " % of the images beyond 3 sigma";
 }
 
+/// With a line's end before it; empty without a refinement.
+std::string refinedLine(const Json& summary) {
+  if (!summary.contains("refined_keyframes")) return "";
+  const std::string errors = isKnown(summary, "refined_ate_rmse_m")
+                                 ? "off by " + metres(valueOf(summary, "refined_ate_rmse_m")) +
+                                       " (RMSE), at most by " +
+                                       metres(valueOf(summary, "refined_error_max_m")) + "; "
+                                 : "error not known; ";
+  return "\nrefined     " + errors + rounded(valueOf(summary, "refined_points"), 0) +
+         " points in " + rounded(valueOf(summary, "refined_keyframes"), 0) + " keyframes";
+}
+
 std::string statesLine(const Json& summary) {
   std::string text;
   for (const auto& state : summary["states"].items())
@@ -131,10 +143,10 @@ std::string inLines(const Json& summary) {
                     : "error not known");
   if (isKnown(summary, "ratio"))
     text << "; " << rounded(valueOf(summary, "ratio"), 3) << " of the odometry's";
-  text << "\ncovariance  " << covarianceLine(summary) << "\nstates      " << statesLine(summary)
-       << "\ncost        " << rounded(valueOf(summary, "ms_per_frame_median"), 2)
-       << " ms an image, below " << rounded(valueOf(summary, "ms_per_frame_p95"), 2)
-       << " ms for 95 % of them\n";
+  text << refinedLine(summary) << "\ncovariance  " << covarianceLine(summary) << "\nstates      "
+       << statesLine(summary) << "\ncost        "
+       << rounded(valueOf(summary, "ms_per_frame_median"), 2) << " ms an image, below "
+       << rounded(valueOf(summary, "ms_per_frame_p95"), 2) << " ms for 95 % of them\n";
   return text.str();
 }
 

@@ -16,8 +16,8 @@ bool isWorseWhenLarger(const std::string& key) {
   for (const char* name :
        {"seed", "tracks_aligned_share", "landmark_matches_median", "landmarks", "heights_used",
         "camera_frames", "frames_per_second", "odometry_scale_error", "velocity_bias_learned_m_s",
-        "yaw_walk_learned_over_configured", "image_time_offset_s",
-        "image_time_offset_estimate_s"}) {
+        "yaw_walk_learned_over_configured", "image_time_offset_s", "image_time_offset_estimate_s",
+        "refined_keyframes", "refined_points", "refined_views"}) {
     if (key == name) return false;
   }
   return true;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/frame_result.hpp"
+#include "ardrone_vslam/landmark.hpp"
+#include "ardrone_vslam/msckf_config.hpp"
+#include "ardrone_vslam/odometry_buffer.hpp"
+
+namespace ardrone_vslam {
+
+/// Where a keyframe saw the point of a track.
+struct KeyframeView {
+  std::uint32_t track_id = 0;                                  ///< ImageFeatures::track_id
+  Eigen::Vector3f bearing_cam = Eigen::Vector3f::UnitZ();      ///< unit vector, optical frame
+  Eigen::Matrix2f information_rad2 = Eigen::Matrix2f::Zero();  ///< along columns and rows
+};
+
+/// What a batch optimisation needs of one keyframe.
+struct Keyframe {
+  std::int64_t stamp_ns = 0;                                     ///< of its image
+  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();  ///< as fused at that image
+  /// By the odometry, jumps of its position left out.
+  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_base_cam = Eigen::Isometry3d::Identity();  ///< extrinsics
+  double focal_length_px = 0;                                    ///< ImageFeatures has it
+  /// Of the way since the keyframe before, per axis, by white noise of the odometry and by jumps.
+  double way_variance_m2 = 0;
+  double way_m = 0;                 ///< length of that way
+  std::optional<double> height_m;   ///< above the floor, unless the filter rejects them
+  int floor = 0;                    ///< which one, from 0 on
+  std::vector<KeyframeView> views;  ///< none while the camera is not trusted
+};
+
+/// What a flight in one piece has told about its way and its map, for refinement afterwards.
+struct FlightRecord {
+  /// What the filter believed, the odometry's noise as learned at last.
+  MsckfConfig config;
+  std::vector<Keyframe> keyframes;  ///< oldest first
+  /// Landmark::id of a track's point, where it is in the map, or was.
+  std::unordered_map<std::uint32_t, std::uint32_t> landmark_of_track;
+};
+
+/// Keeps what a FlightRecord has, frame by frame.
+class FlightRecorder {
+ public:
+  /// @param T_base_cam  extrinsics of the first camera
+  FlightRecorder(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam);
+  ~FlightRecorder();
+  /// The next frame is another camera's.
+  void useCamera(const Eigen::Isometry3d& T_base_cam);
+  /// A frame that Slam::process() has answered, and the landmarks after it. O(landmarks) at
+  /// keyframes. A flight that begins anew, or is found in a loaded map, begins a new record.
+  void see(const ImageFeatures& features, const OdometryState& odometry, const FrameResult& result,
+           const std::vector<Landmark>& landmarks);
+  /// Up to the last frame.
+  const FlightRecord& record() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace ardrone_vslam

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/LU>
+#include <algorithm>
+#include <unordered_set>
+
+#include "ardrone_vslam/flight_record.hpp"
+#include "linear/scalars.hpp"
+#include "odometry/odometry_step.hpp"
+#include "window/odometry_noise.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+/// Of a feature's place along columns and rows, as the filter takes it [1/rad^2].
+Eigen::Matrix2d informationOf(const ImageFeatures& features, std::size_t i,
+                              const MsckfConfig& config) {
+  const double focal_px = features.focal_length_px;
+  Eigen::Matrix2d variance_px2 = squared(config.track_sigma_px) * Eigen::Matrix2d::Identity();
+  if (!features.information.empty() && !features.information[i].empty()) {
+    const PixelInformation& known = features.information[i];
+    Eigen::Matrix2d information;
+    information << known.xx_per_px2, known.xy_per_px2, known.xy_per_px2, known.yy_per_px2;
+    variance_px2 = information.inverse();
+    variance_px2.diagonal().array() += squared(config.track_scene_px);
+  }
+  return variance_px2.inverse() * squared(focal_px);
+}
+
+}  // namespace
+
+struct FlightRecorder::State {
+  MsckfConfig config;
+  Eigen::Isometry3d T_base_cam;
+  FlightRecord record;
+  OdometryStepWatch steps;
+  std::optional<OdometryState> last;
+  double travelled_m = 0;
+  bool was_searching = false;
+  bool is_height_good = false;  // the last one that was judged
+  Keyframe next;                // what has come together since the last one
+
+  void begin() {
+    record.keyframes.clear();
+    record.landmark_of_track.clear();
+    next = {};
+    last.reset();
+  }
+
+  void follow(const OdometryState& odometry) {
+    const std::optional<OdometryStep> step = steps.see(odometry);
+    if (!last) {
+      next.T_odom_base = odometry.T_odom_base;
+    } else {
+      const Eigen::Vector3d way =
+          step ? step->motion_odom_m
+               : odometry.T_odom_base.translation() - last->T_odom_base.translation();
+      next.T_odom_base.translation() += way;
+      next.T_odom_base.linear() = odometry.T_odom_base.linear();
+      next.way_variance_m2 +=
+          walkVariance_m2(config.odometry, *last, odometry, way.norm(), travelled_m);
+      if (step)
+        next.way_variance_m2 += step->jump_odom_m.squaredNorm() + squared(step->motion_sigma_m);
+      next.way_m += way.norm();
+      travelled_m += way.norm();
+    }
+    last = odometry;
+  }
+
+  /// The filter's keyframes lie closer together than a whole flight needs them.
+  bool isWorthKeeping(const ImageFeatures& features) const {
+    constexpr double kGoOn = 0.3;  // of the last one's tracks
+    constexpr double kLongest_s = 1;
+    if (record.keyframes.empty()) return true;
+    const Keyframe& before = record.keyframes.back();
+    if (seconds(features.stamp_ns - before.stamp_ns) > kLongest_s) return true;
+    const std::unordered_set<std::uint32_t> now(features.track_id.begin(), features.track_id.end());
+    const auto common =
+        std::count_if(before.views.begin(), before.views.end(),
+                      [&now](const KeyframeView& view) { return now.count(view.track_id) > 0; });
+    return static_cast<double>(common) < kGoOn * static_cast<double>(before.views.size());
+  }
+
+  void addViews(const ImageFeatures& features) {
+    next.views.reserve(features.tracked());
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      if (features.age_frames[i] == 0) continue;  // half of them are not seen again
+      next.views.push_back({features.track_id[i], features.bearing_cam[i],
+                            informationOf(features, i, config).cast<float>()});
+    }
+  }
+};
+
+FlightRecorder::FlightRecorder(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam)
+    : state_(std::make_unique<State>()) {
+  state_->config = config;
+  state_->T_base_cam = T_base_cam;
+  state_->record.config = config;
+}
+
+FlightRecorder::~FlightRecorder() = default;
+
+void FlightRecorder::useCamera(const Eigen::Isometry3d& T_base_cam) {
+  state_->T_base_cam = T_base_cam;
+}
+
+void FlightRecorder::see(const ImageFeatures& features, const OdometryState& odometry,
+                         const FrameResult& result, const std::vector<Landmark>& landmarks) {
+  State& s = *state_;
+  const bool is_searching = result.state == SlamState::kSearchingMap;
+  if (s.steps.isNewStart(odometry) || is_searching != s.was_searching) s.begin();
+  s.was_searching = is_searching;
+  s.follow(odometry);
+  if (result.height == HeightOutcome::kNewFloor) ++s.next.floor;
+  if (result.height != HeightOutcome::kNone)
+    s.is_height_good = result.height != HeightOutcome::kRejected;
+  for (const Landmark& landmark : landmarks) {
+    if (landmark.last_seen_ns == features.stamp_ns)
+      s.record.landmark_of_track[landmark.track_id] = landmark.id;
+  }
+  if (!result.is_keyframe || !s.isWorthKeeping(features)) return;
+  s.next.stamp_ns = features.stamp_ns;
+  s.next.T_map_base = result.T_map_base;
+  s.next.T_base_cam = s.T_base_cam;
+  s.next.focal_length_px = features.focal_length_px;
+  s.next.height_m = s.is_height_good ? odometry.height_m : std::nullopt;
+  s.addViews(features);
+  s.record.keyframes.push_back(s.next);
+  s.next.views.clear();
+  s.next.way_variance_m2 = 0;
+  s.next.way_m = 0;
+  OdometryNoiseConfig& noise = s.record.config.odometry;
+  noise.velocity_bias_m_s = result.velocity_bias_sigma_m_s;
+  noise.yaw_walk_deg_per_sqrt_s =
+      s.config.odometry.yaw_walk_deg_per_sqrt_s * result.yaw_walk_factor;
+  noise.yaw_walk_deg_per_sqrt_m =
+      s.config.odometry.yaw_walk_deg_per_sqrt_m * result.yaw_walk_factor;
+}
+
+const FlightRecord& FlightRecorder::record() const {
+  return state_->record;
+}
+
+}  // namespace ardrone_vslam

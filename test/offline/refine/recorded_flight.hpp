@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "ardrone_vslam/flight_record.hpp"
+#include "ardrone_vslam/rotation.hpp"
+
+namespace ardrone_vslam::test {
+
+/// What goes wrong in a RecordedFlight; nothing does by default.
+struct FlightErrors {
+  double corner_px = 0;               ///< sigma of a view
+  double wrong_views = 0;             ///< share of views that are of another point
+  Eigen::Vector3d bias_m_s{0, 0, 0};  ///< of the odometry, axes of base
+  double yaw_rad_per_s = 0;           ///< drift of the odometry
+  double scale = 1;                   ///< of the odometry
+  double height_m = -1;               ///< sigma of heights; negative: there are none
+};
+
+/// The record of two laps in a room whose walls are points, and its truth. The odometry is what the
+/// fused poses are, so that all of its errors are left to the refinement. On the second lap each
+/// point has another track, of the same landmark.
+struct RecordedFlight {
+  static constexpr int kKeyframes = 80;
+  static constexpr double kFocal_px = 500;
+
+  FlightRecord record;
+  std::vector<Eigen::Isometry3d> truth;
+  std::vector<Eigen::Vector3d> points;
+
+  explicit RecordedFlight(const FlightErrors& errors) {
+    std::mt19937 generator(7);
+    std::uniform_real_distribution<double> around(-M_PI, M_PI), up(-1.5, 1.5), share(0, 1);
+    std::normal_distribution<double> normal(0, 1);
+    for (int i = 0; i < 300; ++i) {
+      const double angle = around(generator);
+      points.emplace_back(5 * std::cos(angle), 5 * std::sin(angle), up(generator));
+    }
+    record.config.odometry.velocity_bias_m_s = 0.05;
+    record.config.odometry.scale_sigma = 0.1;
+    record.config.height.height_sigma_m = 0.01;
+    Keyframe keyframe;
+    for (int k = 0; k < kKeyframes; ++k) {
+      truth.push_back(poseAt(k));
+      follow(errors, keyframe);
+      keyframe.views.clear();
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool is_wrong = share(generator) < errors.wrong_views;
+        const Eigen::Vector3d at = truth.back() * keyframe.T_base_cam * Eigen::Vector3d::Zero();
+        const Eigen::Matrix3d R_cam_map =
+            (truth.back().linear() * keyframe.T_base_cam.linear()).transpose();
+        const Eigen::Vector3d seen = R_cam_map * (points[i] - at);
+        const Eigen::Vector3d noise(normal(generator), normal(generator), 0);
+        const Eigen::Vector3d pixel = seen / seen.z() + errors.corner_px / kFocal_px * noise;
+        if (seen.z() < 0 || std::abs(pixel.x()) > 0.8 || std::abs(pixel.y()) > 0.6) continue;
+        const Eigen::Vector3d wrong(0.04 * around(generator), 0.04 * around(generator), 0);
+        KeyframeView view;
+        const std::size_t lap = k < kKeyframes / 2 ? 0 : 1;
+        view.track_id = static_cast<std::uint32_t>(1 + i + lap * points.size());
+        view.bearing_cam =
+            (pixel + (is_wrong ? wrong : Eigen::Vector3d(0, 0, 0))).normalized().cast<float>();
+        view.information_rad2 = Eigen::Matrix2f::Identity() * 1e6F;  // half a pixel
+        record.landmark_of_track[view.track_id] = static_cast<std::uint32_t>(i + 1);
+        keyframe.views.push_back(view);
+      }
+      if (errors.height_m >= 0)
+        keyframe.height_m =
+            truth.back().translation().z() + 1 + errors.height_m * normal(generator);
+      record.keyframes.push_back(keyframe);
+    }
+  }
+
+  /// Root mean square of the positions' errors.
+  double rmse_m(const std::vector<Eigen::Isometry3d>& poses) const {
+    double sum_m2 = 0;
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      sum_m2 += (poses[i].translation() - truth[i].translation()).squaredNorm();
+    return std::sqrt(sum_m2 / static_cast<double>(poses.size()));
+  }
+  std::vector<Eigen::Isometry3d> before() const {
+    std::vector<Eigen::Isometry3d> poses;
+    for (const Keyframe& keyframe : record.keyframes) poses.push_back(keyframe.T_map_base);
+    return poses;
+  }
+
+ private:
+  static constexpr double kStep_s = 0.5;
+
+  /// Two laps around the origin, up and down, looking outwards and ahead.
+  static Eigen::Isometry3d poseAt(int k) {
+    const double angle = 4 * M_PI * k / kKeyframes;
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.translation() << 1.5 * std::cos(angle) - 1.5, 1.5 * std::sin(angle),
+        0.4 * std::sin(1.5 * angle);
+    T.linear() = rotationAboutZ(angle);
+    return T;
+  }
+
+  void follow(const FlightErrors& errors, Keyframe& keyframe) {
+    const std::size_t k = record.keyframes.size();
+    keyframe.stamp_ns = 1'000'000'000 + static_cast<std::int64_t>(k * 500'000'000);
+    keyframe.focal_length_px = kFocal_px;
+    keyframe.T_base_cam.translation() << 0.1, 0, 0;
+    keyframe.T_base_cam.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // ahead
+    const Eigen::Matrix3d drift =
+        rotationAboutZ(errors.yaw_rad_per_s * kStep_s * static_cast<double>(k));
+    if (k > 0) {
+      const Eigen::Vector3d way_m = truth[k].translation() - truth[k - 1].translation();
+      const Eigen::Vector3d bias_m = truth[k - 1].linear() * errors.bias_m_s * kStep_s;
+      keyframe.T_odom_base.translation() += drift * (errors.scale * way_m + bias_m);
+      keyframe.way_variance_m2 = 1e-4;
+      keyframe.way_m = way_m.norm();
+    }
+    keyframe.T_odom_base.linear() = drift * truth[k].linear();
+    keyframe.T_map_base = keyframe.T_odom_base;
+  }
+};
+
+}  // namespace ardrone_vslam::test

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "refine/refinement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "recorded_flight.hpp"
+
+namespace ardrone_vslam {
+namespace {
+
+using test::FlightErrors;
+using test::RecordedFlight;
+
+constexpr int kThreads = 1;
+
+/// Length of the refined way over the true one.
+double scaleOf(const RecordedFlight& flight, const Refinement& refined) {
+  double way_m = 0;
+  double true_m = 0;
+  for (std::size_t i = 1; i < flight.truth.size(); ++i) {
+    way_m += (refined.T_map_base[i].translation() - refined.T_map_base[i - 1].translation()).norm();
+    true_m += (flight.truth[i].translation() - flight.truth[i - 1].translation()).norm();
+  }
+  return way_m / true_m;
+}
+
+FlightErrors drifting() {
+  FlightErrors errors;
+  errors.corner_px = 0.5;
+  errors.bias_m_s << 0.06, -0.04, 0.02;
+  errors.yaw_rad_per_s = 0.001;
+  return errors;
+}
+
+TEST(Refinement, NothingComesOfNothing) {
+  const Refinement refined = refine({}, kThreads);
+  EXPECT_TRUE(refined.T_map_base.empty());
+  EXPECT_TRUE(refined.points.empty());
+}
+
+TEST(Refinement, WhatIsExactStaysWhereItIs) {
+  const RecordedFlight flight{FlightErrors{}};
+  const Refinement refined = refine(flight.record, kThreads);
+  EXPECT_LT(flight.rmse_m(refined.T_map_base), 1e-5);
+  EXPECT_EQ(refined.views_left_out, 0U);
+  EXPECT_GT(refined.points.size(), flight.points.size());  // of tracks, and of landmarks
+  for (const TrackPoint3d& point : refined.points) {
+    const Eigen::Vector3d& truth = flight.points[point.landmark_id - 1];
+    EXPECT_LT((point.position_map - truth).norm(), 1e-4);
+  }
+}
+
+TEST(Refinement, TakesOutWhatTheOdometryDrifts) {
+  const RecordedFlight flight{drifting()};
+  ASSERT_GT(flight.rmse_m(flight.before()), 0.3);
+  const Refinement refined = refine(flight.record, kThreads);
+  EXPECT_LT(flight.rmse_m(refined.T_map_base), 0.11);  // 0.091 measured
+  EXPECT_TRUE(refined.T_map_base.front().isApprox(flight.truth.front(), 0.01));
+}
+
+TEST(Refinement, ViewsOfOtherPointsAreLeftOut) {
+  FlightErrors errors = drifting();
+  errors.wrong_views = 0.05;
+  const RecordedFlight flight{errors};
+  const Refinement refined = refine(flight.record, kThreads);
+  EXPECT_LT(flight.rmse_m(refined.T_map_base), 0.09);  // 0.075 measured
+  EXPECT_GT(refined.views_left_out, refined.views / 100);
+}
+
+TEST(Refinement, AloneTheCameraKeepsTheScaleOfTheOdometry) {
+  FlightErrors errors;
+  errors.corner_px = 0.5;
+  errors.scale = 1.08;
+  const RecordedFlight flight{errors};
+  EXPECT_NEAR(scaleOf(flight, refine(flight.record, kThreads)), 1.08, 0.02);
+}
+
+TEST(Refinement, HeightsTellTheScale) {
+  FlightErrors errors;
+  errors.corner_px = 0.5;
+  errors.scale = 1.08;
+  errors.height_m = 0.01;
+  const RecordedFlight flight{errors};
+  EXPECT_NEAR(scaleOf(flight, refine(flight.record, kThreads)), 1, 0.01);
+}
+
+TEST(Refinement, TellsHowFarItIs) {
+  const RecordedFlight flight{FlightErrors{}};
+  std::vector<double> shares;
+  refine(flight.record, kThreads, [&shares](double share) { shares.push_back(share); });
+  ASSERT_FALSE(shares.empty());
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_LE(shares.back(), 1);
+}
+
+}  // namespace
+}  // namespace ardrone_vslam

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "refine/refine_runs.hpp"
+
+#include <chrono>
+#include <unordered_map>
+#include <utility>
+
+#include "program/progress_line.hpp"
+#include "refine/refined_map.hpp"
+#include "refine/refined_path.hpp"
+#include "refine/refinement.hpp"
+
+namespace ardrone_vslam {
+
+namespace {
+
+/// The refined path. @pre there is one
+std::unordered_map<std::int64_t, Eigen::Isometry3d> byStamp(const RunResult& run) {
+  std::unordered_map<std::int64_t, Eigen::Isometry3d> poses;
+  for (std::size_t i = 0; i < run.frames.size(); ++i)
+    poses.emplace(run.frames[i].result.stamp_ns, run.refined->T_map_base[i]);
+  return poses;
+}
+
+}  // namespace
+
+std::string faultOfRefining(const SlamConfig& config) {
+  if (config.estimator != EstimatorKind::kMsckf)
+    return "--refine: needs the keyframes of estimator: msckf";
+  if (config.msckf.odometry.extrinsics_sigma_deg > 0)
+    return "--refine: takes the camera's mounting as exact; set extrinsics_sigma_deg to 0";
+  return "";
+}
+
+void refineRuns(std::vector<RunResult>& runs, int threads) {
+  constexpr std::size_t kOfOne = 100;
+  ProgressLine line("replay: refining", kOfOne * runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    RunResult& run = runs[i];
+    const auto begin = std::chrono::steady_clock::now();
+    const Refinement refinement = refine(run.record, threads, [&](double share) {
+      line.update(kOfOne * i + static_cast<std::size_t>(kOfOne * share));
+    });
+    line.update(kOfOne * (i + 1));
+    RefinedRun& refined = run.refined.emplace();
+    refined.T_map_base = refinedPath(run, refinement);
+    refined.keyframes = refinement.T_map_base.size();
+    refined.points = refinement.points.size();
+    refined.views = refinement.views;
+    refined.views_left_out = refinement.views_left_out;
+    if (run.map) run.map = refinedMap(std::move(*run.map), byStamp(run), refinement.points);
+    refined.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+}
+
+}  // namespace ardrone_vslam

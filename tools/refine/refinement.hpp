@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "ardrone_vslam/flight_record.hpp"
+#include "refine/track_points.hpp"
+
+namespace ardrone_vslam {
+
+/// What all of a flight says about its way and its points.
+struct Refinement {
+  std::vector<Eigen::Isometry3d> T_map_base;  ///< of the record's keyframes
+  std::vector<TrackPoint3d> points;
+  std::size_t views = 0;           ///< that count
+  std::size_t views_left_out = 0;  ///< as they contradict the others
+};
+
+/// Told from time to time how much of the work is done, from 0 to 1; about, as nobody knows how
+/// many iterations it takes.
+using RefinementProgress = std::function<void(double share)>;
+
+/// Bundle adjustment (Triggs et al., 2000) of the keyframes' poses and all points at once, by their
+/// views, the odometry with the errors that the MSCKF believes it has, and heights. The scale is
+/// that of odometry and heights. The map stays where its first keyframe is. O(views) an iteration,
+/// and what the keyframes' sparse system takes.
+/// @param threads  the result may depend on them in its last digits
+/// @return nothing of a record without keyframes
+Refinement refine(const FlightRecord& record, int threads, const RefinementProgress& progress = {});
+
+}  // namespace ardrone_vslam

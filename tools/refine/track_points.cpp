@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "refine/track_points.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace ardrone_vslam {
+namespace {
+
+constexpr std::size_t kFewestViews = 3;  // two rays nearly always meet somewhere
+constexpr double kLeastParallax = 10;    // sigmas of a ray: a distance is known to a tenth
+// Further off than poses of a few seconds can be: a track that jumped, a wrong landmark.
+constexpr double kOffTrack_rad = 0.02;
+constexpr double kOffLandmark_rad = 0.1;
+
+Sight sightOf(const KeyframeView& view, std::size_t index, const Keyframe& keyframe) {
+  const Eigen::Vector3d bearing_cam = view.bearing_cam.cast<double>();
+  const Eigen::Matrix3d& R_base_cam = keyframe.T_base_cam.linear();
+  const Eigen::Matrix2d information = view.information_rad2.cast<double>();
+  SightRoot axes;  // columns and rows
+  axes.row(0) = (Eigen::Vector3d::UnitX() - bearing_cam.x() * bearing_cam).normalized();
+  axes.row(1) = bearing_cam.cross(axes.row(0).transpose());
+  Sight sight;
+  sight.keyframe = index;
+  sight.bearing_base = R_base_cam * bearing_cam;
+  sight.root_base = information.llt().matrixU() * axes * R_base_cam.transpose();
+  sight.sigma_rad = std::sqrt(2 / information.trace());
+  return sight;
+}
+
+/// The same place, known as well as a landmark's match is.
+Sight asMatch(Sight sight, const FlightRecord& record) {
+  // A track has two of them, which err alike.
+  const double sigma_rad = std::sqrt(2.0) * record.config.track_sigma_px /
+                           record.keyframes[sight.keyframe].focal_length_px;
+  sight.root_base.rowwise().normalize();
+  sight.root_base /= sigma_rad;
+  sight.sigma_rad = sigma_rad;
+  return sight;
+}
+
+struct MapRay {
+  Eigen::Vector3d origin_map, direction_map;
+};
+
+MapRay rayOf(const Sight& sight, const FlightRecord& record) {
+  const Keyframe& keyframe = record.keyframes[sight.keyframe];
+  return {keyframe.T_map_base * keyframe.T_base_cam.translation(),
+          keyframe.T_map_base.linear() * sight.bearing_base};
+}
+
+/// Where the rays meet, each weighed by the angle that it is off. Not finite where they do not.
+Eigen::Vector3d meetingPoint(const std::vector<MapRay>& rays) {
+  constexpr int kRounds = 3;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    for (const MapRay& ray : rays) {
+      const double weight = round == 0 ? 1 : 1 / (point - ray.origin_map).squaredNorm();
+      const Eigen::Matrix3d across = weight * (Eigen::Matrix3d::Identity() -
+                                               ray.direction_map * ray.direction_map.transpose());
+      A += across;
+      b += across * ray.origin_map;
+    }
+    point = A.ldlt().solve(b);
+  }
+  return point;
+}
+
+/// Puts the point where its sights meet. @return whether it lies in front of all, near all rays,
+/// and is seen from places far enough apart
+bool place(const FlightRecord& record, TrackPoint3d& point) {
+  std::vector<MapRay> rays;
+  rays.reserve(point.sights.size());
+  double parallax_rad = 0;
+  for (const Sight& sight : point.sights) {
+    rays.push_back(rayOf(sight, record));
+    parallax_rad =
+        std::max(parallax_rad, rays.front().direction_map.cross(rays.back().direction_map).norm());
+  }
+  if (parallax_rad < kLeastParallax * point.sights.front().sigma_rad) return false;
+  point.position_map = meetingPoint(rays);
+  const double most_rad = point.is_joint ? kOffLandmark_rad : kOffTrack_rad;
+  return std::all_of(rays.begin(), rays.end(), [&](const MapRay& ray) {
+    const Eigen::Vector3d offset = point.position_map - ray.origin_map;
+    return ray.direction_map.dot(offset) > 0 &&
+           ray.direction_map.cross(offset).norm() < most_rad * offset.norm();
+  });
+}
+
+}  // namespace
+
+std::vector<TrackPoint3d> pointsOf(const FlightRecord& record) {
+  std::map<std::uint32_t, std::vector<Sight>> tracks;
+  for (std::size_t k = 0; k < record.keyframes.size(); ++k) {
+    for (const KeyframeView& view : record.keyframes[k].views)
+      tracks[view.track_id].push_back(sightOf(view, k, record.keyframes[k]));
+  }
+  std::map<std::uint32_t, std::vector<const std::vector<Sight>*>> of_landmark;
+  std::vector<TrackPoint3d> points;
+  for (const auto& [id, sights] : tracks) {
+    const auto found = record.landmark_of_track.find(id);
+    TrackPoint3d point;
+    if (found != record.landmark_of_track.end()) {
+      point.landmark_id = found->second;
+      of_landmark[found->second].push_back(&sights);
+    }
+    if (sights.size() < kFewestViews) continue;
+    point.sights = sights;
+    if (place(record, point)) points.push_back(std::move(point));
+  }
+  for (const auto& [id, its_tracks] : of_landmark) {
+    if (its_tracks.size() < 2) continue;
+    TrackPoint3d point;
+    point.landmark_id = id;
+    point.is_joint = true;
+    for (const std::vector<Sight>* sights : its_tracks) {
+      point.sights.push_back(asMatch(sights->front(), record));
+      if (sights->size() > 1) point.sights.push_back(asMatch(sights->back(), record));
+    }
+    if (place(record, point)) points.push_back(std::move(point));
+  }
+  return points;
+}
+
+}  // namespace ardrone_vslam
