@@ -122,13 +122,15 @@ def rows_of_folders(arguments, settings):
             notes.append(f"{name}: the run was interrupted, so its numbers are of the part that it had done")
         its_rows = [Row(name, "estimate", run.truth, run.fused, run)]
         if run.refined is not None:  # frames and landmarks are those of the flight
-            refined = replace(run, fused=run.refined, frames={}, landmarks={})
+            refined = replace(run, fused=run.refined, frames={}, landmarks={}, summary={})
             its_rows.append(Row(f"{name}, refined", "estimate", run.truth, run.refined, refined))
         estimates += its_rows
         for row in its_rows:
             evaluate_row(row, settings)
             for key in ("sequence", "profile", "seed", "estimator"):
                 row.numbers[key] = run.summary.get(key)
+        if run.refined is not None:
+            its_rows[1].numbers["estimator"] = "refined"
         if run.odometry is None:
             notes.append(f"{name}: no odometry.tum, so no comparison with the odometry")
             continue

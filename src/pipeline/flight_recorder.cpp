@@ -81,9 +81,10 @@ struct FlightRecorder::State {
   }
 
   void addViews(const ImageFeatures& features) {
-    next.views.reserve(features.tracked());
     for (std::size_t i = 0; i < features.size(); ++i) {
-      if (features.age_frames[i] == 0) continue;  // half of them are not seen again
+      // Half of the new ones are not seen again. The first keyframe has no others, and is where the
+      // map begins.
+      if (features.age_frames[i] == 0 && !record.keyframes.empty()) continue;
       next.views.push_back({features.track_id[i], features.bearing_cam[i],
                             informationOf(features, i, config).cast<float>()});
     }

@@ -104,6 +104,17 @@ class RunFolderTest(unittest.TestCase):
         for line in ("median of 2: msckf", "worst of 2: thesis"):
             self.assertIn(line, table)
 
+    def test_a_refined_path_has_a_row_of_its_own(self):
+        folder = self.copied("summary.json", "fused.tum", "odometry.tum", "truth.tum", "frames.csv")
+        shutil.copy(f"{folder}/truth.tum", f"{folder}/refined.tum")
+        numbers, table = self.numbers(folder)
+        refined = numbers["trajectories"][-1]
+        self.assertTrue(refined["name"].endswith(", refined"))
+        self.assertEqual(refined["estimator"], "refined")
+        self.assertLess(refined["ate"]["none"]["rmse_m"], 1e-9)
+        self.assertIsNone(refined["nees"])  # frames.csv is of the flight
+        self.assertNotIn("median of", table)  # the two are no seeds of one estimator
+
     def test_what_lacks_is_left_out_and_told(self):
         numbers, page = self.page(self.copied("fused.tum", "odometry.tum", "frames.csv", "landmarks.csv"))
         self.assertIn("no truth, so no errors", numbers["notes"][0])
