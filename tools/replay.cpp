@@ -196,8 +196,11 @@ std::vector<RunOdometry> odometriesOf(const Sequence& sequence, const Options& o
 }
 
 RunMaps mapsOf(const Options& o, const Sequence& sequence, const PipelineConfig& config) {
-  const std::string fault =
-      o.maps.is_refined ? faultOfRefining(config.mapper) : faultOfMaps(config.mapper);
+  std::string fault = o.maps.is_refined ? "--refine: this replay was built without Ceres 2"
+                                        : faultOfMaps(config.mapper);
+#ifdef ARDRONE_VSLAM_WITH_CERES
+  if (o.maps.is_refined) fault = faultOfRefining(config.mapper);
+#endif
   RunMaps maps{std::nullopt, !o.maps.saved.empty(), o.maps.is_refined};
   const bool is_wanted = maps.is_saved || maps.is_recorded || !o.maps.loaded.empty();
   if (!fault.empty() && is_wanted) throw UsageError(fault);
@@ -236,6 +239,10 @@ void checkOdometry(const Options& o, const PipelineConfig& config) {
   }
 }
 
+void append(const std::vector<std::string>& more, std::vector<std::string>& faults) {
+  faults.insert(faults.end(), more.begin(), more.end());
+}
+
 int run(const Options& o) {
   PipelineConfig config = configOf(o);
   config.tracker.align_tracks = !o.whole_pixels;
@@ -265,10 +272,11 @@ int run(const Options& o) {
   std::vector<RunResult> results =
       runAll(*sequence, config, odometries, o.threads, show, speed, maps);
   progress.reset();  // ends its line
-  if (maps.is_recorded) refineRuns(results, o.threads);
+#ifdef ARDRONE_VSLAM_WITH_CERES
+  if (maps.is_recorded) append(refineRuns(results), faults);
+#endif
   if (!unfinished.hasWritten()) removeEarlierRun(o.out);
-  const auto of_runs = reportRuns(*sequence, odometries, results, report);
-  faults.insert(faults.end(), of_runs.begin(), of_runs.end());
+  append(reportRuns(*sequence, odometries, results, report), faults);
   if (const auto& map = results.front().map)
     std::cout << "map of " << writeMap(o.maps.saved, *map) << " landmarks written to "
               << o.maps.saved << '\n';

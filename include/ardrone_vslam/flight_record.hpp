@@ -33,10 +33,10 @@ struct Keyframe {
   double focal_length_px = 0;                                    ///< ImageFeatures has it
   /// Of the way since the keyframe before, per axis, by white noise of the odometry and by jumps.
   double way_variance_m2 = 0;
-  double way_m = 0;                 ///< length of that way
-  std::optional<double> height_m;   ///< above the floor, unless the filter rejects them
-  int floor = 0;                    ///< which one, from 0 on
-  std::vector<KeyframeView> views;  ///< none while the camera is not trusted
+  double way_m = 0;                ///< length of that way
+  std::optional<double> height_m;  ///< above the floor, as the filter has used one since the last
+  int floor = 0;                   ///< which one, from 0 on
+  std::vector<KeyframeView> views;
 };
 
 /// What a flight in one piece has told about its way and its map, for refinement afterwards.
@@ -44,6 +44,9 @@ struct FlightRecord {
   /// What the filter believed, the odometry's noise as learned at last.
   MsckfConfig config;
   std::vector<Keyframe> keyframes;  ///< oldest first
+  /// False, and then nothing else is here: the flight began anew on its way, or was looked for in a
+  /// map.
+  bool is_whole = true;
   /// Landmark::id of a track's point, where it is in the map, or was.
   std::unordered_map<std::uint32_t, std::uint32_t> landmark_of_track;
 };
@@ -56,8 +59,7 @@ class FlightRecorder {
   ~FlightRecorder();
   /// The next frame is another camera's.
   void useCamera(const Eigen::Isometry3d& T_base_cam);
-  /// A frame that Slam::process() has answered, and the landmarks after it. O(landmarks) at
-  /// keyframes. A flight that begins anew, or is found in a loaded map, begins a new record.
+  /// A frame that Slam::process() has answered, and the landmarks after it. O(landmarks).
   void see(const ImageFeatures& features, const OdometryState& odometry, const FrameResult& result,
            const std::vector<Landmark>& landmarks);
   /// Up to the last frame.

@@ -35,21 +35,14 @@ struct FlightRecorder::State {
   OdometryStepWatch steps;
   std::optional<OdometryState> last;
   double travelled_m = 0;
-  bool was_searching = false;
-  bool is_height_good = false;  // the last one that was judged
-  Keyframe next;                // what has come together since the last one
-
-  void begin() {
-    record.keyframes.clear();
-    record.landmark_of_track.clear();
-    next = {};
-    last.reset();
-  }
+  std::optional<double> floor_odom_m;  // by the last height that the filter has used
+  Keyframe next;                       // what has come together since the last one
 
   void follow(const OdometryState& odometry) {
     const std::optional<OdometryStep> step = steps.see(odometry);
     if (!last) {
       next.T_odom_base = odometry.T_odom_base;
+      travelled_m = odometry.T_odom_base.translation().norm();  // at least
     } else {
       const Eigen::Vector3d way =
           step ? step->motion_odom_m
@@ -64,6 +57,15 @@ struct FlightRecorder::State {
       travelled_m += way.norm();
     }
     last = odometry;
+  }
+
+  /// Each that the filter has used counts once, at the next keyframe.
+  void takeHeight(const OdometryState& odometry, HeightOutcome outcome) {
+    if (outcome == HeightOutcome::kNone) return;
+    if (outcome == HeightOutcome::kNewFloor) ++next.floor;
+    floor_odom_m.reset();
+    if (outcome != HeightOutcome::kRejected && odometry.height_m)
+      floor_odom_m = next.T_odom_base.translation().z() - *odometry.height_m;
   }
 
   /// The filter's keyframes lie closer together than a whole flight needs them.
@@ -107,13 +109,13 @@ void FlightRecorder::useCamera(const Eigen::Isometry3d& T_base_cam) {
 void FlightRecorder::see(const ImageFeatures& features, const OdometryState& odometry,
                          const FrameResult& result, const std::vector<Landmark>& landmarks) {
   State& s = *state_;
-  const bool is_searching = result.state == SlamState::kSearchingMap;
-  if (s.steps.isNewStart(odometry) || is_searching != s.was_searching) s.begin();
-  s.was_searching = is_searching;
+  if (s.steps.isNewStart(odometry) || result.state == SlamState::kSearchingMap) {
+    s.record = {};
+    s.record.is_whole = false;
+  }
+  if (!s.record.is_whole || result.state == SlamState::kNotFinite) return;
   s.follow(odometry);
-  if (result.height == HeightOutcome::kNewFloor) ++s.next.floor;
-  if (result.height != HeightOutcome::kNone)
-    s.is_height_good = result.height != HeightOutcome::kRejected;
+  s.takeHeight(odometry, result.height);
   for (const Landmark& landmark : landmarks) {
     if (landmark.last_seen_ns == features.stamp_ns)
       s.record.landmark_of_track[landmark.track_id] = landmark.id;
@@ -123,10 +125,12 @@ void FlightRecorder::see(const ImageFeatures& features, const OdometryState& odo
   s.next.T_map_base = result.T_map_base;
   s.next.T_base_cam = s.T_base_cam;
   s.next.focal_length_px = features.focal_length_px;
-  s.next.height_m = s.is_height_good ? odometry.height_m : std::nullopt;
+  if (s.floor_odom_m) s.next.height_m = s.next.T_odom_base.translation().z() - *s.floor_odom_m;
   s.addViews(features);
   s.record.keyframes.push_back(s.next);
   s.next.views.clear();
+  s.next.height_m.reset();
+  s.floor_odom_m.reset();
   s.next.way_variance_m2 = 0;
   s.next.way_m = 0;
   OdometryNoiseConfig& noise = s.record.config.odometry;

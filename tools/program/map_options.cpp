@@ -14,7 +14,8 @@ void MapOptions::addTo(CLI::App& app) {
   app.add_flag("--localise-only", localise_only, "leave the loaded map as it is")->needs("--map");
   app.add_flag("--refine", is_refined,
                "then optimise the whole flight at once: refined.tum beside fused.tum, and "
-               "--save-map writes the refined map");
+               "--save-map writes the refined map")
+      ->excludes("--map");
 }
 
 }  // namespace ardrone_vslam

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "refine/bundle.hpp"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "ardrone_vslam/rotation.hpp"
@@ -118,7 +121,7 @@ void Bundle::addStep(std::size_t to) {
   way.to_map = after.T_map_base.translation();
   way.way_odom_m = after.T_odom_base.translation() - before.T_odom_base.translation();
   way.R_odom_base = before.T_odom_base.linear();
-  way.duration_s = dt_s;
+  way.duration_s = time_s * (1 - std::exp(-dt_s / time_s));  // of a bias that fades
   way.sigma_m = std::max(std::sqrt(after.way_variance_m2 + by_bias_m2), kLeast);
   add(costOf<WayResidual, 3, 6, 6, 3, 3, 1>(way),
       {poses_[to - 1].data(), poses_[to].data(), attitudes_[to - 1].data(), biases_[to - 1].data(),
@@ -161,16 +164,15 @@ void Bundle::addViews() {
   }
 }
 
-void Bundle::solve(double most_sigmas, int threads, const std::function<void()>& step) {
-  constexpr int kMostIterations = 20;
+void Bundle::solve(double most_sigmas, const std::function<void()>& step) {
+  FLAGS_minloglevel = google::GLOG_ERROR;  // Ceres warns of steps that it then makes shorter
   // One camera sees no scale: a damped step would hardly move along it.
   constexpr double kTrustRadius = 1e5;
   loss_.Reset(new ceres::CauchyLoss(most_sigmas), ceres::TAKE_OWNERSHIP);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_SCHUR;
   options.logging_type = ceres::SILENT;
-  options.num_threads = threads;
-  options.max_num_iterations = kMostIterations;
+  options.max_num_iterations = 20;
   options.function_tolerance = 1e-5;
   options.initial_trust_region_radius = kTrustRadius;
   const auto order = std::make_shared<ceres::ParameterBlockOrdering>();
@@ -184,6 +186,7 @@ void Bundle::solve(double most_sigmas, int threads, const std::function<void()>&
   options.callbacks.push_back(&callback);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem_, &summary);
+  if (!summary.IsSolutionUsable()) throw std::runtime_error(summary.message);
 }
 
 void Bundle::drop(double most_sigmas) {
@@ -192,10 +195,9 @@ void Bundle::drop(double most_sigmas) {
     std::vector<View> views;
     const std::size_t before = views_of_[i].size();
     for (std::size_t j = 0; j < before; ++j) {
-      double cost = 0;
       Eigen::Vector2d off;
       View& view = views_of_[i][j];
-      problem_.EvaluateResidualBlock(view.residual, false, &cost, off.data(), nullptr);
+      problem_.EvaluateResidualBlock(view.residual, false, nullptr, off.data(), nullptr);
       if (off.squaredNorm() < squared(most_sigmas)) {
         sights.push_back(points_[i].sights[j]);
         views.push_back(std::move(view));
@@ -203,7 +205,7 @@ void Bundle::drop(double most_sigmas) {
         problem_.RemoveResidualBlock(view.residual);
       }
     }
-    if (views.size() < 2) {
+    if (views.size() < kFewestViews) {
       if (before > 0) problem_.RemoveParameterBlock(points_[i].position_map.data());
       sights.clear();
       views.clear();

@@ -22,9 +22,9 @@ class Bundle {
   explicit Bundle(const FlightRecord& record);
 
   /// Minimises, with views that are off by more than about `most_sigmas` counting ever less.
-  /// @param threads  of the solver. @param step  called after each iteration
-  void solve(double most_sigmas, int threads, const std::function<void()>& step);
-  /// Leaves out views that are off by more.
+  /// @param step  called after each iteration. @throws std::runtime_error when it cannot be solved
+  void solve(double most_sigmas, const std::function<void()>& step);
+  /// Leaves out views that are off by more, and points that too few are left of.
   void drop(double most_sigmas);
 
   Eigen::Isometry3d T_map_base(std::size_t keyframe) const;
@@ -34,7 +34,6 @@ class Bundle {
 
  private:
   using Vector = std::array<double, 3>;
-  /// One that is left out has no residual any more.
   struct View {
     ceres::ResidualBlockId residual;
     std::unique_ptr<ceres::LossFunction> weight;

@@ -2,6 +2,7 @@
 #include "refine/refine_runs.hpp"
 
 #include <chrono>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -22,6 +23,22 @@ std::unordered_map<std::int64_t, Eigen::Isometry3d> byStamp(const RunResult& run
   return poses;
 }
 
+void refineRun(RunResult& run, const RefinementProgress& progress) {
+  if (!run.record.is_whole)
+    throw std::runtime_error(
+        "the odometry began anew on the way; cut the recording there and refine each part");
+  const auto begin = std::chrono::steady_clock::now();
+  const Refinement refinement = refine(run.record, progress);
+  RefinedRun& refined = run.refined.emplace();
+  refined.T_map_base = refinedPath(run, refinement);
+  refined.keyframes = refinement.T_map_base.size();
+  refined.points = refinement.points.size();
+  refined.views = refinement.views;
+  refined.views_left_out = refinement.views_left_out;
+  if (run.map) run.map = refinedMap(std::move(*run.map), byStamp(run), refinement.points);
+  refined.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 }  // namespace
 
 std::string faultOfRefining(const SlamConfig& config) {
@@ -32,26 +49,21 @@ std::string faultOfRefining(const SlamConfig& config) {
   return "";
 }
 
-void refineRuns(std::vector<RunResult>& runs, int threads) {
+std::vector<std::string> refineRuns(std::vector<RunResult>& runs) {
   constexpr std::size_t kOfOne = 100;
+  std::vector<std::string> faults;
   ProgressLine line("replay: refining", kOfOne * runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    RunResult& run = runs[i];
-    const auto begin = std::chrono::steady_clock::now();
-    const Refinement refinement = refine(run.record, threads, [&](double share) {
-      line.update(kOfOne * i + static_cast<std::size_t>(kOfOne * share));
-    });
+    try {
+      refineRun(runs[i], [&](double share) {
+        line.update(kOfOne * i + static_cast<std::size_t>(kOfOne * share));
+      });
+    } catch (const std::runtime_error& e) {
+      faults.push_back(std::string("not refined: ") + e.what());
+    }
     line.update(kOfOne * (i + 1));
-    RefinedRun& refined = run.refined.emplace();
-    refined.T_map_base = refinedPath(run, refinement);
-    refined.keyframes = refinement.T_map_base.size();
-    refined.points = refinement.points.size();
-    refined.views = refinement.views;
-    refined.views_left_out = refinement.views_left_out;
-    if (run.map) run.map = refinedMap(std::move(*run.map), byStamp(run), refinement.points);
-    refined.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
+  return faults;
 }
 
 }  // namespace ardrone_vslam

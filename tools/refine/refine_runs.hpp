@@ -13,6 +13,7 @@ namespace ardrone_vslam {
 std::string faultOfRefining(const SlamConfig& config);
 
 /// Refines runs whose records were asked for: path and map. Shows how far it is.
-void refineRuns(std::vector<RunResult>& runs, int threads);
+/// @return a sentence for each that stays as it was, and why
+std::vector<std::string> refineRuns(std::vector<RunResult>& runs);
 
 }  // namespace ardrone_vslam

@@ -8,9 +8,10 @@ namespace {
 
 /// From one frame to another, as best known without the keyframes about them.
 Eigen::Isometry3d way(const RunFrame& from, const RunFrame& to) {
-  const bool rests = to.result.state == SlamState::kResting;
-  const auto pose = [rests](const RunFrame& frame) {
-    return rests ? frame.result.T_map_base : frame.result.T_odom_base;
+  // The filter holds a camera that rests, and takes jumps out of the odometry.
+  const bool is_fused = to.result.state == SlamState::kResting || to.result.odometry_step_m > 0;
+  const auto pose = [is_fused](const RunFrame& frame) {
+    return is_fused ? frame.result.T_map_base : frame.result.T_odom_base;
   };
   return pose(from).inverse() * pose(to);
 }

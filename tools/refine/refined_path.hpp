@@ -9,9 +9,9 @@
 
 namespace ardrone_vslam {
 
-/// The pose of base at each of a run's frames: between keyframes the odometry's way (while the
-/// camera rests the fused one), with what is left over at the next keyframe spread in time. Frames
-/// before the record begins keep the fused pose.
+/// The pose of base at each of a run's frames: between keyframes the odometry's way (where the
+/// camera rests or the odometry jumps the fused one), with what is left over at the next keyframe
+/// spread in time. Frames before the record begins keep the fused pose.
 std::vector<Eigen::Isometry3d> refinedPath(const RunResult& run, const Refinement& refinement);
 
 }  // namespace ardrone_vslam

@@ -16,7 +16,7 @@ constexpr double kMostSigmas = 4;  // beyond it a view is of another point
 
 }  // namespace
 
-Refinement refine(const FlightRecord& record, int threads, const RefinementProgress& progress) {
+Refinement refine(const FlightRecord& record, const RefinementProgress& progress) {
   Refinement refined;
   if (record.keyframes.empty()) return refined;
   constexpr double kUsualIterations = 40;
@@ -26,9 +26,9 @@ Refinement refine(const FlightRecord& record, int threads, const RefinementProgr
     if (progress) progress(std::min(steps / kUsualIterations, 1.0));
   };
   Bundle bundle(record);
-  for (const double bound : kBounds) bundle.solve(bound, threads, step);
+  for (const double bound : kBounds) bundle.solve(bound, step);
   bundle.drop(kMostSigmas);
-  bundle.solve(kBounds.back(), threads, step);
+  bundle.solve(kBounds.back(), step);
   for (std::size_t k = 0; k < record.keyframes.size(); ++k)
     refined.T_map_base.push_back(bundle.T_map_base(k));
   refined.points = bundle.points();

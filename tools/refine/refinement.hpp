@@ -16,7 +16,7 @@ struct Refinement {
   std::vector<Eigen::Isometry3d> T_map_base;  ///< of the record's keyframes
   std::vector<TrackPoint3d> points;
   std::size_t views = 0;           ///< that count
-  std::size_t views_left_out = 0;  ///< as they contradict the others
+  std::size_t views_left_out = 0;  ///< as they, or others of their point, contradict the rest
 };
 
 /// Told from time to time how much of the work is done, from 0 to 1; about, as nobody knows how
@@ -27,8 +27,8 @@ using RefinementProgress = std::function<void(double share)>;
 /// views, the odometry with the errors that the MSCKF believes it has, and heights. The scale is
 /// that of odometry and heights. The map stays where its first keyframe is. O(views) an iteration,
 /// and what the keyframes' sparse system takes.
-/// @param threads  the result may depend on them in its last digits
 /// @return nothing of a record without keyframes
-Refinement refine(const FlightRecord& record, int threads, const RefinementProgress& progress = {});
+/// @throws std::runtime_error when the solver fails
+Refinement refine(const FlightRecord& record, const RefinementProgress& progress = {});
 
 }  // namespace ardrone_vslam

@@ -10,8 +10,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::size_t kFewestViews = 3;  // two rays nearly always meet somewhere
-constexpr double kLeastParallax = 10;    // sigmas of a ray: a distance is known to a tenth
+constexpr double kLeastParallax = 10;  // sigmas of a ray: a distance is known to a tenth
 // Further off than poses of a few seconds can be: a track that jumped, a wrong landmark.
 constexpr double kOffTrack_rad = 0.02;
 constexpr double kOffLandmark_rad = 0.1;
@@ -36,8 +35,9 @@ Sight asMatch(Sight sight, const FlightRecord& record) {
   // A track has two of them, which err alike.
   const double sigma_rad = std::sqrt(2.0) * record.config.track_sigma_px /
                            record.keyframes[sight.keyframe].focal_length_px;
-  sight.root_base.rowwise().normalize();
-  sight.root_base /= sigma_rad;
+  const Eigen::Vector3d across = sight.bearing_base.unitOrthogonal();
+  sight.root_base.row(0) = across / sigma_rad;
+  sight.root_base.row(1) = sight.bearing_base.cross(across) / sigma_rad;
   sight.sigma_rad = sigma_rad;
   return sight;
 }
@@ -71,9 +71,10 @@ Eigen::Vector3d meetingPoint(const std::vector<MapRay>& rays) {
   return point;
 }
 
-/// Puts the point where its sights meet. @return whether it lies in front of all, near all rays,
-/// and is seen from places far enough apart
+/// Puts the point where its sights meet. @return whether they are enough, and it lies in front of
+/// all, near all rays, and is seen from places far enough apart
 bool place(const FlightRecord& record, TrackPoint3d& point) {
+  if (point.sights.size() < kFewestViews) return false;
   std::vector<MapRay> rays;
   rays.reserve(point.sights.size());
   double parallax_rad = 0;
@@ -109,7 +110,6 @@ std::vector<TrackPoint3d> pointsOf(const FlightRecord& record) {
       point.landmark_id = found->second;
       of_landmark[found->second].push_back(&sights);
     }
-    if (sights.size() < kFewestViews) continue;
     point.sights = sights;
     if (place(record, point)) points.push_back(std::move(point));
   }

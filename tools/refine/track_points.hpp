@@ -13,6 +13,8 @@ namespace ardrone_vslam {
 /// Root of what is known of a ray's direction [1/rad]: of unit noise is root * (true - measured).
 using SightRoot = Eigen::Matrix<double, 2, 3>;
 
+constexpr std::size_t kFewestViews = 3;  ///< two rays nearly always meet somewhere
+
 /// A keyframe's view of a point.
 struct Sight {
   std::size_t keyframe = 0;                                 ///< index into FlightRecord::keyframes
@@ -26,7 +28,7 @@ struct TrackPoint3d {
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();
   std::uint32_t landmark_id = 0;  ///< 0: no landmark
   bool is_joint = false;          ///< of several tracks
-  std::vector<Sight> sights;      ///< at least two, oldest first
+  std::vector<Sight> sights;      ///< at least kFewestViews
 };
 
 /// The points of all tracks with enough parallax, where the keyframes' poses put them. A track is a

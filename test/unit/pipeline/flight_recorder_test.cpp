@@ -67,7 +67,7 @@ TEST(FlightRecorder, KeepsKeyframesAndWhatLiesBetween) {
 TEST(FlightRecorder, NewTracksAreLeftOutAndOthersKnownAsConfigured) {
   Flight flight;
   flight.seeKeyframe(100);
-  EXPECT_EQ(flight.record().keyframes.at(0).views.size(), 10U);  // at first all are new
+  EXPECT_EQ(flight.record().keyframes.at(0).views.size(), 10U);  // the first one, too
   flight.seeKeyframe(1);
   const auto& views = flight.record().keyframes.at(1).views;
   ASSERT_EQ(views.size(), 9U);
@@ -109,35 +109,41 @@ TEST(FlightRecorder, JumpsOfTheOdometryAreNoWay) {
   EXPECT_GT(last.way_variance_m2, 8);
 }
 
-TEST(FlightRecorder, HeightsThatTheFilterRejectsAreLeftOut) {
+TEST(FlightRecorder, HeightsCountOnceAtTheNextKeyframe) {
   Flight flight;
   flight.odometry.height_m = 1.5;
   flight.result.height = HeightOutcome::kNewFloor;
-  flight.seeKeyframe(1);
+  flight.see(1);
   flight.result.height = HeightOutcome::kNone;  // too soon after the last one
+  flight.odometry.T_odom_base.translation().z() += 0.2;
+  flight.seeKeyframe(1);
   flight.seeKeyframe(100);
+  flight.result.height = HeightOutcome::kApplied;
+  flight.see(100);
   flight.result.height = HeightOutcome::kRejected;
   flight.seeKeyframe(200);
   const auto& keyframes = flight.record().keyframes;
-  EXPECT_EQ(keyframes.at(0).height_m, 1.5);
-  EXPECT_EQ(keyframes.at(1).height_m, 1.5);
+  EXPECT_NEAR(keyframes.at(0).height_m.value_or(0), 1.7, 1e-9);
+  EXPECT_FALSE(keyframes.at(1).height_m.has_value());
   EXPECT_FALSE(keyframes.at(2).height_m.has_value());
   EXPECT_EQ(keyframes.at(1).floor, keyframes.at(0).floor);
 }
 
-TEST(FlightRecorder, AnotherFlightIsAnotherRecord) {
+TEST(FlightRecorder, AFlightThatBeginsAnewIsNotWhole) {
   Flight flight;
   flight.seeKeyframe(1);
+  EXPECT_TRUE(flight.record().is_whole);
   ++flight.odometry.start;  // the driver was started again
   flight.seeKeyframe(100);
-  EXPECT_EQ(flight.record().keyframes.size(), 1U);
-  flight.result.state = SlamState::kSearchingMap;
   flight.seeKeyframe(200);
-  flight.seeKeyframe(300);
-  flight.result.state = SlamState::kRelocated;  // found: in another frame from now on
-  flight.seeKeyframe(400);
-  ASSERT_EQ(flight.record().keyframes.size(), 1U);
-  EXPECT_EQ(flight.record().keyframes[0].views[0].track_id, 400U);
+  EXPECT_FALSE(flight.record().is_whole);
+  EXPECT_TRUE(flight.record().keyframes.empty());
+  Flight searching;
+  searching.result.state = SlamState::kSearchingMap;
+  searching.seeKeyframe(1);
+  searching.result.state = SlamState::kRelocated;
+  searching.seeKeyframe(100);
+  EXPECT_FALSE(searching.record().is_whole);
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "ardrone_vslam/rotation.hpp"
 #include "recorded_flight.hpp"
 
 namespace ardrone_vslam {
@@ -12,8 +14,6 @@ namespace {
 
 using test::FlightErrors;
 using test::RecordedFlight;
-
-constexpr int kThreads = 1;
 
 /// Length of the refined way over the true one.
 double scaleOf(const RecordedFlight& flight, const Refinement& refined) {
@@ -35,14 +35,20 @@ FlightErrors drifting() {
 }
 
 TEST(Refinement, NothingComesOfNothing) {
-  const Refinement refined = refine({}, kThreads);
+  const Refinement refined = refine({});
   EXPECT_TRUE(refined.T_map_base.empty());
   EXPECT_TRUE(refined.points.empty());
 }
 
-TEST(Refinement, WhatIsExactStaysWhereItIs) {
-  const RecordedFlight flight{FlightErrors{}};
-  const Refinement refined = refine(flight.record, kThreads);
+TEST(Refinement, ExactMeasurementsGiveTheExactFlight) {
+  RecordedFlight flight{FlightErrors{}};
+  for (std::size_t k = 1; k < flight.record.keyframes.size(); ++k) {
+    Eigen::Isometry3d& T = flight.record.keyframes[k].T_map_base;
+    const auto x = static_cast<double>(k);
+    T.translation() += 0.03 * Eigen::Vector3d(std::sin(x), std::cos(2 * x), std::sin(3 * x));
+    T.linear() = rotationAboutZ(0.01 * std::sin(5 * x)) * T.linear();
+  }
+  const Refinement refined = refine(flight.record);
   EXPECT_LT(flight.rmse_m(refined.T_map_base), 1e-5);
   EXPECT_EQ(refined.views_left_out, 0U);
   EXPECT_GT(refined.points.size(), flight.points.size());  // of tracks, and of landmarks
@@ -55,7 +61,7 @@ TEST(Refinement, WhatIsExactStaysWhereItIs) {
 TEST(Refinement, TakesOutWhatTheOdometryDrifts) {
   const RecordedFlight flight{drifting()};
   ASSERT_GT(flight.rmse_m(flight.before()), 0.3);
-  const Refinement refined = refine(flight.record, kThreads);
+  const Refinement refined = refine(flight.record);
   EXPECT_LT(flight.rmse_m(refined.T_map_base), 0.11);  // 0.091 measured
   EXPECT_TRUE(refined.T_map_base.front().isApprox(flight.truth.front(), 0.01));
 }
@@ -64,7 +70,7 @@ TEST(Refinement, ViewsOfOtherPointsAreLeftOut) {
   FlightErrors errors = drifting();
   errors.wrong_views = 0.05;
   const RecordedFlight flight{errors};
-  const Refinement refined = refine(flight.record, kThreads);
+  const Refinement refined = refine(flight.record);
   EXPECT_LT(flight.rmse_m(refined.T_map_base), 0.09);  // 0.075 measured
   EXPECT_GT(refined.views_left_out, refined.views / 100);
 }
@@ -74,7 +80,7 @@ TEST(Refinement, AloneTheCameraKeepsTheScaleOfTheOdometry) {
   errors.corner_px = 0.5;
   errors.scale = 1.08;
   const RecordedFlight flight{errors};
-  EXPECT_NEAR(scaleOf(flight, refine(flight.record, kThreads)), 1.08, 0.02);
+  EXPECT_NEAR(scaleOf(flight, refine(flight.record)), 1.08, 0.02);
 }
 
 TEST(Refinement, HeightsTellTheScale) {
@@ -83,13 +89,13 @@ TEST(Refinement, HeightsTellTheScale) {
   errors.scale = 1.08;
   errors.height_m = 0.01;
   const RecordedFlight flight{errors};
-  EXPECT_NEAR(scaleOf(flight, refine(flight.record, kThreads)), 1, 0.01);
+  EXPECT_NEAR(scaleOf(flight, refine(flight.record)), 1, 0.01);
 }
 
 TEST(Refinement, TellsHowFarItIs) {
   const RecordedFlight flight{FlightErrors{}};
   std::vector<double> shares;
-  refine(flight.record, kThreads, [&shares](double share) { shares.push_back(share); });
+  refine(flight.record, [&shares](double share) { shares.push_back(share); });
   ASSERT_FALSE(shares.empty());
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_LE(shares.back(), 1);

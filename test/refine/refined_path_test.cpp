@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "ardrone_vslam/rotation.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -57,6 +59,27 @@ TEST(RefinedPath, WhileTheCameraRestsTheFusedPoseHolds) {
   const std::vector<double> x_m = xOf(refinedPath(run, refinement));
   EXPECT_NEAR(x_m[3], 0, 1e-9);
   EXPECT_NEAR(x_m[5], 2, 1e-9);
+}
+
+TEST(RefinedPath, JumpsOfTheOdometryAreNoWay) {
+  RunResult run = straightRun(5, {0, 4});
+  for (std::size_t i = 2; i < 5; ++i)
+    run.frames[i].result.T_odom_base = at(30.0 + static_cast<double>(i));
+  run.frames[2].result.odometry_step_m = 30;
+  Refinement refinement;
+  refinement.T_map_base = {at(0), at(4)};
+  EXPECT_NEAR(xOf(refinedPath(run, refinement))[1], 1, 1e-9);
+  EXPECT_NEAR(xOf(refinedPath(run, refinement))[3], 3, 1e-9);
+}
+
+TEST(RefinedPath, TurnsAreSpreadAsWell) {
+  const RunResult run = straightRun(5, {0, 4});
+  Refinement refinement;
+  refinement.T_map_base = {at(0), at(4)};
+  refinement.T_map_base[1].linear() = rotationAboutZ(0.4);
+  const auto path = refinedPath(run, refinement);
+  for (std::size_t i = 0; i < path.size(); ++i)
+    EXPECT_NEAR(yawOf(path[i].linear()), 0.1 * static_cast<double>(i), 1e-9);
 }
 
 TEST(RefinedPath, WithoutKeyframesItIsTheFusedOne) {
