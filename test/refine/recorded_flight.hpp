@@ -34,12 +34,10 @@ struct RecordedFlight {
   std::vector<Eigen::Vector3d> points;
 
   explicit RecordedFlight(const FlightErrors& errors) {
-    std::mt19937 generator(7);
-    std::uniform_real_distribution<double> around(-M_PI, M_PI), up(-1.5, 1.5), share(0, 1);
-    std::normal_distribution<double> normal(0, 1);
+    std::uniform_real_distribution<double> up(-1.5, 1.5);
     for (int i = 0; i < 300; ++i) {
-      const double angle = around(generator);
-      points.emplace_back(5 * std::cos(angle), 5 * std::sin(angle), up(generator));
+      const double angle = around_(generator_);
+      points.emplace_back(5 * std::cos(angle), 5 * std::sin(angle), up(generator_));
     }
     record.config.odometry.velocity_bias_m_s = 0.05;
     record.config.odometry.scale_sigma = 0.1;
@@ -49,28 +47,10 @@ struct RecordedFlight {
       truth.push_back(poseAt(k));
       follow(errors, keyframe);
       keyframe.views.clear();
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const bool is_wrong = share(generator) < errors.wrong_views;
-        const Eigen::Vector3d at = truth.back() * keyframe.T_base_cam * Eigen::Vector3d::Zero();
-        const Eigen::Matrix3d R_cam_map =
-            (truth.back().linear() * keyframe.T_base_cam.linear()).transpose();
-        const Eigen::Vector3d seen = R_cam_map * (points[i] - at);
-        const Eigen::Vector3d noise(normal(generator), normal(generator), 0);
-        const Eigen::Vector3d pixel = seen / seen.z() + errors.corner_px / kFocal_px * noise;
-        if (seen.z() < 0 || std::abs(pixel.x()) > 0.8 || std::abs(pixel.y()) > 0.6) continue;
-        const Eigen::Vector3d wrong(0.04 * around(generator), 0.04 * around(generator), 0);
-        KeyframeView view;
-        const std::size_t lap = k < kKeyframes / 2 ? 0 : 1;
-        view.track_id = static_cast<std::uint32_t>(1 + i + lap * points.size());
-        view.bearing_cam =
-            (pixel + (is_wrong ? wrong : Eigen::Vector3d(0, 0, 0))).normalized().cast<float>();
-        view.information_rad2 = Eigen::Matrix2f::Identity() * 1e6F;  // half a pixel
-        record.landmark_of_track[view.track_id] = static_cast<std::uint32_t>(i + 1);
-        keyframe.views.push_back(view);
-      }
+      for (std::size_t i = 0; i < points.size(); ++i) addView(errors, i, keyframe);
       if (errors.height_m >= 0)
         keyframe.height_m =
-            truth.back().translation().z() + 1 + errors.height_m * normal(generator);
+            truth.back().translation().z() + 1 + errors.height_m * normal_(generator_);
       record.keyframes.push_back(keyframe);
     }
   }
@@ -90,6 +70,28 @@ struct RecordedFlight {
 
  private:
   static constexpr double kStep_s = 0.5;
+
+  std::mt19937 generator_{7};
+  std::uniform_real_distribution<double> around_{-M_PI, M_PI};
+  std::normal_distribution<double> normal_{0, 1};
+
+  void addView(const FlightErrors& errors, std::size_t point, Keyframe& keyframe) {
+    std::uniform_real_distribution<double> share(0, 1);
+    const bool is_wrong = share(generator_) < errors.wrong_views;
+    const Eigen::Vector3d seen = (truth.back() * keyframe.T_base_cam).inverse() * points[point];
+    const Eigen::Vector3d noise(normal_(generator_), normal_(generator_), 0);
+    const Eigen::Vector3d wrong(0.04 * around_(generator_), 0.04 * around_(generator_), 0);
+    Eigen::Vector3d pixel = seen / seen.z() + errors.corner_px / kFocal_px * noise;
+    if (seen.z() < 0 || std::abs(pixel.x()) > 0.8 || std::abs(pixel.y()) > 0.6) return;
+    if (is_wrong) pixel += wrong;
+    const std::size_t lap = record.keyframes.size() < kKeyframes / 2 ? 0 : 1;
+    KeyframeView view;
+    view.track_id = static_cast<std::uint32_t>(1 + point + lap * points.size());
+    view.bearing_cam = pixel.normalized().cast<float>();
+    view.information_rad2 = Eigen::Matrix2f::Identity() * 1e6F;  // half a pixel
+    record.landmark_of_track[view.track_id] = static_cast<std::uint32_t>(point + 1);
+    keyframe.views.push_back(view);
+  }
 
   /// Two laps around the origin, up and down, looking outwards and ahead.
   static Eigen::Isometry3d poseAt(int k) {

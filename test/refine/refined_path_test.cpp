@@ -34,6 +34,7 @@ RunResult straightRun(int frames, const std::vector<int>& keyframes) {
 
 std::vector<double> xOf(const std::vector<Eigen::Isometry3d>& path) {
   std::vector<double> x_m;
+  x_m.reserve(path.size());
   for (const Eigen::Isometry3d& T : path) x_m.push_back(T.translation().x());
   return x_m;
 }

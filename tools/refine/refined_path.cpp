@@ -16,43 +16,41 @@ Eigen::Isometry3d way(const RunFrame& from, const RunFrame& to) {
   return pose(from).inverse() * pose(to);
 }
 
+/// Moves the poses after frame `from` so that the one of `to` is the refined one, those between by
+/// their share of the time.
+void spread(const RunResult& run, std::size_t from, std::size_t to,
+            const Eigen::Isometry3d& refined, std::vector<Eigen::Isometry3d>& path) {
+  const Eigen::Vector3d off_m = refined.translation() - path[to].translation();
+  const Eigen::Vector3d turn = rotationVectorOf(refined.linear() * path[to].linear().transpose());
+  const auto passed_ns = [&](std::size_t frame) {
+    return static_cast<double>(run.frames[frame].result.stamp_ns -
+                               run.frames[from].result.stamp_ns);
+  };
+  for (std::size_t i = from + 1; i <= to; ++i) {
+    const double share = passed_ns(i) / passed_ns(to);
+    path[i].translation() += share * off_m;
+    path[i].linear() = rotationOf(share * turn) * path[i].linear();
+  }
+}
+
 }  // namespace
 
 std::vector<Eigen::Isometry3d> refinedPath(const RunResult& run, const Refinement& refinement) {
   const auto& keyframes = run.record.keyframes;
   std::vector<Eigen::Isometry3d> path;
   path.reserve(run.frames.size());
-  std::size_t next = 0;    // of the keyframes
-  std::size_t begins = 0;  // the frame of the last one
+  std::size_t next = 0;  // of the keyframes
+  std::size_t last = 0;  // the frame of the one before
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     const RunFrame& frame = run.frames[i];
-    const bool is_keyframe =
-        next < keyframes.size() && keyframes[next].stamp_ns == frame.result.stamp_ns;
-    if (path.empty() || (next == 0 && !is_keyframe)) {
-      path.push_back(is_keyframe ? refinement.T_map_base[0] : frame.result.T_map_base);
-    } else {
-      path.push_back(path.back() * way(run.frames[i - 1], frame));
-    }
-    if (!is_keyframe) continue;
-    const Eigen::Isometry3d& refined = refinement.T_map_base[next];
-    if (next > 0) {
-      const Eigen::Vector3d off_m = refined.translation() - path[i].translation();
-      const Eigen::Vector3d turn =
-          rotationVectorOf(refined.linear() * path[i].linear().transpose());
-      const double span_ns =
-          static_cast<double>(frame.result.stamp_ns - run.frames[begins].result.stamp_ns);
-      for (std::size_t j = begins + 1; j <= i; ++j) {
-        const double share = static_cast<double>(run.frames[j].result.stamp_ns -
-                                                 run.frames[begins].result.stamp_ns) /
-                             span_ns;
-        path[j].translation() += share * off_m;
-        path[j].linear() = rotationOf(share * turn) * path[j].linear();
-      }
-    } else {
-      path[i] = refined;
-    }
-    begins = i;
-    ++next;
+    const bool has_begun = next > 0;
+    path.push_back(has_begun ? path.back() * way(run.frames[i - 1], frame)
+                             : frame.result.T_map_base);
+    if (next == keyframes.size() || keyframes[next].stamp_ns != frame.result.stamp_ns) continue;
+    const Eigen::Isometry3d& refined = refinement.T_map_base[next++];
+    if (has_begun) spread(run, last, i, refined, path);
+    path[i] = refined;
+    last = i;
   }
   return path;
 }

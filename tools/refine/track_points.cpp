@@ -93,35 +93,50 @@ bool place(const FlightRecord& record, TrackPoint3d& point) {
   });
 }
 
-}  // namespace
+using Sights = std::vector<Sight>;
 
-std::vector<TrackPoint3d> pointsOf(const FlightRecord& record) {
-  std::map<std::uint32_t, std::vector<Sight>> tracks;
+/// The sights of each track.
+std::map<std::uint32_t, Sights> tracksOf(const FlightRecord& record) {
+  std::map<std::uint32_t, Sights> tracks;
   for (std::size_t k = 0; k < record.keyframes.size(); ++k) {
     for (const KeyframeView& view : record.keyframes[k].views)
       tracks[view.track_id].push_back(sightOf(view, k, record.keyframes[k]));
   }
-  std::map<std::uint32_t, std::vector<const std::vector<Sight>*>> of_landmark;
+  return tracks;
+}
+
+/// Of a landmark that all these tracks show.
+TrackPoint3d jointPoint(std::uint32_t landmark_id, const std::vector<const Sights*>& tracks,
+                        const FlightRecord& record) {
+  TrackPoint3d point;
+  point.landmark_id = landmark_id;
+  point.is_joint = true;
+  for (const Sights* sights : tracks) {
+    point.sights.push_back(asMatch(sights->front(), record));
+    if (sights->size() > 1) point.sights.push_back(asMatch(sights->back(), record));
+  }
+  return point;
+}
+
+}  // namespace
+
+std::vector<TrackPoint3d> pointsOf(const FlightRecord& record) {
+  const std::map<std::uint32_t, Sights> tracks = tracksOf(record);
+  std::map<std::uint32_t, std::vector<const Sights*>> of_landmark;
   std::vector<TrackPoint3d> points;
   for (const auto& [id, sights] : tracks) {
     const auto found = record.landmark_of_track.find(id);
     TrackPoint3d point;
+    point.sights = sights;
     if (found != record.landmark_of_track.end()) {
       point.landmark_id = found->second;
       of_landmark[found->second].push_back(&sights);
     }
-    point.sights = sights;
     if (place(record, point)) points.push_back(std::move(point));
   }
   for (const auto& [id, its_tracks] : of_landmark) {
     if (its_tracks.size() < 2) continue;
-    TrackPoint3d point;
-    point.landmark_id = id;
-    point.is_joint = true;
-    for (const std::vector<Sight>* sights : its_tracks) {
-      point.sights.push_back(asMatch(sights->front(), record));
-      if (sights->size() > 1) point.sights.push_back(asMatch(sights->back(), record));
-    }
+    TrackPoint3d point = jointPoint(id, its_tracks, record);
     if (place(record, point)) points.push_back(std::move(point));
   }
   return points;
