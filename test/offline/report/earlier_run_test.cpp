@@ -21,7 +21,8 @@ Json summaryOfSeed(std::uint64_t seed) {
 }
 
 void writeOneRun(const TemporaryFolder& folder) {
-  const RunResult run;
+  RunResult run;
+  run.refined.emplace();
   writeRun(folder.path(), run, evaluate(run, {}), summaryOfSeed(1));
   folder.write("truth.tum", "");
 }
