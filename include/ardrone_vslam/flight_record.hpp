@@ -33,10 +33,10 @@ struct Keyframe {
   double focal_length_px = 0;                                    ///< ImageFeatures has it
   /// Of the way since the keyframe before, per axis, by white noise of the odometry and by jumps.
   double way_variance_m2 = 0;
-  double way_m = 0;                ///< length of that way
-  std::optional<double> height_m;  ///< above the floor, as the filter has used one since the last
-  int floor = 0;                   ///< which one, from 0 on
-  std::vector<KeyframeView> views;
+  double way_m = 0;                 ///< length of that way
+  std::optional<double> height_m;   ///< above the floor, as the filter has used one since the last
+  int floor = 0;                    ///< which one, from 0 on
+  std::vector<KeyframeView> views;  ///< of tracks that go on; at the first keyframe of all
 };
 
 /// What a flight in one piece has told about its way and its map, for refinement afterwards.
