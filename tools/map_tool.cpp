@@ -18,6 +18,10 @@
 #include "maps/map_text.hpp"
 #include "program/progress_line.hpp"
 #include "program/tool_main.hpp"
+#ifdef ARDRONE_VSLAM_WITH_CERES
+#include "refine/refined_map.hpp"
+#endif
+#include "trajectory/metrics.hpp"
 #include "trajectory/text_file.hpp"
 
 namespace {
@@ -50,7 +54,7 @@ int writePart(const Options& o, const SavedMap& part, std::size_t before, const 
 }
 
 int info(const Options& o) {
-  const nlohmann::ordered_json facts = factsOf(readMap(o.map));
+  const nlohmann::ordered_json facts = factsOf(readMap(o.map, WithFlight::kYes));
   if (o.as_json) {
     std::cout << facts.dump(2) << '\n';
     return 0;
@@ -60,9 +64,9 @@ int info(const Options& o) {
 }
 
 int verify(const Options& o) {
-  const SavedMap map = readMap(o.map);
-  std::printf("%s: sound: %zu landmarks, %zu anchors\n", o.map.c_str(), map.landmarks.size(),
-              map.anchors.size());
+  const SavedMap map = readMap(o.map, WithFlight::kYes);
+  std::printf("%s: sound: %zu landmarks, %zu anchors, %zu keyframes\n", o.map.c_str(),
+              map.landmarks.size(), map.anchors.size(), map.flight.keyframes.size());
   return 0;
 }
 
@@ -131,6 +135,44 @@ int mergeMaps(const Options& o) {
   return write(o.out, merged.map, a.landmarks.size() + b.landmarks.size());
 }
 
+#ifndef ARDRONE_VSLAM_WITH_CERES
+int refineMap(const Options& /*o*/) {
+  throw UsageError("refine: this map_tool was built without Ceres 2");
+}
+#else
+int refineMap(const Options& o) {
+  const SavedMap map = readMap(o.map, WithFlight::kYes);
+  if (map.flight.keyframes.empty())
+    throw MapFileError(
+        o.map +
+        ": there are no views in it, so nothing can be refined: it was made by another command of "
+        "map_tool or an earlier version, in a loaded map, or its odometry began anew");
+  Refinement refinement;
+  {
+    constexpr std::size_t kOfOne = 100;
+    ProgressLine progress("map_tool: refining", kOfOne);
+    refinement = refine(map.flight, [&progress](double share) {
+      progress.update(static_cast<std::size_t>(kOfOne * share));
+    });
+    progress.update(kOfOne);
+  }
+  const SavedMap refined = refinedMap(map, map.flight, refinement);
+  std::printf("%zu keyframes, %zu points, %zu views; %zu views contradict them and are left out\n",
+              refinement.T_map_base.size(), refinement.points.size(), refinement.views,
+              refinement.views_left_out);
+  std::vector<double> moved_m;
+  for (std::size_t i = 0; i < map.landmarks.size(); ++i)
+    moved_m.push_back((refined.landmarks[i].position_map - map.landmarks[i].position_map).norm());
+  std::printf("half of the landmarks moved by more than %.3f m\n", quantile(moved_m, 0.5));
+  const double later_s =
+      1e-9 * static_cast<double>(map.stamp_ns - map.flight.keyframes.back().stamp_ns);
+  constexpr double kUsual_s = 2;
+  if (later_s > kUsual_s)
+    std::printf("views of the last %.0f s are missing: what was found then moves along\n", later_s);
+  return write(o.out, refined, map.landmarks.size());
+}
+#endif
+
 /// A command with one map, which `run` answers.
 CLI::App* addCommand(CLI::App& app, const std::string& name, const std::string& what, Options& o) {
   CLI::App* command = app.add_subcommand(name, what);
@@ -168,6 +210,7 @@ void addOptions(CLI::App& app, Options& o) {
       addCommand(app, "merge", "two maps of one place as one, in the first one's frame", o);
   merge->add_option("other", o.other, "the second map file")->required();
   addOut(merge, o);
+  addOut(addCommand(app, "refine", "optimises the flight that made it, all at once (Ceres)", o), o);
   app.footer("Exit code: 0 done, 1 a map cannot be read, written or merged, 2 for wrong usage.");
 }
 
@@ -184,6 +227,7 @@ int main(int argc, char** argv) {
     if (command == "export") return exportMap(options);
     if (command == "prune") return pruneMap(options);
     if (command == "crop") return crop(options);
+    if (command == "refine") return refineMap(options);
     return mergeMaps(options);
   });
 }

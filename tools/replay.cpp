@@ -201,7 +201,8 @@ RunMaps mapsOf(const Options& o, const Sequence& sequence, const PipelineConfig&
 #ifdef ARDRONE_VSLAM_WITH_CERES
   if (o.maps.is_refined) fault = faultOfRefining(config.mapper);
 #endif
-  RunMaps maps{std::nullopt, !o.maps.saved.empty(), o.maps.is_refined};
+  const bool is_saved = !o.maps.saved.empty();
+  RunMaps maps{std::nullopt, is_saved, is_saved || o.maps.is_refined};
   const bool is_wanted = maps.is_saved || maps.is_recorded || !o.maps.loaded.empty();
   if (!fault.empty() && is_wanted) throw UsageError(fault);
   if (!o.maps.loaded.empty()) maps.loaded = loadMap(o.maps.loaded, sequence.camera());
@@ -273,7 +274,7 @@ int run(const Options& o) {
       runAll(*sequence, config, odometries, o.threads, show, speed, maps);
   progress.reset();  // ends its line
 #ifdef ARDRONE_VSLAM_WITH_CERES
-  if (maps.is_recorded) append(refineRuns(results), faults);
+  if (o.maps.is_refined) append(refineRuns(results), faults);
 #endif
   if (!unfinished.hasWritten()) removeEarlierRun(o.out);
   append(reportRuns(*sequence, odometries, results, report), faults);

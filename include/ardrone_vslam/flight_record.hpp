@@ -2,10 +2,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
@@ -23,6 +24,18 @@ struct KeyframeView {
   Eigen::Matrix2f information_rad2 = Eigen::Matrix2f::Zero();  ///< along columns and rows
 };
 
+/// A frame on the way to a keyframe that the filter may keep a pose of.
+struct PassedFrame {
+  std::int64_t stamp_ns = 0;                                      ///< of its image
+  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();  ///< as Keyframe has it
+};
+
+/// A track that showed a landmark.
+struct LandmarkTrack {
+  std::uint32_t track_id = 0;     ///< ImageFeatures::track_id
+  std::uint32_t landmark_id = 0;  ///< Landmark::id
+};
+
 /// What a batch optimisation needs of one keyframe.
 struct Keyframe {
   std::int64_t stamp_ns = 0;                                     ///< of its image
@@ -37,6 +50,8 @@ struct Keyframe {
   std::optional<double> height_m;   ///< above the floor, as the filter has used one since the last
   int floor = 0;                    ///< which one, from 0 on
   std::vector<KeyframeView> views;  ///< of tracks that go on; at the first keyframe of all
+  std::vector<LandmarkTrack> landmarks;  ///< seen since the keyframe before
+  std::vector<PassedFrame> passed;       ///< since the keyframe before, oldest first
 };
 
 /// What a flight in one piece has told about its way and its map, for refinement afterwards.
@@ -45,21 +60,22 @@ struct FlightRecord {
   MsckfConfig config;
   std::vector<Keyframe> keyframes;  ///< oldest first
   /// False, and then nothing else is here: the flight began anew on its way, or was looked for in a
-  /// map.
+  /// map, or the camera's mounting is not taken as exact.
   bool is_whole = true;
-  /// Landmark::id of a track's point, where it is in the map, or was.
-  std::unordered_map<std::uint32_t, std::uint32_t> landmark_of_track;
 };
 
 /// Keeps what a FlightRecord has, frame by frame.
 class FlightRecorder {
  public:
   /// @param T_base_cam  extrinsics of the first camera
-  FlightRecorder(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam);
+  /// @param most_views  no keyframe is added beyond; a view takes 32 bytes
+  FlightRecorder(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam,
+                 std::size_t most_views = std::numeric_limits<std::size_t>::max());
   ~FlightRecorder();
   /// The next frame is another camera's.
   void useCamera(const Eigen::Isometry3d& T_base_cam);
-  /// A frame that Slam::process() has answered, and the landmarks after it. O(landmarks).
+  /// A frame that Slam::process() has answered, and the landmarks after it. O(landmarks)
+  /// at keyframes.
   void see(const ImageFeatures& features, const OdometryState& odometry, const FrameResult& result,
            const std::vector<Landmark>& landmarks);
   /// Up to the last frame.

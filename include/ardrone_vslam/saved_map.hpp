@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ardrone_vslam/flight_record.hpp"
 #include "ardrone_vslam/landmark.hpp"
 
 namespace ardrone_vslam {
@@ -38,6 +39,7 @@ struct SavedMap {
   std::vector<MapAnchor> anchors;     ///< oldest first
   Eigen::MatrixXd anchor_covariance;  ///< of all anchors, kAnchor coordinates each
   std::vector<Landmark> landmarks;    ///< `anchor_id` is 1 + the index into `anchors`
+  FlightRecord flight;                ///< that made it; without keyframes: not kept
 };
 
 /// Where in a map somebody says that base is: a click in a picture of it.
@@ -56,7 +58,7 @@ class MapFileError : public std::runtime_error {
 /// Writes the map into a file beside `path` first, and onto the disk, so that there is always the
 /// old map or the new one. The same bytes on every processor. Landmarks with an anchor that is not
 /// there, or with numbers that cannot be (not finite, a negative variance, a view direction of
-/// another length than 1), are left out.
+/// another length than 1), are left out, and so is a flight that could not be read again.
 /// @throws MapFileError naming the file and what is wrong
 /// @return landmarks written
 std::size_t writeMap(const std::string& path, const SavedMap& map);
@@ -64,9 +66,12 @@ std::size_t writeMap(const std::string& path, const SavedMap& map);
 /// @throws MapFileError when writeMap() could not write there, as far as can be told before
 void checkWritable(const std::string& path);
 
+/// Whether a map is read with the record of the flight that made it, which a drone has no use for.
+enum class WithFlight { kNo, kYes };
+
 /// Reads a map file of this or an earlier version and checks all of it before it answers.
 /// @throws MapFileError naming the file, what is wrong and what to do
-SavedMap readMap(const std::string& path);
+SavedMap readMap(const std::string& path, WithFlight with_flight = WithFlight::kNo);
 
 /// What tells the camera of a map from another one (another calibration of one camera is the same);
 /// empty when nothing does.

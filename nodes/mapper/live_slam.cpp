@@ -6,6 +6,8 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr std::size_t kMostViews = 500'000;  // 16 MB
+
 std::string differenceOf(const SavedMap& map, const CameraIdentity& camera) {
   const MapCamera now{static_cast<int>(camera.width_px), static_cast<int>(camera.height_px),
                       camera.focal_length_px};
@@ -18,8 +20,10 @@ void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& 
                          const std::string& base, const std::string& frame) {
   if (slam_) {
     slam_->changeCamera(T_base_cam);
+    recorder_->useCamera(T_base_cam);
   } else {
     slam_ = std::make_unique<Slam>(config_, T_base_cam);
+    recorder_.emplace(config_.msckf, T_base_cam, kMostViews);
     if (loaded_) slam_->load(*loaded_);
   }
   setup_.useCamera(T_base_cam, base, frame);
@@ -43,6 +47,7 @@ SavedMap LiveSlam::save() const {
     throw MapFileError(std::string("nothing is saved: ") + explain(SlamState::kSearchingMap));
   SavedMap map = slam_ ? slam_->save() : SavedMap{};
   if (map.landmarks.empty()) throw MapFileError("there is no landmark to save: fly first");
+  map.flight = recorder_->record();
   return map;
 }
 
@@ -63,6 +68,8 @@ const FrameResult& LiveSlam::process(const Features& message, OdometryState odom
   setup_.see(features_, odometries, *slam_);
   odometry.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
   const FrameResult& result = slam_->process(features_, odometry, stage_clock_.hook());
+  if (config_.planar) odometry.height_m = 0;  // as the estimator has it
+  recorder_->see(features_, odometry, result, slam_->landmarks());
   has_answered_ = true;
   if (result.height == HeightOutcome::kRejected) ++counts_.heights_rejected;
   if (result.state == SlamState::kNotFinite) {

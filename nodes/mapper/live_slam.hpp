@@ -4,8 +4,10 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 
+#include "ardrone_vslam/flight_record.hpp"
 #include "ardrone_vslam/slam.hpp"
 #include "conversions/conversions.hpp"
 #include "inputs/camera_identity.hpp"
@@ -72,6 +74,7 @@ class LiveSlam {
   SlamConfig config_;
   std::shared_ptr<const SavedMap> loaded_;
   std::unique_ptr<Slam> slam_;
+  std::optional<FlightRecorder> recorder_;  // of the map in use
   SetupReport setup_;
   CameraIdentity camera_;
   Eigen::Isometry3d T_base_cam_ = Eigen::Isometry3d::Identity();

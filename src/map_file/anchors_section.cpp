@@ -55,19 +55,10 @@ std::string covarianceFault(const Eigen::MatrixXd& covariance) {
   return fault;
 }
 
-std::string poseFault(const Eigen::Isometry3d& pose) {
-  constexpr double kTolerance = 1e-5;
-  const Eigen::Matrix3d R = pose.linear();
-  if (!pose.translation().allFinite() || !R.allFinite()) return "has a pose that is not finite";
-  const bool is_rotation = (R * R.transpose()).isIdentity(kTolerance) && R.determinant() > 0;
-  return is_rotation ? "" : "has an attitude that is no rotation";
-}
-
 MapAnchor readAnchor(ByteReader& in) {
   MapAnchor anchor;
   anchor.stamp_ns = in.i64();
-  for (int i = 0; i < 3; ++i) anchor.T_map_rig.translation()[i] = in.f64();
-  for (int i = 0; i < 9; ++i) anchor.T_map_rig.linear()(i / 3, i % 3) = in.f64();
+  anchor.T_map_rig = readPose(in);
   return anchor;
 }
 
@@ -81,6 +72,28 @@ Eigen::MatrixXd readCovariance(ByteReader& in, Eigen::Index size) {
 }
 
 }  // namespace
+
+std::string poseFault(const Eigen::Isometry3d& pose) {
+  constexpr double kTolerance = 1e-5;
+  const Eigen::Matrix3d R = pose.linear();
+  if (!pose.translation().allFinite() || !R.allFinite()) return "has a pose that is not finite";
+  const bool is_rotation = (R * R.transpose()).isIdentity(kTolerance) && R.determinant() > 0;
+  return is_rotation ? "" : "has an attitude that is no rotation";
+}
+
+void writePose(const Eigen::Isometry3d& pose, ByteWriter& out) {
+  const Eigen::Vector3d position = pose.translation();
+  for (int i = 0; i < 3; ++i) out.f64(position[i]);
+  const Eigen::Matrix3d R = pose.linear();
+  for (int i = 0; i < 9; ++i) out.f64(R(i / 3, i % 3));
+}
+
+Eigen::Isometry3d readPose(ByteReader& in) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 3; ++i) pose.translation()[i] = in.f64();
+  for (int i = 0; i < 9; ++i) pose.linear()(i / 3, i % 3) = in.f64();
+  return pose;
+}
 
 std::string anchorsFault(const SavedMap& map) {
   const std::size_t count = map.anchors.size();
@@ -106,10 +119,7 @@ void writeAnchors(const std::vector<MapAnchor>& anchors, ByteWriter& out) {
   out.u32(static_cast<std::uint32_t>(anchors.size()));
   for (const MapAnchor& anchor : anchors) {
     out.i64(anchor.stamp_ns);
-    const Eigen::Vector3d position = anchor.T_map_rig.translation();
-    for (int i = 0; i < 3; ++i) out.f64(position[i]);
-    const Eigen::Matrix3d R = anchor.T_map_rig.linear();
-    for (int i = 0; i < 9; ++i) out.f64(R(i / 3, i % 3));
+    writePose(anchor.T_map_rig, out);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <new>
 
+#include "map_file/flight_section.hpp"
 #include "map_file/landmarks_section.hpp"
 
 namespace ardrone_vslam {
@@ -13,7 +14,7 @@ std::vector<std::uint8_t> bytesOf(const MapFileInput& file, const MapSection& se
 }
 
 /// @throws MapFileError that does not name the file
-SavedMap readUnnamed(const std::string& path) {
+SavedMap readUnnamed(const std::string& path, WithFlight with_flight) {
   const MapFileInput file(path);
   const SectionTable table(file);
   SavedMap map;
@@ -25,14 +26,16 @@ SavedMap readUnnamed(const std::string& path) {
   read(kCameraTag, readCamera);
   read(kAnchorsTag, readAnchors);
   readLandmarks(file, table.find(kLandmarksTag), map);
+  if (with_flight == WithFlight::kYes && table.search(kFlightTag) != nullptr)
+    read(kFlightTag, readFlight);
   return map;
 }
 
 }  // namespace
 
-SavedMap readMap(const std::string& path) {
+SavedMap readMap(const std::string& path, WithFlight with_flight) {
   try {
-    return readUnnamed(path);
+    return readUnnamed(path, with_flight);
   } catch (const MapFileError& error) {
     throw MapFileError(path + ": " + error.what());
   } catch (const std::bad_alloc&) {

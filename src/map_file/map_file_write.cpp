@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <new>
 
-#include "map_file/landmark_record.hpp"
+#include "map_file/flight_section.hpp"
+#include "map_file/landmarks_section.hpp"
 #include "map_file/map_file_output.hpp"
 
 namespace ardrone_vslam {
@@ -20,12 +21,13 @@ struct Layout {
   SmallSection camera{kCameraTag, {}};
   std::uint64_t anchors = 0;
   std::uint64_t landmarks = 0;
+  std::uint64_t flight = 0;  // none
   static constexpr std::uint64_t kEnd = 8;
-  static constexpr std::uint32_t kSections = 5;
 
+  std::uint32_t sections() const { return flight > 0 ? 6 : 5; }
   std::uint64_t fileSize() const {
-    return kMapHeaderSize + kSections * kSectionFrame + info.payload.size() +
-           camera.payload.size() + anchors + landmarks + kEnd;
+    return kMapHeaderSize + sections() * kSectionFrame + info.payload.size() +
+           camera.payload.size() + anchors + landmarks + flight + kEnd;
   }
 };
 
@@ -38,12 +40,18 @@ std::string mapFault(const SavedMap& map) {
   return fault.empty() ? fault : fault + "; make the map anew";
 }
 
-std::size_t countSavable(const SavedMap& map) {
-  const auto is_good = [&map](const Landmark& landmark) {
-    return landmarkFault(landmark, map.anchors.size()) == nullptr;
-  };
-  return static_cast<std::size_t>(
-      std::count_if(map.landmarks.begin(), map.landmarks.end(), is_good));
+bool isSavable(const Landmark& landmark, const SavedMap& map) {
+  return landmarkFault(landmark, map.anchors.size()) == nullptr;
+}
+
+/// Their ids.
+std::vector<std::uint32_t> savableLandmarks(const SavedMap& map) {
+  std::vector<std::uint32_t> ids;
+  ids.reserve(map.landmarks.size());
+  for (const Landmark& landmark : map.landmarks) {
+    if (isSavable(landmark, map)) ids.push_back(landmark.id);
+  }
+  return ids;
 }
 
 Layout layoutOf(const SavedMap& map, std::size_t landmarks) {
@@ -52,6 +60,8 @@ Layout layoutOf(const SavedMap& map, std::size_t landmarks) {
   writeCamera(map.camera, layout.camera.payload);
   layout.anchors = anchorsSize(map.anchors.size());
   layout.landmarks = 4 + std::uint64_t{kLandmarkRecord} * landmarks;
+  if (!map.flight.keyframes.empty() && flightFault(map.flight).empty())
+    layout.flight = flightSize(map.flight);
   return layout;
 }
 
@@ -76,8 +86,20 @@ void writeLandmarksSection(const SavedMap& map, std::size_t count, std::uint64_t
   file.begin(kLandmarksTag, size);
   file.buffer().u32(static_cast<std::uint32_t>(count));
   for (const Landmark& landmark : map.landmarks) {
-    if (landmarkFault(landmark, map.anchors.size()) != nullptr) continue;
+    if (!isSavable(landmark, map)) continue;
     writeLandmark(landmark, map.stamp_ns, file.buffer());
+    file.pass();
+  }
+  file.end();
+}
+
+void writeFlightSection(const FlightRecord& flight, const std::vector<std::uint32_t>& landmarks,
+                        std::uint64_t size, MapFileOutput& file) {
+  LandmarkNumbers numbers(landmarks);
+  file.begin(kFlightTag, size);
+  writeFlightHead(flight, file.buffer());
+  for (const Keyframe& keyframe : flight.keyframes) {
+    writeKeyframe(keyframe, numbers, file.buffer());
     file.pass();
   }
   file.end();
@@ -88,17 +110,19 @@ std::size_t writeAll(const std::string& path, const SavedMap& map) {
   const std::string fault = mapFault(map);
   if (!fault.empty())
     throw MapFileError(path + ": the map is not written, it could not be read again: " + fault);
-  const std::size_t count = countSavable(map);
+  const std::vector<std::uint32_t> landmarks = savableLandmarks(map);
+  const std::size_t count = landmarks.size();
   const Layout layout = layoutOf(map, count);
   if (layout.fileSize() > kMostMapBytes)
     throw MapFileError(path + ": the map is not written, " + std::to_string(count) +
                        " landmarks would make more than 2 GiB; bound the map (max_landmarks)");
   MapFileOutput file(path);
-  file.header(Layout::kSections);
+  file.header(layout.sections());
   writeSmall(layout.info, file);
   writeSmall(layout.camera, file);
   writeAnchorsSection(map, layout.anchors, file);
   writeLandmarksSection(map, count, layout.landmarks, file);
+  if (layout.flight > 0) writeFlightSection(map.flight, landmarks, layout.flight, file);
   file.begin(kEndTag, Layout::kEnd);
   file.buffer().u64(layout.fileSize());
   file.end();

@@ -28,6 +28,7 @@ constexpr SectionTag kInfoTag{'I', 'N', 'F', 'O'};
 constexpr SectionTag kCameraTag{'C', 'A', 'M', 'R'};
 constexpr SectionTag kAnchorsTag{'A', 'N', 'C', 'H'};
 constexpr SectionTag kLandmarksTag{'L', 'A', 'N', 'D'};
+constexpr SectionTag kFlightTag{'k', 'e', 'y', 'f'};  // versions that do not know it skip it
 constexpr SectionTag kEndTag{'D', 'O', 'N', 'E'};
 
 /// As text; what cannot be printed becomes "?".
@@ -40,6 +41,11 @@ std::string printable(const SectionTag& tag);
 // nothing is.
 std::string infoFault(const SavedMap& map);
 std::string anchorsFault(const SavedMap& map);
+
+/// What cannot be; empty when it can.
+std::string poseFault(const Eigen::Isometry3d& pose);
+void writePose(const Eigen::Isometry3d& pose, ByteWriter& out);
+Eigen::Isometry3d readPose(ByteReader& in);
 
 std::size_t anchorsSize(std::size_t anchors);  ///< bytes of the section
 

@@ -10,7 +10,8 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr SectionTag kKnown[] = {kInfoTag, kCameraTag, kAnchorsTag, kLandmarksTag, kEndTag};
+constexpr SectionTag kKnown[] = {kInfoTag,      kCameraTag, kAnchorsTag,
+                                 kLandmarksTag, kFlightTag, kEndTag};
 constexpr char kGoesOn[] = "the file is damaged: it goes on behind its last section";
 constexpr char kUseNewer[] = "use a newer version of ardrone_vslam";
 
@@ -102,17 +103,20 @@ void SectionTable::add(const MapSection& section) {
     throw MapFileError("the map has a section " + printable(section.tag) +
                        " that this version does not know and may not skip; " + kUseNewer);
   }
-  const auto is_same = [&section](const MapSection& other) { return other.tag == section.tag; };
-  if (std::any_of(sections_.begin(), sections_.end(), is_same))
+  if (search(section.tag) != nullptr)
     refuse("section " + printable(section.tag) + " is there twice");
   sections_.push_back(section);
 }
 
-const MapSection& SectionTable::find(const SectionTag& tag) const {
+const MapSection* SectionTable::search(const SectionTag& tag) const {
   const auto found = std::find_if(sections_.begin(), sections_.end(),
                                   [&tag](const MapSection& section) { return section.tag == tag; });
-  if (found == sections_.end())
-    refuse("the file is damaged: section " + printable(tag) + " is missing");
+  return found == sections_.end() ? nullptr : &*found;
+}
+
+const MapSection& SectionTable::find(const SectionTag& tag) const {
+  const MapSection* const found = search(tag);
+  if (found == nullptr) refuse("the file is damaged: section " + printable(tag) + " is missing");
   return *found;
 }
 

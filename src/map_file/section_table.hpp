@@ -25,6 +25,8 @@ class SectionTable {
   /// changed or too many, when a section is there twice, or when this version would have to know it
   explicit SectionTable(const MapFileInput& file);
 
+  /// nullptr when it is not there
+  const MapSection* search(const SectionTag& tag) const;
   /// @throws MapFileError when it is not there
   const MapSection& find(const SectionTag& tag) const;
 

@@ -31,12 +31,14 @@ Eigen::Matrix2d informationOf(const ImageFeatures& features, std::size_t i,
 struct FlightRecorder::State {
   MsckfConfig config;
   Eigen::Isometry3d T_base_cam;
+  std::size_t most_views = 0;
   FlightRecord record;
   OdometryStepWatch steps;
   std::optional<OdometryState> last;
   double travelled_m = 0;
   std::optional<double> floor_odom_m;  // by the last height that the filter has used
-  Keyframe next;                       // what has come together since the last one
+  std::size_t views = 0;
+  Keyframe next;  // what has come together since the last one
 
   void follow(const OdometryState& odometry) {
     const std::optional<OdometryStep> step = steps.see(odometry);
@@ -87,17 +89,42 @@ struct FlightRecorder::State {
       // Half of the new ones are not seen again. The first keyframe has no others, and is where the
       // map begins.
       if (features.age_frames[i] == 0 && !record.keyframes.empty()) continue;
-      next.views.push_back({features.track_id[i], features.bearing_cam[i],
-                            informationOf(features, i, config).cast<float>()});
+      const Eigen::Matrix2f information_rad2 = informationOf(features, i, config).cast<float>();
+      if (!(information_rad2.determinant() > 0)) continue;  // nothing is known along an edge
+      next.views.push_back({features.track_id[i], features.bearing_cam[i], information_rad2});
     }
+    views += next.views.size();
+  }
+
+  void addLandmarks(const std::vector<Landmark>& landmarks) {
+    const std::int64_t since_ns = record.keyframes.empty() ? 0 : record.keyframes.back().stamp_ns;
+    for (const Landmark& landmark : landmarks) {
+      if (landmark.last_seen_ns > since_ns)
+        next.landmarks.push_back({landmark.track_id, landmark.id});
+    }
+  }
+
+  /// Begins what lies between it and the one after.
+  void keep() {
+    record.keyframes.push_back(next);
+    next.views.clear();
+    next.landmarks.clear();
+    next.passed.clear();
+    next.height_m.reset();
+    floor_odom_m.reset();
+    next.way_variance_m2 = 0;
+    next.way_m = 0;
   }
 };
 
-FlightRecorder::FlightRecorder(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam)
+FlightRecorder::FlightRecorder(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam,
+                               std::size_t most_views)
     : state_(std::make_unique<State>()) {
   state_->config = config;
   state_->T_base_cam = T_base_cam;
+  state_->most_views = most_views;
   state_->record.config = config;
+  state_->record.is_whole = config.odometry.extrinsics_sigma_deg == 0;
 }
 
 FlightRecorder::~FlightRecorder() = default;
@@ -116,23 +143,19 @@ void FlightRecorder::see(const ImageFeatures& features, const OdometryState& odo
   if (!s.record.is_whole || result.state == SlamState::kNotFinite) return;
   s.follow(odometry);
   s.takeHeight(odometry, result.height);
-  for (const Landmark& landmark : landmarks) {
-    if (landmark.last_seen_ns == features.stamp_ns)
-      s.record.landmark_of_track[landmark.track_id] = landmark.id;
+  if (!result.is_keyframe || s.views + features.size() > s.most_views) return;
+  if (!s.isWorthKeeping(features)) {
+    s.next.passed.push_back({features.stamp_ns, s.next.T_odom_base});
+    return;
   }
-  if (!result.is_keyframe || !s.isWorthKeeping(features)) return;
   s.next.stamp_ns = features.stamp_ns;
   s.next.T_map_base = result.T_map_base;
   s.next.T_base_cam = s.T_base_cam;
   s.next.focal_length_px = features.focal_length_px;
   if (s.floor_odom_m) s.next.height_m = s.next.T_odom_base.translation().z() - *s.floor_odom_m;
   s.addViews(features);
-  s.record.keyframes.push_back(s.next);
-  s.next.views.clear();
-  s.next.height_m.reset();
-  s.floor_odom_m.reset();
-  s.next.way_variance_m2 = 0;
-  s.next.way_m = 0;
+  s.addLandmarks(landmarks);
+  s.keep();
   OdometryNoiseConfig& noise = s.record.config.odometry;
   noise.velocity_bias_m_s = result.velocity_bias_sigma_m_s;
   noise.yaw_walk_deg_per_sqrt_s =

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """map_tool with the maps of two rendered flights: what it tells, makes and refuses. A later flight finds itself in the merged map."""
+import csv
 import json
 import os
 import subprocess
@@ -73,6 +74,28 @@ class MapTool(TestWithFolder):
         self.refused(1, "no landmark is left", "crop", self.path("first.vmap"), "--from", 90, 90, 90, "--to", 91, 91, 91, "--out", self.path("no.vmap"))
         self.refused(2, "--from must be less", "crop", self.path("first.vmap"), "--from", 1, 1, 1, "--to", 1, 2, 2, "--out", self.path("no.vmap"))
         self.assertFalse(os.path.exists(self.path("no.vmap")))
+
+    def test_refine(self):
+        self.assertGreater(self.facts("first.vmap")["keyframes"], 20)  # 46
+        told = self.told("refine", self.path("first.vmap"), "--out", self.path("refined.vmap"))
+        self.assertRegex(told, r"(?s)keyframes, \d+ points, \d+ views; .*half of the landmarks moved by more than 0\.\d+ m\n")
+        # As of replay, which has the numbers that a file has as floats and ids of its own.
+        self.fly("as_flown", "0:250", 1, "--refine")
+        self.assertEqual(self.facts("as_flown.vmap")["keyframes"], 0)
+        for name in ("refined", "as_flown"):
+            self.told("export", self.path(name + ".vmap"), "--out", self.path(name + ".csv"))
+        places = [self.places(name + ".csv") for name in ("refined", "as_flown")]
+        self.assertEqual(len(places[0]), len(places[1]))
+        for one, other in zip(*places):
+            self.assertLess(max(abs(a - b) for a, b in zip(one, other)), 0.002)
+        for name in ("refined.vmap", "second_part.vmap"):
+            if name == "second_part.vmap":
+                self.told("prune", self.path("first.vmap"), "--least-seen", 3, "--out", self.path(name))
+            self.refused(1, "there are no views in it", "refine", self.path(name), "--out", self.path("no.vmap"))
+
+    def places(self, name):
+        with open(self.path(name)) as file:
+            return [[float(row[axis]) for axis in ("x_m", "y_m", "z_m")] for row in csv.DictReader(file)]
 
     def test_export(self):
         count = self.facts("first.vmap")["landmarks"]

@@ -26,7 +26,8 @@ void requireUsable(const SavedMap& map, const TemporaryFolder& folder) {
   const std::string first = folder.file("first.vmap");
   const std::string second = folder.file("second.vmap");
   require(writeMap(first, map) == map.landmarks.size(), "all landmarks that were read are written");
-  require(writeMap(second, readMap(first)) == map.landmarks.size(), "and come back");
+  require(writeMap(second, readMap(first, WithFlight::kYes)) == map.landmarks.size(),
+          "and come back");
   require(test::readFile(first) == test::readFile(second), "a map comes back as it was written");
 }
 
@@ -55,6 +56,9 @@ std::vector<Bytes> seeds() {
   RandomSource random(1);
   std::vector<Bytes> all{bytesOf(fileOfMap(test::smallMap(), folder)),
                          bytesOf(test::fileOf({{"INFO", ""}, {"extr", "to be skipped"}}))};
+  SavedMap with_flight = test::smallMap();
+  with_flight.flight = test::smallFlight();
+  all.push_back(bytesOf(fileOfMap(with_flight, folder)));
   for (int i = 0; i < 4; ++i)
     all.push_back(bytesOf(fileOfMap(test::randomMap(random, 2, 3), folder)));
   return all;
@@ -94,7 +98,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string path = folder.file("house.vmap");
   folder.write("house.vmap", {data, data + size});
   try {
-    const SavedMap map = readMap(path);
+    const SavedMap map = readMap(path, WithFlight::kYes);
     fuzz::requireUsable(map, folder);
     fuzz::requireFlyable(map);
   } catch (const MapFileError& error) {

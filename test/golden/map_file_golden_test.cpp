@@ -13,6 +13,7 @@ namespace ardrone_vslam::test {
 namespace {
 
 constexpr char kGolden[] = ARDRONE_VSLAM_TEST_DATA "/maps/version_1.vmap";
+constexpr char kGoldenFlight[] = ARDRONE_VSLAM_TEST_DATA "/maps/version_1_flight.vmap";
 
 TEST(MapFileGolden, AMapIsWrittenAsTheSameBytesEverywhere) {
   const TemporaryFolder folder;
@@ -53,6 +54,40 @@ TEST(MapFileGolden, TheFileIsReadAndWrittenAgain) {
   const TemporaryFolder folder;
   writeMap(folder.file("again.vmap"), map);
   EXPECT_TRUE(readFile(folder.file("again.vmap")) == readFile(kGolden));
+}
+
+TEST(MapFileGolden, AFlightGoesAlong) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("house.vmap");
+  SavedMap map = smallMap();
+  map.flight = smallFlight();
+  writeMap(path, map);
+  if (std::getenv("VSLAM_WRITE_GOLDEN_MAP") != nullptr) writeMap(kGoldenFlight, map);
+  EXPECT_TRUE(readFile(path) == readFile(kGoldenFlight)) << "another file than " << kGoldenFlight;
+  EXPECT_TRUE(readMap(kGoldenFlight).flight.keyframes.empty());  // unless it is asked for
+  map = readMap(kGoldenFlight, WithFlight::kYes);
+  writeMap(path, map);
+  EXPECT_TRUE(readFile(path) == readFile(kGoldenFlight));
+  EXPECT_EQ(map.flight.config.odometry.scale_sigma, 0.0625);
+  EXPECT_EQ(map.flight.config.track_sigma_px, 0.5);
+  ASSERT_EQ(map.flight.keyframes.size(), 2U);
+  EXPECT_EQ(map.flight.keyframes[0].views.at(1).track_id, 8U);
+  EXPECT_FALSE(map.flight.keyframes[0].height_m);
+  const Keyframe& last = map.flight.keyframes[1];
+  EXPECT_EQ(last.stamp_ns, 950'000'000'000);
+  EXPECT_EQ(last.T_map_base.matrix(), smallMap().anchors[1].T_map_rig.matrix());
+  EXPECT_EQ(last.T_odom_base.translation(), Eigen::Vector3d(1, -2, 0.5));
+  EXPECT_EQ(last.T_base_cam.linear()(0, 2), 1);
+  EXPECT_EQ(last.focal_length_px, 500);
+  EXPECT_EQ(last.way_variance_m2, 0.25);
+  EXPECT_EQ(last.way_m, 4);
+  EXPECT_EQ(last.height_m, -0.5);
+  EXPECT_EQ(last.floor, 1);
+  EXPECT_EQ(last.views.at(0).bearing_cam, Eigen::Vector3f(0, 0.6F, 0.8F));
+  EXPECT_EQ(last.views[0].information_rad2(1, 0), -128);
+  EXPECT_EQ(last.landmarks.at(0).landmark_id, 2U);
+  EXPECT_EQ(last.landmarks.at(1).landmark_id, 4U);  // behind those of the file
+  EXPECT_EQ(last.passed.at(0).stamp_ns, 925'000'000'000);
 }
 
 }  // namespace

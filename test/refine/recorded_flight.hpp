@@ -47,6 +47,7 @@ struct RecordedFlight {
       truth.push_back(poseAt(k));
       follow(errors, keyframe);
       keyframe.views.clear();
+      keyframe.landmarks.clear();
       for (std::size_t i = 0; i < points.size(); ++i) addView(errors, i, keyframe);
       if (errors.height_m >= 0)
         keyframe.height_m =
@@ -89,7 +90,7 @@ struct RecordedFlight {
     view.track_id = static_cast<std::uint32_t>(1 + point + lap * points.size());
     view.bearing_cam = pixel.normalized().cast<float>();
     view.information_rad2 = Eigen::Matrix2f::Identity() * 1e6F;  // half a pixel
-    record.landmark_of_track[view.track_id] = static_cast<std::uint32_t>(point + 1);
+    keyframe.landmarks.push_back({view.track_id, static_cast<std::uint32_t>(point + 1)});
     keyframe.views.push_back(view);
   }
 

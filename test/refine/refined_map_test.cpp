@@ -34,28 +34,53 @@ SavedMap twoAnchors() {
   return map;
 }
 
+/// Keyframes at 50 ns and 150 ns, at x = 0 and 2 by the odometry and as fused; the frame at 100 ns
+/// lies between.
+FlightRecord twoKeyframes() {
+  FlightRecord record;
+  record.keyframes.resize(2);
+  record.keyframes[0].stamp_ns = 50;
+  record.keyframes[1].stamp_ns = 150;
+  record.keyframes[1].T_odom_base = record.keyframes[1].T_map_base = turned(0, {2, 0, 0});
+  record.keyframes[1].passed = {{100, turned(0, {1, 0, 0})}};
+  return record;
+}
+
 TEST(RefinedMap, LandmarksGoWithTheirAnchors) {
-  const Eigen::Isometry3d first = turned(M_PI / 2, {0, 5, 0});
-  const SavedMap map = refinedMap(twoAnchors(), {{100, first}, {150, turned(1, {9, 9, 9})}}, {});
-  EXPECT_TRUE(map.anchors[0].T_map_rig.isApprox(first));
+  Refinement refinement;
+  refinement.T_map_base = {turned(M_PI / 2, {0, 4, 0}), turned(M_PI / 2, {0, 6, 0})};
+  SavedMap before = twoAnchors();
+  before.flight = twoKeyframes();
+  const SavedMap map = refinedMap(before, twoKeyframes(), refinement);
+  EXPECT_TRUE(map.anchors[0].T_map_rig.isApprox(turned(M_PI / 2, {0, 5, 0})));
   EXPECT_TRUE(map.landmarks[0].position_map.isApprox(Eigen::Vector3d(0, 6, 0)));
   EXPECT_TRUE(map.landmarks[0].view_direction_map.isApprox(Eigen::Vector3d(0, 1, 0)));
-  // The other anchor is of an earlier flight.
-  EXPECT_TRUE(map.landmarks[1].position_map.isApprox(Eigen::Vector3d(3, 0, 0)));
-  EXPECT_EQ(map.anchor_covariance, twoAnchors().anchor_covariance);
+  // The other anchor came after the last keyframe, at whose old place it is.
+  EXPECT_TRUE(map.anchors[1].T_map_rig.isApprox(refinement.T_map_base[1]));
+  EXPECT_TRUE(map.landmarks[1].position_map.isApprox(Eigen::Vector3d(0, 7, 0)));
+  EXPECT_EQ(map.anchor_covariance, before.anchor_covariance);
+  EXPECT_TRUE(map.flight.keyframes.empty());
 }
 
 TEST(RefinedMap, LandmarksWithAPointAreThere) {
-  std::vector<TrackPoint3d> points(3);
+  Refinement refinement;
+  refinement.T_map_base = {turned(0, {0, 0, 0}), turned(0, {2, 0, 0})};
+  std::vector<TrackPoint3d>& points = refinement.points;
+  points.resize(3);
   points[0].landmark_id = 2;
   points[0].position_map << 1, 1, 1;
   points[1].landmark_id = 0;  // a track that is no landmark
   points[2].landmark_id = 2;  // of all its tracks
   points[2].is_joint = true;
   points[2].position_map << 1, 1, 2;
-  const SavedMap map = refinedMap(twoAnchors(), {}, points);
-  EXPECT_EQ(map.landmarks[0].position_map, Eigen::Vector3d(2, 0, 0));
+  const SavedMap map = refinedMap(twoAnchors(), twoKeyframes(), refinement);
+  EXPECT_TRUE(map.landmarks[0].position_map.isApprox(Eigen::Vector3d(2, 0, 0)));
   EXPECT_EQ(map.landmarks[1].position_map, Eigen::Vector3d(1, 1, 2));
+}
+
+TEST(RefinedMap, WithoutKeyframesItStaysAsItIs) {
+  const SavedMap map = refinedMap(twoAnchors(), {}, {});
+  EXPECT_EQ(map.landmarks[0].position_map, Eigen::Vector3d(2, 0, 0));
 }
 
 }  // namespace

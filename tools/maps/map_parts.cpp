@@ -12,6 +12,7 @@ SavedMap withAnchors(const SavedMap& map, const std::vector<std::size_t>& anchor
   SavedMap part = map;
   part.anchors.clear();
   part.landmarks.clear();
+  part.flight = {};
   part.anchor_covariance.resize(coordinateOf(anchors.size()), coordinateOf(anchors.size()));
   std::vector<std::uint32_t> number(map.anchors.size(), 0);
   for (std::size_t i = 0; i < anchors.size(); ++i) {

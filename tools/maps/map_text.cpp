@@ -41,6 +41,10 @@ Json factsOf(const SavedMap& map) {
   facts["camera"] = {{"width_px", map.camera.width_px},
                      {"height_px", map.camera.height_px},
                      {"focal_length_px", map.camera.focal_length_px}};
+  std::size_t views = 0;
+  for (const Keyframe& keyframe : map.flight.keyframes) views += keyframe.views.size();
+  facts["keyframes"] = map.flight.keyframes.size();
+  facts["views"] = views;
   if (map.landmarks.empty()) return facts;
   Eigen::Vector3d least = map.landmarks.front().position_map;
   Eigen::Vector3d most = least;

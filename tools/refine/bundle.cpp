@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "refine/bundle.hpp"
 
-#include <glog/logging.h>
-
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "refine/bundle_solver.hpp"
 #include "refine/residuals.hpp"
 
 namespace ardrone_vslam {
@@ -40,18 +38,6 @@ ceres::CostFunction* priorOf(const Eigen::Vector3d& sigma) {
 ceres::CostFunction* slowErrorOf(const Eigen::Vector3d& keep, const Eigen::Vector3d& sigma) {
   return costOf<SlowErrorResidual, 3, 3, 3>({keep, sigma.cwiseMax(kLeast)});
 }
-
-class StepCallback : public ceres::IterationCallback {
- public:
-  explicit StepCallback(const std::function<void()>& step) : step_(step) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
-    if (step_) step_();
-    return ceres::SOLVER_CONTINUE;
-  }
-
- private:
-  const std::function<void()>& step_;
-};
 
 }  // namespace
 
@@ -165,28 +151,12 @@ void Bundle::addViews() {
 }
 
 void Bundle::solve(double most_sigmas, const std::function<void()>& step) {
-  FLAGS_minloglevel = google::GLOG_ERROR;  // Ceres warns of steps that it then makes shorter
-  // One camera sees no scale: a damped step would hardly move along it.
-  constexpr double kTrustRadius = 1e5;
   loss_.Reset(new ceres::CauchyLoss(most_sigmas), ceres::TAKE_OWNERSHIP);
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::SPARSE_SCHUR;
-  options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 20;
-  options.function_tolerance = 1e-5;
-  options.initial_trust_region_radius = kTrustRadius;
-  const auto order = std::make_shared<ceres::ParameterBlockOrdering>();
-  std::vector<double*> blocks;
-  problem_.GetParameterBlocks(&blocks);
-  for (double* block : blocks) order->AddElementToGroup(block, 1);
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    if (!views_of_[i].empty()) order->AddElementToGroup(points_[i].position_map.data(), 0);
-  options.linear_solver_ordering = order;
-  StepCallback callback(step);
-  options.callbacks.push_back(&callback);
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem_, &summary);
-  if (!summary.IsSolutionUsable()) throw std::runtime_error(summary.message);
+  std::vector<double*> points;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (!views_of_[i].empty()) points.push_back(points_[i].position_map.data());
+  }
+  solveBundle(problem_, points, poses_.size(), step);
 }
 
 void Bundle::drop(double most_sigmas) {

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 #include "program/progress_line.hpp"
@@ -14,14 +13,6 @@
 namespace ardrone_vslam {
 
 namespace {
-
-/// The refined path. @pre there is one
-std::unordered_map<std::int64_t, Eigen::Isometry3d> byStamp(const RunResult& run) {
-  std::unordered_map<std::int64_t, Eigen::Isometry3d> poses;
-  for (std::size_t i = 0; i < run.frames.size(); ++i)
-    poses.emplace(run.frames[i].result.stamp_ns, run.refined->T_map_base[i]);
-  return poses;
-}
 
 void refineRun(RunResult& run, const RefinementProgress& progress) {
   if (!run.record.is_whole)
@@ -35,7 +26,7 @@ void refineRun(RunResult& run, const RefinementProgress& progress) {
   refined.points = refinement.points.size();
   refined.views = refinement.views;
   refined.views_left_out = refinement.views_left_out;
-  if (run.map) run.map = refinedMap(std::move(*run.map), byStamp(run), refinement.points);
+  if (run.map) run.map = refinedMap(std::move(*run.map), run.record, refinement);
   refined.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "refine/refinement.hpp"
@@ -13,5 +15,11 @@ namespace ardrone_vslam {
 /// camera rests or the odometry jumps the fused one), with what is left over at the next keyframe
 /// spread in time. Frames before the record begins keep the fused pose.
 std::vector<Eigen::Isometry3d> refinedPath(const RunResult& run, const Refinement& refinement);
+
+/// T_map_base by the image's stamp [ns].
+using PosesByStamp = std::unordered_map<std::int64_t, Eigen::Isometry3d>;
+
+/// The poses of a record's keyframes and of the frames between them that the filter may have kept.
+PosesByStamp refinedPoses(const FlightRecord& record, const Refinement& refinement);
 
 }  // namespace ardrone_vslam

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 namespace ardrone_vslam {
@@ -105,6 +106,15 @@ std::map<std::uint32_t, Sights> tracksOf(const FlightRecord& record) {
   return tracks;
 }
 
+/// The landmark that a track shows; the last one where they became one.
+std::unordered_map<std::uint32_t, std::uint32_t> landmarksOf(const FlightRecord& record) {
+  std::unordered_map<std::uint32_t, std::uint32_t> of_track;
+  for (const Keyframe& keyframe : record.keyframes) {
+    for (const LandmarkTrack& seen : keyframe.landmarks) of_track[seen.track_id] = seen.landmark_id;
+  }
+  return of_track;
+}
+
 /// Of a landmark that all these tracks show.
 TrackPoint3d jointPoint(std::uint32_t landmark_id, const std::vector<const Sights*>& tracks,
                         const FlightRecord& record) {
@@ -122,13 +132,14 @@ TrackPoint3d jointPoint(std::uint32_t landmark_id, const std::vector<const Sight
 
 std::vector<TrackPoint3d> pointsOf(const FlightRecord& record) {
   const std::map<std::uint32_t, Sights> tracks = tracksOf(record);
+  const auto landmark_of_track = landmarksOf(record);
   std::map<std::uint32_t, std::vector<const Sights*>> of_landmark;
   std::vector<TrackPoint3d> points;
   for (const auto& [id, sights] : tracks) {
-    const auto found = record.landmark_of_track.find(id);
+    const auto found = landmark_of_track.find(id);
     TrackPoint3d point;
     point.sights = sights;
-    if (found != record.landmark_of_track.end()) {
+    if (found != landmark_of_track.end()) {
       point.landmark_id = found->second;
       of_landmark[found->second].push_back(&sights);
     }

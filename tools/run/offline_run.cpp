@@ -73,8 +73,11 @@ void BackEnd::watchSetup(const ImageFeatures& features) {
 
 RunResult BackEnd::result(bool is_finished, bool is_map_saved) const {
   RunResult run = run_;
-  if (is_map_saved && slam_.hasWholeMap()) run.map = slam_.save();
   if (is_finished && recorder_) run.record = recorder_->record();
+  if (is_map_saved && slam_.hasWholeMap()) {
+    run.map = slam_.save();
+    run.map->flight = run.record;
+  }
   run.time_offset = setup_.clock().estimate();
   run.image_time_offset_s = setup_.clock().used_s();
   run.images_travel = watch_.isStuck();

@@ -27,9 +27,12 @@ ORIGIN_M = (5.0, -3.0, 1.0)
 KEPT = os.path.join(os.environ["ROS_HOME"], "maps", "kept.vmap")
 
 
+def facts_of(path):
+    return json.loads(subprocess.run([rospy.get_param("~map_tool"), "info", path, "--json"], check=True, capture_output=True, text=True).stdout)
+
+
 def landmarks_in(path):
-    told = subprocess.run([rospy.get_param("~map_tool"), "info", path, "--json"], check=True, capture_output=True, text=True).stdout
-    return json.loads(told)["landmarks"]
+    return facts_of(path)["landmarks"]
 
 
 class TurnedDrone(Drone):
@@ -84,6 +87,9 @@ class MapServicesTest(unittest.TestCase):
         answer = call("save_map", MapFile, "rostest.vmap")
         self.assertTrue(answer.success, answer.message)
         self.assertIn(f"{landmarks} landmarks written to ", answer.message)
+        facts = facts_of(os.path.join(os.path.dirname(KEPT), "rostest.vmap"))
+        self.assertGreater(facts["keyframes"], 3)  # for map_tool refine
+        self.assertGreater(facts["views"], 20 * facts["keyframes"])
         end_s = time.time() + 2 * TIMEOUT_S  # after ten seconds, or twenty where there was no landmark yet
         while not os.path.exists(KEPT) and time.time() < end_s:
             time.sleep(0.1)

@@ -56,6 +56,36 @@ inline SavedMap smallMap() {
   return map;
 }
 
+/// A record that goes with smallMap().
+inline FlightRecord smallFlight() {
+  FlightRecord flight;
+  flight.config.odometry.scale_sigma = 0.0625;
+  flight.config.track_sigma_px = 0.5;
+  flight.keyframes.resize(2);
+  Keyframe& first = flight.keyframes[0];
+  Keyframe& second = flight.keyframes[1];
+  first.stamp_ns = 900'000'000'000;
+  second.stamp_ns = 950'000'000'000;
+  first.focal_length_px = second.focal_length_px = 500;
+  second.T_map_base = smallMap().anchors[1].T_map_rig;
+  second.T_odom_base.translation() << 1, -2, 0.5;
+  second.T_base_cam.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  second.way_variance_m2 = 0.25;
+  second.way_m = 4;
+  second.height_m = -0.5;
+  second.floor = 1;
+  KeyframeView view;
+  view.track_id = 7;
+  view.bearing_cam << 0, 0.6F, 0.8F;
+  view.information_rad2 << 1024, -128, -128, 512;
+  first.views = {view, view};
+  first.views[1].track_id = 8;
+  second.views = {view};
+  second.landmarks = {{7, 20}, {8, 99}};  // number 2 in the file, and one that is not in it
+  second.passed = {{925'000'000'000, second.T_odom_base}};
+  return flight;
+}
+
 /// How a landmark is after it was in a file: its own numbers in floats, ages in milliseconds.
 inline Landmark randomLandmark(RandomSource& random, std::size_t anchors, std::int64_t stamp_ns) {
   Landmark landmark;
@@ -176,7 +206,7 @@ inline std::string fileOf(const std::vector<RawSection>& sections) {
 /// What reading the file is refused with; empty if it is a map.
 inline std::string faultOf(const std::string& path) {
   try {
-    readMap(path);
+    readMap(path, WithFlight::kYes);
   } catch (const MapFileError& error) {
     return error.what();
   }

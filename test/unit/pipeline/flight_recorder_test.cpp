@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "ardrone_vslam/flight_record.hpp"
 
 namespace ardrone_vslam {
@@ -11,10 +13,13 @@ constexpr std::int64_t kFrame_ns = 100'000'000;
 /// Flies 0.1 m an image along x; every image is a keyframe that sees the tracks given last.
 class Flight {
  public:
-  Flight() : recorder_(MsckfConfig{}, Eigen::Isometry3d::Identity()) {}
+  explicit Flight(std::size_t most_views = 1000)
+      : recorder_(MsckfConfig{}, Eigen::Isometry3d::Identity(), most_views) {}
 
   std::vector<Landmark> landmarks;
-  FrameResult result;  ///< of the next image
+  bool sees_landmarks = true;
+  std::optional<PixelInformation> information;  ///< of each feature
+  FrameResult result;                           ///< of the next image
   OdometryState odometry;
 
   void see(std::uint32_t first_track, std::uint32_t count = 10) {
@@ -30,7 +35,10 @@ class Flight {
       features.descriptor.emplace_back();
     }
     odometry.T_odom_base.translation().x() += 0.1;
-    for (Landmark& landmark : landmarks) landmark.last_seen_ns = stamp_ns_;
+    if (information) features.information.resize(count, *information);
+    for (Landmark& landmark : landmarks) {
+      if (sees_landmarks) landmark.last_seen_ns = stamp_ns_;
+    }
     recorder_.see(features, odometry, result, landmarks);
   }
   void seeKeyframe(std::uint32_t first_track) {
@@ -87,14 +95,46 @@ TEST(FlightRecorder, KeyframesThatShowTheSameAreOne) {
 
 TEST(FlightRecorder, TracksBelongToTheLandmarksThatAreSeenByThem) {
   Flight flight;
+  flight.seeKeyframe(1);
   flight.landmarks.resize(1);
   flight.landmarks[0].id = 7;
   flight.landmarks[0].track_id = 3;
   flight.see(1);
-  flight.landmarks[0].track_id = 30;
-  flight.see(30);
-  EXPECT_EQ(flight.record().landmark_of_track.at(3), 7U);
-  EXPECT_EQ(flight.record().landmark_of_track.at(30), 7U);
+  flight.sees_landmarks = false;
+  flight.seeKeyframe(100);
+  flight.seeKeyframe(200);
+  const auto& keyframes = flight.record().keyframes;
+  ASSERT_EQ(keyframes.at(1).landmarks.size(), 1U);
+  EXPECT_EQ(keyframes[1].landmarks[0].track_id, 3U);
+  EXPECT_EQ(keyframes[1].landmarks[0].landmark_id, 7U);
+  EXPECT_TRUE(keyframes.at(2).landmarks.empty());  // it was not seen again
+}
+
+TEST(FlightRecorder, FramesThatAreNotKeptHaveTheOdometrysPose) {
+  Flight flight;
+  flight.seeKeyframe(1);
+  flight.see(1);
+  flight.seeKeyframe(1);  // all of its tracks go on
+  flight.seeKeyframe(100);
+  const auto& passed = flight.record().keyframes.at(1).passed;
+  ASSERT_EQ(passed.size(), 1U);
+  EXPECT_EQ(passed[0].stamp_ns, 3 * kFrame_ns);
+  EXPECT_NEAR(passed[0].T_odom_base.translation().x(), 0.3, 1e-9);
+}
+
+TEST(FlightRecorder, ItStopsWhereThereIsNoRoom) {
+  Flight flight(25);
+  for (const std::uint32_t first : {1, 100, 200, 300}) flight.seeKeyframe(first);
+  // 10 and 9 views, and 10 might come.
+  EXPECT_EQ(flight.record().keyframes.size(), 2U);
+  EXPECT_TRUE(flight.record().is_whole);
+}
+
+TEST(FlightRecorder, WhatIsNotKnownAlongAnEdgeIsLeftOut) {
+  Flight flight;
+  flight.information = PixelInformation{0, 0, 1};
+  flight.seeKeyframe(1);
+  EXPECT_TRUE(flight.record().keyframes.at(0).views.empty());
 }
 
 TEST(FlightRecorder, JumpsOfTheOdometryAreNoWay) {
