@@ -151,7 +151,7 @@ int refineMap(const Options& o) {
   {
     constexpr std::size_t kOfOne = 100;
     ProgressLine progress("map_tool: refining", kOfOne);
-    refinement = refine(map.flight, [&progress](double share) {
+    refinement = refine(map.flight, map.anchors, [&progress](double share) {
       progress.update(static_cast<std::size_t>(kOfOne * share));
     });
     progress.update(kOfOne);

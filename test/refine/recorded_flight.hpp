@@ -19,6 +19,7 @@ struct FlightErrors {
   Eigen::Vector3d bias_m_s{0, 0, 0};  ///< of the odometry, axes of base
   double yaw_rad_per_s = 0;           ///< drift of the odometry
   double scale = 1;                   ///< of the odometry
+  double way_m = 0;                   ///< white noise of the odometry a keyframe, per axis
   double height_m = -1;               ///< sigma of heights; negative: there are none
 };
 
@@ -33,7 +34,7 @@ struct RecordedFlight {
   std::vector<Eigen::Isometry3d> truth;
   std::vector<Eigen::Vector3d> points;
 
-  explicit RecordedFlight(const FlightErrors& errors) {
+  explicit RecordedFlight(const FlightErrors& errors, unsigned seed = 7) : generator_(seed) {
     std::uniform_real_distribution<double> up(-1.5, 1.5);
     for (int i = 0; i < 300; ++i) {
       const double angle = around_(generator_);
@@ -72,7 +73,7 @@ struct RecordedFlight {
  private:
   static constexpr double kStep_s = 0.5;
 
-  std::mt19937 generator_{7};
+  std::mt19937 generator_;
   std::uniform_real_distribution<double> around_{-M_PI, M_PI};
   std::normal_distribution<double> normal_{0, 1};
 
@@ -116,6 +117,8 @@ struct RecordedFlight {
       const Eigen::Vector3d way_m = truth[k].translation() - truth[k - 1].translation();
       const Eigen::Vector3d bias_m = truth[k - 1].linear() * errors.bias_m_s * kStep_s;
       keyframe.T_odom_base.translation() += drift * (errors.scale * way_m + bias_m);
+      for (double& x_m : keyframe.T_odom_base.translation())
+        x_m += errors.way_m * normal_(generator_);
       keyframe.way_variance_m2 = 1e-4;
       keyframe.way_m = way_m.norm();
     }

@@ -58,7 +58,7 @@ TEST(RefinedMap, LandmarksGoWithTheirAnchors) {
   // The other anchor came after the last keyframe, at whose old place it is.
   EXPECT_TRUE(map.anchors[1].T_map_rig.isApprox(refinement.T_map_base[1]));
   EXPECT_TRUE(map.landmarks[1].position_map.isApprox(Eigen::Vector3d(0, 7, 0)));
-  EXPECT_EQ(map.anchor_covariance, before.anchor_covariance);
+  EXPECT_EQ(map.anchor_covariance, before.anchor_covariance);  // as none was made
   EXPECT_TRUE(map.flight.keyframes.empty());
 }
 
@@ -76,6 +76,14 @@ TEST(RefinedMap, LandmarksWithAPointAreThere) {
   const SavedMap map = refinedMap(twoAnchors(), twoKeyframes(), refinement);
   EXPECT_TRUE(map.landmarks[0].position_map.isApprox(Eigen::Vector3d(2, 0, 0)));
   EXPECT_EQ(map.landmarks[1].position_map, Eigen::Vector3d(1, 1, 2));
+}
+
+TEST(RefinedMap, HasTheCovarianceOfTheRefinement) {
+  Refinement refinement;
+  refinement.T_map_base = {turned(0, {0, 0, 0}), turned(0, {2, 0, 0})};
+  refinement.anchor_covariance = 0.5 * Eigen::MatrixXd::Identity(14, 14);
+  const SavedMap map = refinedMap(twoAnchors(), twoKeyframes(), refinement);
+  EXPECT_EQ(map.anchor_covariance, refinement.anchor_covariance);
 }
 
 TEST(RefinedMap, WithoutKeyframesItStaysAsItIs) {

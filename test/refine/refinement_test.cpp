@@ -95,7 +95,7 @@ TEST(Refinement, HeightsTellTheScale) {
 TEST(Refinement, TellsHowFarItIs) {
   const RecordedFlight flight{FlightErrors{}};
   std::vector<double> shares;
-  refine(flight.record, [&shares](double share) { shares.push_back(share); });
+  refine(flight.record, {}, [&shares](double share) { shares.push_back(share); });
   ASSERT_FALSE(shares.empty());
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_LE(shares.back(), 1);

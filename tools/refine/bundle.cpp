@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "ardrone_vslam/saved_map.hpp"
+#include "refine/bundle_covariance.hpp"
 #include "refine/bundle_solver.hpp"
 #include "refine/residuals.hpp"
 
@@ -150,13 +153,17 @@ void Bundle::addViews() {
   }
 }
 
+std::vector<double*> Bundle::pointBlocks() {
+  std::vector<double*> blocks;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (!views_of_[i].empty()) blocks.push_back(points_[i].position_map.data());
+  }
+  return blocks;
+}
+
 void Bundle::solve(double most_sigmas, const std::function<void()>& step) {
   loss_.Reset(new ceres::CauchyLoss(most_sigmas), ceres::TAKE_OWNERSHIP);
-  std::vector<double*> points;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (!views_of_[i].empty()) points.push_back(points_[i].position_map.data());
-  }
-  solveBundle(problem_, points, poses_.size(), step);
+  solveBundle(problem_, pointBlocks(), poses_.size(), step);
 }
 
 void Bundle::drop(double most_sigmas) {
@@ -198,6 +205,25 @@ Eigen::Isometry3d Bundle::T_map_base(std::size_t keyframe) const {
   T.translation() += Eigen::Vector3d(error);
   T.linear() = rotationOf(Eigen::Vector3d(error + 3)) * T.linear();
   return T;
+}
+
+Eigen::MatrixXd Bundle::covariance(const std::vector<std::size_t>& keyframes) {
+  constexpr Eigen::Index kPose = 6;
+  std::map<std::size_t, Eigen::Index> column_of;
+  std::vector<double*> wanted{&scale_error_};
+  for (const std::size_t k : keyframes) {
+    const auto next = 1 + kPose * static_cast<Eigen::Index>(column_of.size());
+    if (column_of.emplace(k, next).second) wanted.push_back(poses_[k].data());
+  }
+  const Eigen::MatrixXd P = covarianceOf(problem_, wanted, pointBlocks());
+  const auto anchors = static_cast<Eigen::Index>(keyframes.size());
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(SavedMap::kAnchor * anchors, P.cols());
+  for (Eigen::Index i = 0; i < anchors; ++i) {
+    auto rows = J.middleRows<SavedMap::kAnchor>(SavedMap::kAnchor * i);
+    rows.topRows<kPose>().middleCols<kPose>(column_of[keyframes[i]]).setIdentity();
+    rows(kPose, 0) = 1;  // all distances are too long by the odometry's scale error
+  }
+  return J * P * J.transpose();
 }
 
 std::vector<TrackPoint3d> Bundle::points() const {

@@ -29,6 +29,9 @@ class Bundle {
 
   Eigen::Isometry3d T_map_base(std::size_t keyframe) const;
   std::vector<TrackPoint3d> points() const;
+  /// Of these keyframes, each with the coordinates of a SavedMap's anchor, which errs as it does.
+  /// @throws std::runtime_error when nothing tells it
+  Eigen::MatrixXd covariance(const std::vector<std::size_t>& keyframes);
   std::size_t views() const;                        ///< that count
   std::size_t dropped() const { return dropped_; }  ///< and those left out
 
@@ -43,6 +46,7 @@ class Bundle {
   void addStep(std::size_t to);
   void addHeights();
   void addViews();
+  std::vector<double*> pointBlocks();
   void add(ceres::CostFunction* cost, std::initializer_list<double*> of);
 
   const FlightRecord& record_;

@@ -19,7 +19,8 @@ void refineRun(RunResult& run, const RefinementProgress& progress) {
     throw std::runtime_error(
         "the odometry began anew on the way; cut the recording there and refine each part");
   const auto begin = std::chrono::steady_clock::now();
-  const Refinement refinement = refine(run.record, progress);
+  const Refinement refinement =
+      refine(run.record, run.map ? run.map->anchors : std::vector<MapAnchor>{}, progress);
   RefinedRun& refined = run.refined.emplace();
   refined.T_map_base = refinedPath(run, refinement);
   refined.keyframes = refinement.T_map_base.size();

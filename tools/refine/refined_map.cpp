@@ -9,6 +9,7 @@ namespace ardrone_vslam {
 
 SavedMap refinedMap(SavedMap map, const FlightRecord& record, const Refinement& refinement) {
   map.flight = {};
+  if (refinement.anchor_covariance.size() > 0) map.anchor_covariance = refinement.anchor_covariance;
   if (record.keyframes.empty()) return map;
   // Joint points follow the single ones, and are the better places for what is seen again.
   std::unordered_map<std::uint32_t, const TrackPoint3d*> point_of;

@@ -8,8 +8,8 @@ namespace ardrone_vslam {
 
 /// The flight's map with what the refinement says: anchors stand on the refined path, landmarks
 /// where their points are, or else where they were beside their anchor. What came after the last
-/// keyframe moves as that did. The covariance stays the flight's, which is larger than what remains
-/// of the errors. The record goes.
+/// keyframe moves as that did. The anchors' covariance is the refinement's, where it was asked for;
+/// landmarks keep theirs, beside their anchor. The record goes.
 /// @param map  of the record's flight, with the landmarks' ids that it has
 SavedMap refinedMap(SavedMap map, const FlightRecord& record, const Refinement& refinement);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ardrone_vslam/flight_record.hpp"
+#include "ardrone_vslam/saved_map.hpp"
 #include "refine/track_points.hpp"
 
 namespace ardrone_vslam {
@@ -15,6 +16,8 @@ namespace ardrone_vslam {
 struct Refinement {
   std::vector<Eigen::Isometry3d> T_map_base;  ///< of the record's keyframes
   std::vector<TrackPoint3d> points;
+  /// SavedMap::anchor_covariance of the anchors that were named.
+  Eigen::MatrixXd anchor_covariance;
   std::size_t views = 0;           ///< that count
   std::size_t views_left_out = 0;  ///< as they, or others of their point, contradict the rest
 };
@@ -27,8 +30,10 @@ using RefinementProgress = std::function<void(double share)>;
 /// views, the odometry with the errors that the MSCKF believes it has, and heights. The scale is
 /// that of odometry and heights. The map stays where its first keyframe is. O(views) an iteration,
 /// and what the keyframes' sparse system takes.
+/// @param anchors  of the flight's map: how well each is known is that of the keyframe before it
 /// @return nothing of a record without keyframes
 /// @throws std::runtime_error when the solver fails
-Refinement refine(const FlightRecord& record, const RefinementProgress& progress = {});
+Refinement refine(const FlightRecord& record, const std::vector<MapAnchor>& anchors = {},
+                  const RefinementProgress& progress = {});
 
 }  // namespace ardrone_vslam
