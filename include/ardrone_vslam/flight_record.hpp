@@ -12,8 +12,8 @@
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/frame_result.hpp"
 #include "ardrone_vslam/landmark.hpp"
-#include "ardrone_vslam/msckf_config.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/slam_config.hpp"
 
 namespace ardrone_vslam {
 
@@ -69,7 +69,7 @@ class FlightRecorder {
  public:
   /// @param T_base_cam  extrinsics of the first camera
   /// @param most_views  no keyframe is added beyond; a view takes 32 bytes
-  FlightRecorder(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam,
+  FlightRecorder(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
                  std::size_t most_views = std::numeric_limits<std::size_t>::max());
   ~FlightRecorder();
   /// The next frame is another camera's.
@@ -80,6 +80,8 @@ class FlightRecorder {
            const std::vector<Landmark>& landmarks);
   /// Up to the last frame.
   const FlightRecord& record() const;
+  /// The same without a copy. There is nothing more to see then.
+  FlightRecord take();
 
  private:
   struct State;

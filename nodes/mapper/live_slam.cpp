@@ -23,7 +23,7 @@ void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& 
     recorder_->useCamera(T_base_cam);
   } else {
     slam_ = std::make_unique<Slam>(config_, T_base_cam);
-    recorder_.emplace(config_.msckf, T_base_cam, kMostViews);
+    recorder_.emplace(config_, T_base_cam, kMostViews);
     if (loaded_) slam_->load(*loaded_);
   }
   setup_.useCamera(T_base_cam, base, frame);
@@ -68,7 +68,6 @@ const FrameResult& LiveSlam::process(const Features& message, OdometryState odom
   setup_.see(features_, odometries, *slam_);
   odometry.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
   const FrameResult& result = slam_->process(features_, odometry, stage_clock_.hook());
-  if (config_.planar) odometry.height_m = 0;  // as the estimator has it
   recorder_->see(features_, odometry, result, slam_->landmarks());
   has_answered_ = true;
   if (result.height == HeightOutcome::kRejected) ++counts_.heights_rejected;

@@ -9,26 +9,36 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <utility>
 
 namespace ardrone_vslam {
 namespace {
 
-constexpr int kNothingToSave = 2;  // exit code of the child
+constexpr int kNothingToSave = 2;           // exit code of the child
+constexpr std::size_t kMostViews = 60'000;  // 2 MB
 
 void say(const std::string& path, const std::string& sentence) {
   std::fprintf(stderr, "vslam_onboard: %s: %s\n", path.c_str(), sentence.c_str());
 }
 
-/// In the child. @return its exit code
-int writeInChild(const std::string& path, const Slam& slam) {
+/// The flight's map with what it can be refined with. Nothing more can be recorded then.
+SavedMap mapOf(const Slam& slam, std::optional<FlightRecorder>& recorder) {
+  SavedMap map = slam.save();
+  if (recorder) map.flight = recorder->take();
+  return map;
+}
+
+/// In the child, which has memory of its own. @return its exit code
+int writeInChild(const std::string& path, const Slam& slam,
+                 std::optional<FlightRecorder>& recorder) {
   constexpr int kLast = 19;  // after everything else
   constexpr int kMostDescriptors = 256;
   ::setpriority(PRIO_PROCESS, 0, kLast);
   // Camera and ports are the parent's: it may be killed and started again before this has ended.
   for (int descriptor = 3; descriptor < kMostDescriptors; ++descriptor) ::close(descriptor);
   try {
-    const SavedMap map = slam.save();
+    const SavedMap map = mapOf(slam, recorder);
     if (map.landmarks.empty()) return kNothingToSave;
     writeMap(path, map);
     return 0;
@@ -65,8 +75,31 @@ std::optional<SavedMap> FlightMap::read(const MapCamera& camera, std::size_t mos
   return map;
 }
 
+bool FlightMap::isToBeSaved() const {
+  return !files_.saved.empty() && !files_.is_fixed && !is_given_up_;
+}
+
+void FlightMap::begin(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
+  recorder_.reset();
+  if (isToBeSaved()) recorder_.emplace(config, T_base_cam, kMostViews);
+}
+
+void FlightMap::see(const ImageFeatures& features, const OdometryState& odometry,
+                    const FrameResult& result, const std::vector<Landmark>& landmarks) {
+  if (!recorder_) return;
+  try {
+    recorder_->see(features, odometry, result, landmarks);
+  } catch (const std::bad_alloc&) {
+    recorder_.reset();  // the map needs the memory more
+    say(files_.saved,
+        "there is no memory to keep views: map_tool refine will have none of this map; "
+        "set working_mb higher");
+  }
+}
+
 void FlightMap::giveUp() {
   waitForChild(0);
+  recorder_.reset();
   is_given_up_ = is_given_up_ || is_saved_ || !files_.loaded.empty();
   files_.loaded.clear();
 }
@@ -77,14 +110,14 @@ void FlightMap::beginAnew() {
 
 void FlightMap::saveInFlight(const Slam& slam, std::int64_t now_ns) {
   waitForChild(WNOHANG);
-  if (files_.saved.empty() || files_.is_fixed || is_given_up_) return;
+  if (!isToBeSaved()) return;
   const auto period_ns = static_cast<std::int64_t>(files_.save_every_s * 1e9);
   if (next_save_ns_ == 0) next_save_ns_ = now_ns + period_ns;
   if (child_ != 0 || now_ns < next_save_ns_ || !slam.hasWholeMap()) return;
   if (slam.landmarks().empty() && !slam.isSearching()) return;
   next_save_ns_ = now_ns + period_ns;
   child_ = ::fork();
-  if (child_ == 0) ::_exit(writeInChild(files_.saved, slam));
+  if (child_ == 0) ::_exit(writeInChild(files_.saved, slam, recorder_));
   if (child_ > 0) return;
   child_ = 0;
   say(files_.saved, std::string("the map is not saved in flight: ") + std::strerror(errno));
@@ -104,7 +137,7 @@ std::string FlightMap::saveAtEnd(const Slam& slam) {
   if (path.empty()) return "";
   if (files_.is_fixed) return path + ": nothing is saved with localise_only";
   if (is_given_up_) return path + " stays as it was when the flight's map began anew";
-  const SavedMap map = slam.save();
+  const SavedMap map = mapOf(slam, recorder_);
   if (map.landmarks.empty()) return path + " stays as it was: the flight has no landmark";
   return std::to_string(writeMap(path, map)) + " landmarks written to " + path;
 }

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "ardrone_vslam/flight_record.hpp"
 #include "ardrone_vslam/slam.hpp"
 
 namespace ardrone_vslam {
@@ -32,6 +34,11 @@ class FlightMap {
   /// @param most_landmarks  that there is memory for
   /// @throws MapFileError also for another camera's map and for too large a one
   std::optional<SavedMap> read(const MapCamera& camera, std::size_t most_landmarks);
+  /// A map begins. What it can be refined with later is kept, where the map is saved.
+  void begin(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam);
+  /// A frame that the flight's Slam has answered, and its landmarks then.
+  void see(const ImageFeatures& features, const OdometryState& odometry, const FrameResult& result,
+           const std::vector<Landmark>& landmarks);
   /// The flight's map begins anew, empty: what was loaded is not loaded again, and stays in the
   /// file, as does what was saved in flight.
   void giveUp();
@@ -48,9 +55,11 @@ class FlightMap {
   std::string saveAtEnd(const Slam& slam);
 
  private:
+  bool isToBeSaved() const;
   void waitForChild(int options);
 
   Files files_;
+  std::optional<FlightRecorder> recorder_;
   std::int64_t next_save_ns_ = 0;  // 0: the first is after one period
   pid_t child_ = 0;                // that writes; 0: none
   bool is_saved_ = false;          // in flight

@@ -26,6 +26,7 @@ void PosePipeline::beginFlight() {
   auto map = map_.read({camera.width_px, camera.height_px, cameraModel().focalLength_px()},
                        static_cast<std::size_t>(config_.landmark_map.max_landmarks));
   if (map) slam_->load(*std::move(map));
+  map_.begin(config_, T_base_cam_);
   slam_->reserveMap();
 }
 
@@ -79,6 +80,7 @@ PosePipeline::Answer PosePipeline::localise() {
   if (lookup != Lookup::kFound) return Answer::kNever;
   setup_.see(features_, observer_.buffer(), *slam_);
   result_ = &slam_->process(features_, state);
+  map_.see(features_, state, *result_, slam_->landmarks());
   return Answer::kPose;
 }
 

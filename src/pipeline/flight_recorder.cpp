@@ -2,6 +2,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <unordered_set>
+#include <utility>
 
 #include "ardrone_vslam/flight_record.hpp"
 #include "linear/scalars.hpp"
@@ -30,6 +31,7 @@ Eigen::Matrix2d informationOf(const ImageFeatures& features, std::size_t i,
 
 struct FlightRecorder::State {
   MsckfConfig config;
+  bool is_planar = false;
   Eigen::Isometry3d T_base_cam;
   std::size_t most_views = 0;
   FlightRecord record;
@@ -66,8 +68,10 @@ struct FlightRecorder::State {
     if (outcome == HeightOutcome::kNone) return;
     if (outcome == HeightOutcome::kNewFloor) ++next.floor;
     floor_odom_m.reset();
-    if (outcome != HeightOutcome::kRejected && odometry.height_m)
-      floor_odom_m = next.T_odom_base.translation().z() - *odometry.height_m;
+    const std::optional<double> height_m =
+        is_planar ? std::optional<double>(0) : odometry.height_m;  // as the estimator has it
+    if (outcome != HeightOutcome::kRejected && height_m)
+      floor_odom_m = next.T_odom_base.translation().z() - *height_m;
   }
 
   /// The filter's keyframes lie closer together than a whole flight needs them.
@@ -117,14 +121,15 @@ struct FlightRecorder::State {
   }
 };
 
-FlightRecorder::FlightRecorder(const MsckfConfig& config, const Eigen::Isometry3d& T_base_cam,
+FlightRecorder::FlightRecorder(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
                                std::size_t most_views)
     : state_(std::make_unique<State>()) {
-  state_->config = config;
+  state_->config = config.msckf;
+  state_->is_planar = config.planar;
   state_->T_base_cam = T_base_cam;
   state_->most_views = most_views;
-  state_->record.config = config;
-  state_->record.is_whole = config.odometry.extrinsics_sigma_deg == 0;
+  state_->record.config = config.msckf;
+  state_->record.is_whole = config.msckf.odometry.extrinsics_sigma_deg == 0;
 }
 
 FlightRecorder::~FlightRecorder() = default;
@@ -166,6 +171,10 @@ void FlightRecorder::see(const ImageFeatures& features, const OdometryState& odo
 
 const FlightRecord& FlightRecorder::record() const {
   return state_->record;
+}
+
+FlightRecord FlightRecorder::take() {
+  return std::move(state_->record);
 }
 
 }  // namespace ardrone_vslam

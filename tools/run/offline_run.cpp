@@ -56,7 +56,6 @@ double BackEnd::process(const TrackedFrame& frame) {
   run_frame.times_ms = frame.times_ms;
   StageTimer timer(run_frame.times_ms);
   run_frame.result = slam_.process(frame.features, state, timer.hook());
-  if (config_.planar) state.height_m = 0;  // as the estimator has it
   if (recorder_) recorder_->see(frame.features, state, run_frame.result, slam_.landmarks());
   run_.frames.push_back(std::move(run_frame));
   return total_ms(run_.frames.back().times_ms);

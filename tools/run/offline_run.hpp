@@ -99,7 +99,7 @@ class BackEnd {
   /// Before the first frame. @throws std::invalid_argument as Slam::load
   void load(const SavedMap& map);
   /// RunResult::record is wanted. Before the first frame
-  void record() { recorder_.emplace(config_.msckf, T_base_cam_); }
+  void record() { recorder_.emplace(config_, T_base_cam_); }
   /// @throws std::runtime_error when the camera changes and extrinsics_sigma_deg forbids it
   /// @return what the image has cost, front end included [ms]
   double process(const TrackedFrame& frame);

@@ -44,8 +44,10 @@ class FlightMapTest : public WallFlight {
 
 TEST_F(FlightMapTest, IsSavedAtTheEnd) {
   EXPECT_EQ(fly(), "");
-  const SavedMap map = readMap(file("map"));
+  const SavedMap map = readMap(file("map"), WithFlight::kYes);
   EXPECT_GT(map.landmarks.size(), 50U);
+  ASSERT_GT(map.flight.keyframes.size(), 2U);  // for map_tool refine
+  EXPECT_GT(map.flight.keyframes.back().views.size(), 20U);
   EXPECT_EQ(said_, std::to_string(map.landmarks.size()) + " landmarks written to " + file("map"));
 }
 
@@ -57,7 +59,9 @@ TEST_F(FlightMapTest, IsSavedInFlightAndNoPoseIsAnother) {
   settings_.onboard.save_every_s = 1e-9;  // whenever the last one is on the disk
   OnboardLoop(settings_, stop_.ends[0]).run();
   // Of the flight's first half or its end: the child gives way to all that a machine is at.
-  EXPECT_GT(readMap(file("map")).landmarks.size(), 0U);
+  const SavedMap map = readMap(file("map"), WithFlight::kYes);
+  EXPECT_GT(map.landmarks.size(), 0U);
+  EXPECT_GT(map.flight.keyframes.size(), 0U);
   const auto answers = posesIn(file("poses"));
   ASSERT_EQ(answers.size(), expected.size());
   for (std::size_t i = 0; i < answers.size(); ++i)

@@ -13,8 +13,8 @@ constexpr std::int64_t kFrame_ns = 100'000'000;
 /// Flies 0.1 m an image along x; every image is a keyframe that sees the tracks given last.
 class Flight {
  public:
-  explicit Flight(std::size_t most_views = 1000)
-      : recorder_(MsckfConfig{}, Eigen::Isometry3d::Identity(), most_views) {}
+  explicit Flight(std::size_t most_views = 1000, const SlamConfig& config = {})
+      : recorder_(config, Eigen::Isometry3d::Identity(), most_views) {}
 
   std::vector<Landmark> landmarks;
   bool sees_landmarks = true;
@@ -167,6 +167,25 @@ TEST(FlightRecorder, HeightsCountOnceAtTheNextKeyframe) {
   EXPECT_FALSE(keyframes.at(1).height_m.has_value());
   EXPECT_FALSE(keyframes.at(2).height_m.has_value());
   EXPECT_EQ(keyframes.at(1).floor, keyframes.at(0).floor);
+}
+
+TEST(FlightRecorder, InAPlaneTheHeightIsNone) {
+  SlamConfig config;
+  config.planar = true;
+  Flight flight(1000, config);
+  flight.result.height = HeightOutcome::kApplied;
+  flight.odometry.T_odom_base.translation().z() = 0.3;  // which the odometry makes up
+  flight.seeKeyframe(1);
+  EXPECT_NEAR(flight.record().keyframes.at(0).height_m.value_or(1), 0, 1e-9);
+}
+
+TEST(FlightRecorder, ACameraWhoseMountingIsEstimatedIsNotRecorded) {
+  SlamConfig config;
+  config.msckf.odometry.extrinsics_sigma_deg = 1;
+  Flight flight(1000, config);
+  flight.seeKeyframe(1);
+  EXPECT_FALSE(flight.record().is_whole);
+  EXPECT_TRUE(flight.record().keyframes.empty());
 }
 
 TEST(FlightRecorder, AFlightThatBeginsAnewIsNotWhole) {
