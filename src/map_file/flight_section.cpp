@@ -65,7 +65,7 @@ std::string keyframeFault(const Keyframe& k, const Keyframe* before) {
   constexpr int kMostFloors = 100'000;
   if (before != nullptr && k.stamp_ns <= before->stamp_ns) return "does not follow the one before";
   for (const Eigen::Isometry3d* pose : {&k.T_map_base, &k.T_odom_base, &k.T_base_cam}) {
-    const std::string fault = poseFault(*pose);
+    std::string fault = poseFault(*pose);
     if (!fault.empty()) return fault;
   }
   if (!std::isfinite(k.focal_length_px) || k.focal_length_px <= 0)

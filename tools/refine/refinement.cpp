@@ -44,6 +44,7 @@ Refinement refine(const FlightRecord& record, const std::vector<MapAnchor>& anch
     refined.T_map_base.push_back(bundle.T_map_base(k));
   refined.points = bundle.points();
   std::vector<std::size_t> of_anchors;
+  of_anchors.reserve(anchors.size());
   for (const MapAnchor& anchor : anchors) of_anchors.push_back(keyframeOf(anchor, record));
   if (!anchors.empty()) refined.anchor_covariance = bundle.covariance(of_anchors);
   refined.views = bundle.views();
