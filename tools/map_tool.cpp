@@ -146,7 +146,8 @@ int refineMap(const Options& o) {
     throw MapFileError(
         o.map +
         ": there are no views in it, so nothing can be refined: it was made by another command of "
-        "map_tool or an earlier version, in a loaded map, or its odometry began anew");
+        "map_tool or an earlier version, in a loaded map, after a click, with "
+        "extrinsics_sigma_deg, or its odometry began anew");
   Refinement refinement;
   {
     constexpr std::size_t kOfOne = 100;
@@ -164,11 +165,14 @@ int refineMap(const Options& o) {
   for (std::size_t i = 0; i < map.landmarks.size(); ++i)
     moved_m.push_back((refined.landmarks[i].position_map - map.landmarks[i].position_map).norm());
   std::printf("half of the landmarks moved by more than %.3f m\n", quantile(moved_m, 0.5));
+  if (refined.anchor_covariance.isApprox(map.anchor_covariance))
+    std::printf("how well it is known then is not told; the map says it as after the flight\n");
   const double later_s =
       1e-9 * static_cast<double>(map.stamp_ns - map.flight.keyframes.back().stamp_ns);
   constexpr double kUsual_s = 2;
   if (later_s > kUsual_s)
-    std::printf("views of the last %.0f s are missing: what was found then moves along\n", later_s);
+    std::printf("views of the last %.0f s are missing: what was found then moves along, rigidly\n",
+                later_s);
   return write(o.out, refined, map.landmarks.size());
 }
 #endif
@@ -188,7 +192,7 @@ void addOptions(CLI::App& app, Options& o) {
   app.set_version_flag("--version", std::string("map_tool (ardrone_vslam) " ARDRONE_VSLAM_VERSION));
   app.require_subcommand(1);
   addCommand(app, "info", "what is in it", o)->add_flag("--json", o.as_json, "as JSON");
-  addCommand(app, "verify", "whether it can be loaded: exit code 0, or 1 and why not", o);
+  addCommand(app, "verify", "whether all of it is sound: exit code 0, or 1 and why not", o);
   addOut(addCommand(app, "export", "its landmarks for other programs", o), o,
          "file that ends in .ply (points for viewers) or .csv");
   CLI::App* prune = addCommand(app, "prune", "leaves out the landmarks that are worth least", o);

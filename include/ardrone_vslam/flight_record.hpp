@@ -68,9 +68,9 @@ struct FlightRecord {
 class FlightRecorder {
  public:
   /// @param T_base_cam  extrinsics of the first camera
-  /// @param most_views  no keyframe is added beyond; a view takes 32 bytes
+  /// @param most_bytes  of the record: nothing is added from the first frame on that might not fit
   FlightRecorder(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
-                 std::size_t most_views = std::numeric_limits<std::size_t>::max());
+                 std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
   ~FlightRecorder();
   /// The next frame is another camera's.
   void useCamera(const Eigen::Isometry3d& T_base_cam);

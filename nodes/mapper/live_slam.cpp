@@ -6,7 +6,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::size_t kMostViews = 500'000;  // 16 MB
+constexpr std::size_t kMostOfFlight_bytes = 32'000'000;
 
 std::string differenceOf(const SavedMap& map, const CameraIdentity& camera) {
   const MapCamera now{static_cast<int>(camera.width_px), static_cast<int>(camera.height_px),
@@ -23,7 +23,7 @@ void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& 
     recorder_->useCamera(T_base_cam);
   } else {
     slam_ = std::make_unique<Slam>(config_, T_base_cam);
-    recorder_.emplace(config_, T_base_cam, kMostViews);
+    recorder_.emplace(config_, T_base_cam, kMostOfFlight_bytes);
     if (loaded_) slam_->load(*loaded_);
   }
   setup_.useCamera(T_base_cam, base, frame);

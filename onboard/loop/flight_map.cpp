@@ -15,8 +15,8 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr int kNothingToSave = 2;           // exit code of the child
-constexpr std::size_t kMostViews = 60'000;  // 2 MB
+constexpr int kNothingToSave = 2;  // exit code of the child
+constexpr std::size_t kMostOfFlight_bytes = 4'000'000;
 
 void say(const std::string& path, const std::string& sentence) {
   std::fprintf(stderr, "vslam_onboard: %s: %s\n", path.c_str(), sentence.c_str());
@@ -81,7 +81,7 @@ bool FlightMap::isToBeSaved() const {
 
 void FlightMap::begin(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
   recorder_.reset();
-  if (isToBeSaved()) recorder_.emplace(config, T_base_cam, kMostViews);
+  if (isToBeSaved()) recorder_.emplace(config, T_base_cam, kMostOfFlight_bytes);
 }
 
 void FlightMap::see(const ImageFeatures& features, const OdometryState& odometry,

@@ -63,7 +63,8 @@ std::string passedFault(const Keyframe& keyframe, std::int64_t before_ns) {
 
 std::string keyframeFault(const Keyframe& k, const Keyframe* before) {
   constexpr int kMostFloors = 100'000;
-  if (before != nullptr && k.stamp_ns <= before->stamp_ns) return "does not follow the one before";
+  if (k.stamp_ns <= (before == nullptr ? -1 : before->stamp_ns))
+    return "does not follow the one before";
   for (const Eigen::Isometry3d* pose : {&k.T_map_base, &k.T_odom_base, &k.T_base_cam}) {
     std::string fault = poseFault(*pose);
     if (!fault.empty()) return fault;
@@ -77,7 +78,7 @@ std::string keyframeFault(const Keyframe& k, const Keyframe* before) {
     return "is above a floor that cannot be";
   if (!std::all_of(k.views.begin(), k.views.end(), isView))
     return "has a view that is no direction, or is not known";
-  return before == nullptr ? "" : passedFault(k, before->stamp_ns);
+  return passedFault(k, before == nullptr ? k.stamp_ns : before->stamp_ns);  // none at the first
 }
 
 KeyframeView readView(ByteReader& in) {

@@ -62,6 +62,7 @@ Layout layoutOf(const SavedMap& map, std::size_t landmarks) {
   layout.landmarks = 4 + std::uint64_t{kLandmarkRecord} * landmarks;
   if (!map.flight.keyframes.empty() && flightFault(map.flight).empty())
     layout.flight = flightSize(map.flight);
+  if (layout.fileSize() > kMostMapBytes) layout.flight = 0;
   return layout;
 }
 

@@ -33,14 +33,15 @@ struct FlightRecorder::State {
   MsckfConfig config;
   bool is_planar = false;
   Eigen::Isometry3d T_base_cam;
-  std::size_t most_views = 0;
+  std::size_t most_bytes = 0;
+  std::size_t bytes = 0;
+  bool is_full = false;
   FlightRecord record;
   OdometryStepWatch steps;
   std::optional<OdometryState> last;
   double travelled_m = 0;
   std::optional<double> floor_odom_m;  // by the last height that the filter has used
-  std::size_t views = 0;
-  Keyframe next;  // what has come together since the last one
+  Keyframe next;                       // what has come together since the last one
 
   void follow(const OdometryState& odometry) {
     const std::optional<OdometryStep> step = steps.see(odometry);
@@ -78,6 +79,7 @@ struct FlightRecorder::State {
   bool isWorthKeeping(const ImageFeatures& features) const {
     constexpr double kGoOn = 0.3;  // of the last one's tracks
     constexpr double kLongest_s = 1;
+    if (features.size() == 0) return false;
     if (record.keyframes.empty()) return true;
     const Keyframe& before = record.keyframes.back();
     if (seconds(features.stamp_ns - before.stamp_ns) > kLongest_s) return true;
@@ -97,7 +99,20 @@ struct FlightRecorder::State {
       if (!(information_rad2.determinant() > 0)) continue;  // nothing is known along an edge
       next.views.push_back({features.track_id[i], features.bearing_cam[i], information_rad2});
     }
-    views += next.views.size();
+  }
+
+  /// From then on it stays as it is: later frames that fit would be far apart.
+  bool isFullWith(const ImageFeatures& features, const std::vector<Landmark>& landmarks) {
+    const std::size_t most = bytes + sizeof(Keyframe) + features.size() * sizeof(KeyframeView) +
+                             landmarks.size() * sizeof(LandmarkTrack);
+    is_full = is_full || most > most_bytes;
+    return is_full;
+  }
+
+  void pass(std::int64_t stamp_ns) {
+    if (record.keyframes.empty()) return;
+    next.passed.push_back({stamp_ns, next.T_odom_base});
+    bytes += sizeof(PassedFrame);
   }
 
   void addLandmarks(const std::vector<Landmark>& landmarks) {
@@ -111,6 +126,8 @@ struct FlightRecorder::State {
   /// Begins what lies between it and the one after.
   void keep() {
     record.keyframes.push_back(next);
+    bytes += sizeof(Keyframe) + next.views.size() * sizeof(KeyframeView) +
+             next.landmarks.size() * sizeof(LandmarkTrack);
     next.views.clear();
     next.landmarks.clear();
     next.passed.clear();
@@ -122,12 +139,12 @@ struct FlightRecorder::State {
 };
 
 FlightRecorder::FlightRecorder(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam,
-                               std::size_t most_views)
+                               std::size_t most_bytes)
     : state_(std::make_unique<State>()) {
   state_->config = config.msckf;
   state_->is_planar = config.planar;
   state_->T_base_cam = T_base_cam;
-  state_->most_views = most_views;
+  state_->most_bytes = most_bytes;
   state_->record.config = config.msckf;
   state_->record.is_whole = config.msckf.odometry.extrinsics_sigma_deg == 0;
 }
@@ -145,12 +162,13 @@ void FlightRecorder::see(const ImageFeatures& features, const OdometryState& odo
     s.record = {};
     s.record.is_whole = false;
   }
-  if (!s.record.is_whole || result.state == SlamState::kNotFinite) return;
+  if (!s.record.is_whole || s.is_full || result.state == SlamState::kNotFinite) return;
   s.follow(odometry);
   s.takeHeight(odometry, result.height);
-  if (!result.is_keyframe || s.views + features.size() > s.most_views) return;
+  if (!result.is_keyframe) return;
+  if (s.isFullWith(features, landmarks)) return;
   if (!s.isWorthKeeping(features)) {
-    s.next.passed.push_back({features.stamp_ns, s.next.T_odom_base});
+    s.pass(features.stamp_ns);
     return;
   }
   s.next.stamp_ns = features.stamp_ns;

@@ -27,14 +27,15 @@ struct FlightErrors {
 /// fused poses are, so that all of its errors are left to the refinement. On the second lap each
 /// point has another track, of the same landmark.
 struct RecordedFlight {
-  static constexpr int kKeyframes = 80;
+  int keyframes;
   static constexpr double kFocal_px = 500;
 
   FlightRecord record;
   std::vector<Eigen::Isometry3d> truth;
   std::vector<Eigen::Vector3d> points;
 
-  explicit RecordedFlight(const FlightErrors& errors, unsigned seed = 7) : generator_(seed) {
+  explicit RecordedFlight(const FlightErrors& errors, unsigned seed = 7, int count = 80)
+      : keyframes(count), generator_(seed) {
     std::uniform_real_distribution<double> up(-1.5, 1.5);
     for (int i = 0; i < 300; ++i) {
       const double angle = around_(generator_);
@@ -44,7 +45,7 @@ struct RecordedFlight {
     record.config.odometry.scale_sigma = 0.1;
     record.config.height.height_sigma_m = 0.01;
     Keyframe keyframe;
-    for (int k = 0; k < kKeyframes; ++k) {
+    for (int k = 0; k < keyframes; ++k) {
       truth.push_back(poseAt(k));
       follow(errors, keyframe);
       keyframe.views.clear();
@@ -86,7 +87,8 @@ struct RecordedFlight {
     Eigen::Vector3d pixel = seen / seen.z() + errors.corner_px / kFocal_px * noise;
     if (seen.z() < 0 || std::abs(pixel.x()) > 0.8 || std::abs(pixel.y()) > 0.6) return;
     if (is_wrong) pixel += wrong;
-    const std::size_t lap = record.keyframes.size() < kKeyframes / 2 ? 0 : 1;
+    const std::size_t lap =
+        record.keyframes.size() < static_cast<std::size_t>(keyframes) / 2 ? 0 : 1;
     KeyframeView view;
     view.track_id = static_cast<std::uint32_t>(1 + point + lap * points.size());
     view.bearing_cam = pixel.normalized().cast<float>();
@@ -96,8 +98,8 @@ struct RecordedFlight {
   }
 
   /// Two laps around the origin, up and down, looking outwards and ahead.
-  static Eigen::Isometry3d poseAt(int k) {
-    const double angle = 4 * M_PI * k / kKeyframes;
+  Eigen::Isometry3d poseAt(int k) const {
+    const double angle = 4 * M_PI * k / keyframes;
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.translation() << 1.5 * std::cos(angle) - 1.5, 1.5 * std::sin(angle),
         0.4 * std::sin(1.5 * angle);

@@ -55,10 +55,10 @@ TEST(RefinedMap, LandmarksGoWithTheirAnchors) {
   EXPECT_TRUE(map.anchors[0].T_map_rig.isApprox(turned(M_PI / 2, {0, 5, 0})));
   EXPECT_TRUE(map.landmarks[0].position_map.isApprox(Eigen::Vector3d(0, 6, 0)));
   EXPECT_TRUE(map.landmarks[0].view_direction_map.isApprox(Eigen::Vector3d(0, 1, 0)));
-  // The other anchor came after the last keyframe, at whose old place it is.
-  EXPECT_TRUE(map.anchors[1].T_map_rig.isApprox(refinement.T_map_base[1]));
+  // The other anchor came after the last keyframe, and goes with the one before.
+  EXPECT_TRUE(map.anchors[1].T_map_rig.isApprox(turned(M_PI / 2, {0, 6, 0})));
   EXPECT_TRUE(map.landmarks[1].position_map.isApprox(Eigen::Vector3d(0, 7, 0)));
-  EXPECT_EQ(map.anchor_covariance, before.anchor_covariance);  // as none was made
+  EXPECT_EQ(map.anchor_covariance, before.anchor_covariance);
   EXPECT_TRUE(map.flight.keyframes.empty());
 }
 
@@ -82,8 +82,28 @@ TEST(RefinedMap, HasTheCovarianceOfTheRefinement) {
   Refinement refinement;
   refinement.T_map_base = {turned(0, {0, 0, 0}), turned(0, {2, 0, 0})};
   refinement.anchor_covariance = 0.5 * Eigen::MatrixXd::Identity(14, 14);
-  const SavedMap map = refinedMap(twoAnchors(), twoKeyframes(), refinement);
-  EXPECT_EQ(map.anchor_covariance, refinement.anchor_covariance);
+  SavedMap before = twoAnchors();
+  before.anchor_covariance(6, 6) = 0.25;
+  // The second anchor is not in the record.
+  EXPECT_EQ(refinedMap(before, twoKeyframes(), refinement).anchor_covariance,
+            before.anchor_covariance);
+  before.anchors[1].stamp_ns = 150;
+  Eigen::MatrixXd expected = refinement.anchor_covariance;
+  expected(13, 13) = 1;  // the stretch is the larger one
+  EXPECT_EQ(refinedMap(before, twoKeyframes(), refinement).anchor_covariance, expected);
+}
+
+TEST(RefinedMap, WhatIsNotInTheRecordGoesWithTheAnchorBefore) {
+  Refinement refinement;
+  refinement.T_map_base = {turned(0, {0, 3, 0}), turned(0, {2, 3, 0})};
+  SavedMap before = twoAnchors();
+  before.anchors[0].stamp_ns = 40;  // too early
+  const SavedMap early = refinedMap(before, twoKeyframes(), refinement);
+  EXPECT_EQ(early.anchors[0].T_map_rig.translation(), Eigen::Vector3d(1, 0, 0));
+  before.anchors[0].stamp_ns = 50;
+  before.anchors[1].stamp_ns = 60;  // in a gap
+  const SavedMap gap = refinedMap(before, twoKeyframes(), refinement);
+  EXPECT_TRUE(gap.anchors[1].T_map_rig.translation().isApprox(Eigen::Vector3d(1, 3, 0)));
 }
 
 TEST(RefinedMap, WithoutKeyframesItStaysAsItIs) {

@@ -58,6 +58,24 @@ TEST(Refinement, ExactMeasurementsGiveTheExactFlight) {
   }
 }
 
+TEST(Refinement, ManyKeyframesAreSolvedByConjugateGradients) {
+  FlightErrors errors = drifting();
+  errors.bias_m_s *= 0.1;
+  errors.yaw_rad_per_s *= 0.1;
+  const RecordedFlight flight{errors, 7, 520};
+  ASSERT_GT(flight.rmse_m(flight.before()), 0.3);
+  const Refinement refined = refine(flight.record);
+  EXPECT_LT(flight.rmse_m(refined.T_map_base), 0.2);  // 0.144 measured
+}
+
+TEST(Refinement, WithTooFewViewsItIsRefused) {
+  RecordedFlight flight{drifting()};
+  for (Keyframe& keyframe : flight.record.keyframes) keyframe.views.resize(1);
+  EXPECT_THROW(refine(flight.record), std::runtime_error);
+  flight.record.keyframes.resize(1);
+  EXPECT_THROW(refine(flight.record), std::runtime_error);
+}
+
 TEST(Refinement, TakesOutWhatTheOdometryDrifts) {
   const RecordedFlight flight{drifting()};
   ASSERT_GT(flight.rmse_m(flight.before()), 0.3);

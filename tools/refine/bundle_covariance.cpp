@@ -35,8 +35,11 @@ Sparse inverseRoot(const Sparse& blocks) {
       for (Sparse::InnerIterator entry(blocks, at + column); entry; ++entry)
         block(entry.row() - at, column) = entry.value();
     }
+    const Eigen::LLT<Eigen::Matrix3d> factor(block);
+    if (factor.info() != Eigen::Success)
+      throw std::runtime_error("nothing tells how well a point is known");
     const Eigen::Matrix3d root =
-        block.llt().matrixU().solve(Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+        factor.matrixU().solve(Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
     for (Eigen::Index i = 0; i < kPoint; ++i) {
       for (Eigen::Index j = i; j < kPoint; ++j)
         entries.emplace_back(static_cast<int>(at + i), static_cast<int>(at + j), root(i, j));
@@ -75,6 +78,7 @@ Eigen::MatrixXd covarianceOf(ceres::Problem& problem, const std::vector<double*>
     throw std::runtime_error("nothing tells how well the flight is known");
   const Eigen::MatrixXd columns = factor.solve(Eigen::MatrixXd::Identity(reduced.rows(), size));
   const Eigen::MatrixXd P = columns.topRows(size);
+  if (!P.allFinite()) throw std::runtime_error("what is known of the flight is out of range");
   return 0.5 * (P + P.transpose());
 }
 

@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "refine/refined_map.hpp"
 
+#include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 #include "refine/refined_path.hpp"
 
 namespace ardrone_vslam {
+namespace {
+
+/// The landmarks without a point keep the stretch that they had in flight.
+void useCovariance(const Eigen::MatrixXd& refined, SavedMap& map) {
+  if (refined.rows() != map.anchor_covariance.rows()) return;
+  const Eigen::MatrixXd flown = std::exchange(map.anchor_covariance, refined);
+  for (Eigen::Index i = SavedMap::kAnchor - 1; i < refined.rows(); i += SavedMap::kAnchor)
+    map.anchor_covariance(i, i) = std::max(refined(i, i), flown(i, i));
+}
+
+}  // namespace
 
 SavedMap refinedMap(SavedMap map, const FlightRecord& record, const Refinement& refinement) {
   map.flight = {};
-  if (refinement.anchor_covariance.size() > 0) map.anchor_covariance = refinement.anchor_covariance;
   if (record.keyframes.empty()) return map;
   // Joint points follow the single ones, and are the better places for what is seen again.
   std::unordered_map<std::uint32_t, const TrackPoint3d*> point_of;
@@ -17,19 +29,25 @@ SavedMap refinedMap(SavedMap map, const FlightRecord& record, const Refinement& 
   point_of.erase(0);
 
   const PosesByStamp T_map_base_at = refinedPoses(record, refinement);
-  const Eigen::Isometry3d T_last_new_old =
-      refinement.T_map_base.back() * record.keyframes.back().T_map_base.inverse();
   std::vector<Eigen::Isometry3d> moved;  // T_new_old of the anchors
   moved.reserve(map.anchors.size());
+  bool are_all_known = true;
   for (MapAnchor& anchor : map.anchors) {
     const auto found = T_map_base_at.find(anchor.stamp_ns);
-    const bool is_known = found != T_map_base_at.end();
-    moved.push_back(is_known ? found->second * anchor.T_map_rig.inverse() : T_last_new_old);
+    if (found != T_map_base_at.end()) {
+      moved.emplace_back(found->second * anchor.T_map_rig.inverse());
+    } else {
+      are_all_known = false;
+      moved.push_back(moved.empty() ? Eigen::Isometry3d::Identity() : moved.back());
+    }
     anchor.T_map_rig = moved.back() * anchor.T_map_rig;
   }
+  if (are_all_known) useCovariance(refinement.anchor_covariance, map);
   for (Landmark& landmark : map.landmarks) {
     const Eigen::Isometry3d& T_new_old = moved[landmark.anchor_id - 1];
-    landmark.view_direction_map = T_new_old.linear() * landmark.view_direction_map;
+    const Eigen::Matrix3d& R = T_new_old.linear();
+    landmark.view_direction_map = R * landmark.view_direction_map;
+    landmark.covariance_m2 = R * landmark.covariance_m2 * R.transpose();
     const auto found = point_of.find(landmark.id);
     landmark.position_map =
         found == point_of.end() ? T_new_old * landmark.position_map : found->second->position_map;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
+#include <string>
 
 #include "refine/bundle.hpp"
 
@@ -12,7 +14,10 @@ namespace {
 // Off by so many sigmas, a view counts less. Loops that the flight did not close are off by more at
 // first, so that the bound comes down step by step.
 constexpr std::array<double, 3> kBounds{30, 8, 2.5};
-constexpr double kMostSigmas = 4;  // beyond it a view is of another point
+constexpr double kMostSigmas = 4;             // beyond it a view is of another point
+constexpr std::size_t kFewestInKeyframe = 6;  // views on average; with less the odometry is all
+// How well they are known takes their cube: at the most 140 s and 1.4 GB.
+constexpr std::size_t kMostKnown = 800;
 
 /// The last keyframe that is not after it, or the first.
 std::size_t keyframeOf(const MapAnchor& anchor, const FlightRecord& record) {
@@ -24,6 +29,19 @@ std::size_t keyframeOf(const MapAnchor& anchor, const FlightRecord& record) {
   return count == 0 ? 0 : count - 1;
 }
 
+/// Empty where it cannot be told.
+Eigen::MatrixXd anchorCovariance(const std::vector<MapAnchor>& anchors, const FlightRecord& record,
+                                 Bundle& bundle) {
+  std::vector<std::size_t> keyframes;
+  keyframes.reserve(anchors.size());
+  for (const MapAnchor& anchor : anchors) keyframes.push_back(keyframeOf(anchor, record));
+  try {
+    return bundle.covariance(keyframes);
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 Refinement refine(const FlightRecord& record, const std::vector<MapAnchor>& anchors,
@@ -31,10 +49,11 @@ Refinement refine(const FlightRecord& record, const std::vector<MapAnchor>& anch
   Refinement refined;
   if (record.keyframes.empty()) return refined;
   constexpr double kUsualIterations = 40;
+  constexpr double kSolved = 0.9;  // of the work, before it is asked how well all is known
   int steps = 0;
   const auto step = [&] {
     ++steps;
-    if (progress) progress(std::min(steps / kUsualIterations, 1.0));
+    if (progress) progress(std::min(steps / kUsualIterations, kSolved));
   };
   Bundle bundle(record);
   for (const double bound : kBounds) bundle.solve(bound, step);
@@ -43,12 +62,15 @@ Refinement refine(const FlightRecord& record, const std::vector<MapAnchor>& anch
   for (std::size_t k = 0; k < record.keyframes.size(); ++k)
     refined.T_map_base.push_back(bundle.T_map_base(k));
   refined.points = bundle.points();
-  std::vector<std::size_t> of_anchors;
-  of_anchors.reserve(anchors.size());
-  for (const MapAnchor& anchor : anchors) of_anchors.push_back(keyframeOf(anchor, record));
-  if (!anchors.empty()) refined.anchor_covariance = bundle.covariance(of_anchors);
   refined.views = bundle.views();
   refined.views_left_out = bundle.dropped();
+  if (refined.views < kFewestInKeyframe * record.keyframes.size())
+    throw std::runtime_error("only " + std::to_string(refined.views) + " views of " +
+                             std::to_string(record.keyframes.size()) +
+                             " keyframes agree, which is too few to refine anything");
+  if (!anchors.empty() && record.keyframes.size() <= kMostKnown)
+    refined.anchor_covariance = anchorCovariance(anchors, record, bundle);
+  if (progress) progress(1);
   return refined;
 }
 

@@ -16,7 +16,8 @@ namespace ardrone_vslam {
 struct Refinement {
   std::vector<Eigen::Isometry3d> T_map_base;  ///< of the record's keyframes
   std::vector<TrackPoint3d> points;
-  /// SavedMap::anchor_covariance of the anchors that were named.
+  /// SavedMap::anchor_covariance of the anchors that were named; empty where it cannot be told, or
+  /// there are more than 800 keyframes.
   Eigen::MatrixXd anchor_covariance;
   std::size_t views = 0;           ///< that count
   std::size_t views_left_out = 0;  ///< as they, or others of their point, contradict the rest
@@ -32,7 +33,7 @@ using RefinementProgress = std::function<void(double share)>;
 /// and what the keyframes' sparse system takes.
 /// @param anchors  of the flight's map: how well each is known is that of the keyframe before it
 /// @return nothing of a record without keyframes
-/// @throws std::runtime_error when the solver fails
+/// @throws std::runtime_error when the solver fails, or too few views agree
 Refinement refine(const FlightRecord& record, const std::vector<MapAnchor>& anchors = {},
                   const RefinementProgress& progress = {});
 

@@ -41,6 +41,7 @@ TEST_F(MapFileFlightTest, WhatCannotBeIsLeftOutAndTheMapStays) {
       [](FlightRecord& f) { f.config.track_sigma_px = 0; },
       [](FlightRecord& f) { f.config.track_common_px = kNoNumber; },
       [](FlightRecord& f) { f.config.odometry.tilt_sigma_deg = -1; },
+      [](FlightRecord& f) { f.keyframes[0].stamp_ns = -1; },
       [](FlightRecord& f) { f.keyframes[1].stamp_ns = f.keyframes[0].stamp_ns; },
       [](FlightRecord& f) { f.keyframes[1].T_odom_base.translation().x() = kNoNumber; },
       [](FlightRecord& f) { f.keyframes[1].T_base_cam.linear() *= 2; },
@@ -53,6 +54,7 @@ TEST_F(MapFileFlightTest, WhatCannotBeIsLeftOutAndTheMapStays) {
       [](FlightRecord& f) { f.keyframes[0].views[0].bearing_cam *= 2; },
       [](FlightRecord& f) { f.keyframes[0].views[0].information_rad2(1, 1) = 0; },
       [](FlightRecord& f) { f.keyframes[1].passed[0].stamp_ns = f.keyframes[1].stamp_ns; },
+      [](FlightRecord& f) { f.keyframes[0].passed.resize(1); },
       [](FlightRecord& f) { f.keyframes[1].passed[0].T_odom_base.linear()(0, 0) = 7; },
   };
   for (std::size_t i = 0; i < faults.size(); ++i) EXPECT_EQ(writtenAfter(faults[i]), 0U) << i;

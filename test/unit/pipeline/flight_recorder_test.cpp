@@ -13,8 +13,8 @@ constexpr std::int64_t kFrame_ns = 100'000'000;
 /// Flies 0.1 m an image along x; every image is a keyframe that sees the tracks given last.
 class Flight {
  public:
-  explicit Flight(std::size_t most_views = 1000, const SlamConfig& config = {})
-      : recorder_(config, Eigen::Isometry3d::Identity(), most_views) {}
+  explicit Flight(std::size_t most_bytes = 1'000'000, const SlamConfig& config = {})
+      : recorder_(config, Eigen::Isometry3d::Identity(), most_bytes) {}
 
   std::vector<Landmark> landmarks;
   bool sees_landmarks = true;
@@ -41,9 +41,9 @@ class Flight {
     }
     recorder_.see(features, odometry, result, landmarks);
   }
-  void seeKeyframe(std::uint32_t first_track) {
+  void seeKeyframe(std::uint32_t first_track, std::uint32_t count = 10) {
     result.is_keyframe = true;
-    see(first_track);
+    see(first_track, count);
     result.is_keyframe = false;
   }
   const FlightRecord& record() const { return recorder_.record(); }
@@ -123,11 +123,20 @@ TEST(FlightRecorder, FramesThatAreNotKeptHaveTheOdometrysPose) {
 }
 
 TEST(FlightRecorder, ItStopsWhereThereIsNoRoom) {
-  Flight flight(25);
-  for (const std::uint32_t first : {1, 100, 200, 300}) flight.seeKeyframe(first);
-  // 10 and 9 views, and 10 might come.
+  Flight flight(3 * sizeof(Keyframe) + 25 * sizeof(KeyframeView));
+  for (const std::uint32_t first : {1, 100, 200}) flight.seeKeyframe(first);
+  // 10 and 9 views, and 10 might come. What would fit later is too far away.
+  flight.seeKeyframe(300, 2);
   EXPECT_EQ(flight.record().keyframes.size(), 2U);
   EXPECT_TRUE(flight.record().is_whole);
+}
+
+TEST(FlightRecorder, ImagesWithoutFeaturesAreNotKept) {
+  Flight flight;
+  flight.seeKeyframe(1, 0);
+  flight.seeKeyframe(1);
+  flight.seeKeyframe(1, 0);
+  EXPECT_EQ(flight.record().keyframes.size(), 1U);
 }
 
 TEST(FlightRecorder, WhatIsNotKnownAlongAnEdgeIsLeftOut) {
@@ -172,7 +181,7 @@ TEST(FlightRecorder, HeightsCountOnceAtTheNextKeyframe) {
 TEST(FlightRecorder, InAPlaneTheHeightIsNone) {
   SlamConfig config;
   config.planar = true;
-  Flight flight(1000, config);
+  Flight flight(1'000'000, config);
   flight.result.height = HeightOutcome::kApplied;
   flight.odometry.T_odom_base.translation().z() = 0.3;  // which the odometry makes up
   flight.seeKeyframe(1);
@@ -182,7 +191,7 @@ TEST(FlightRecorder, InAPlaneTheHeightIsNone) {
 TEST(FlightRecorder, ACameraWhoseMountingIsEstimatedIsNotRecorded) {
   SlamConfig config;
   config.msckf.odometry.extrinsics_sigma_deg = 1;
-  Flight flight(1000, config);
+  Flight flight(1'000'000, config);
   flight.seeKeyframe(1);
   EXPECT_FALSE(flight.record().is_whole);
   EXPECT_TRUE(flight.record().keyframes.empty());
