@@ -166,7 +166,7 @@ int refineMap(const Options& o) {
     moved_m.push_back((refined.landmarks[i].position_map - map.landmarks[i].position_map).norm());
   std::printf("half of the landmarks moved by more than %.3f m\n", quantile(moved_m, 0.5));
   if (refined.anchor_covariance.isApprox(map.anchor_covariance))
-    std::printf("how well it is known then is not told; the map says it as after the flight\n");
+    std::printf("the map keeps the covariance of the flight\n");
   const double later_s =
       1e-9 * static_cast<double>(map.stamp_ns - map.flight.keyframes.back().stamp_ns);
   constexpr double kUsual_s = 2;
