@@ -58,8 +58,9 @@ struct LinearBundle {
 TEST(BundleCovariance, IsThePartOfTheWholeInverse) {
   LinearBundle bundle;
   const Eigen::MatrixXd inverse = bundle.normal.inverse();
-  const Eigen::MatrixXd P = covarianceOf(
-      bundle.problem, {bundle.cameras[2].data(), bundle.cameras[0].data()}, bundle.pointBlocks());
+  const Eigen::MatrixXd P =
+      covarianceOf(bundle.problem, {bundle.cameras[2].data(), bundle.cameras[0].data()},
+                   {bundle.cameras[3].data()}, bundle.pointBlocks());
   ASSERT_EQ(P.rows(), 6);
   EXPECT_TRUE((P.block<3, 3>(0, 0).isApprox(inverse.block<3, 3>(6, 6), 1e-9)));
   EXPECT_TRUE((P.block<3, 3>(3, 3).isApprox(inverse.block<3, 3>(0, 0), 1e-9)));

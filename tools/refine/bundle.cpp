@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "ardrone_vslam/rotation.hpp"
-#include "ardrone_vslam/saved_map.hpp"
 #include "refine/bundle_covariance.hpp"
 #include "refine/bundle_solver.hpp"
 #include "refine/residuals.hpp"
@@ -208,22 +206,13 @@ Eigen::Isometry3d Bundle::T_map_base(std::size_t keyframe) const {
 }
 
 Eigen::MatrixXd Bundle::covariance(const std::vector<std::size_t>& keyframes) {
-  constexpr Eigen::Index kPose = 6;
-  std::map<std::size_t, Eigen::Index> column_of;
   std::vector<double*> wanted{&scale_error_};
-  for (const std::size_t k : keyframes) {
-    const auto next = 1 + kPose * static_cast<Eigen::Index>(column_of.size());
-    if (column_of.emplace(k, next).second) wanted.push_back(poses_[k].data());
+  for (const std::size_t k : keyframes) wanted.push_back(poses_[k].data());
+  std::vector<double*> chain;
+  for (auto* errors : {&attitudes_, &biases_}) {
+    for (Vector& error : *errors) chain.push_back(error.data());
   }
-  const Eigen::MatrixXd P = covarianceOf(problem_, wanted, pointBlocks());
-  const auto anchors = static_cast<Eigen::Index>(keyframes.size());
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(SavedMap::kAnchor * anchors, P.cols());
-  for (Eigen::Index i = 0; i < anchors; ++i) {
-    auto rows = J.middleRows<SavedMap::kAnchor>(SavedMap::kAnchor * i);
-    rows.topRows<kPose>().middleCols<kPose>(column_of[keyframes[i]]).setIdentity();
-    rows(kPose, 0) = 1;  // all distances are too long by the odometry's scale error
-  }
-  return J * P * J.transpose();
+  return covarianceOf(problem_, wanted, chain, pointBlocks());
 }
 
 std::vector<TrackPoint3d> Bundle::points() const {

@@ -29,8 +29,9 @@ class Bundle {
 
   Eigen::Isometry3d T_map_base(std::size_t keyframe) const;
   std::vector<TrackPoint3d> points() const;
-  /// Of these keyframes, each with the coordinates of a SavedMap's anchor, which errs as it does.
-  /// @throws std::runtime_error when nothing tells it
+  /// Of the odometry's scale error, and of position [m] and attitude (a rotation vector, axes of
+  /// map) [rad] of each of these keyframes. @throws std::runtime_error when nothing tells it
+  /// @param keyframes  each once
   Eigen::MatrixXd covariance(const std::vector<std::size_t>& keyframes);
   std::size_t views() const;                        ///< that count
   std::size_t dropped() const { return dropped_; }  ///< and those left out

@@ -50,32 +50,57 @@ Sparse inverseRoot(const Sparse& blocks) {
   return root;
 }
 
+/// The normal equations with the points eliminated, of all columns before theirs.
+Sparse withoutPoints(const Sparse& J, Eigen::Index of_points) {
+  const Sparse by_points = J.rightCols(of_points);
+  const Sparse by_others = J.leftCols(J.cols() - of_points);
+  const Sparse root = inverseRoot(Sparse(by_points.transpose() * by_points));
+  const Sparse shared = Sparse(by_others.transpose() * by_points) * root;
+  return Sparse(by_others.transpose() * by_others) - Sparse(shared * shared.transpose());
+}
+
+/// The same with the chain eliminated, whose rows are the last.
+Eigen::MatrixXd withoutChain(const Sparse& equations, Eigen::Index of_chain) {
+  const Eigen::Index kept = equations.rows() - of_chain;
+  const Sparse chain = equations.bottomRightCorner(of_chain, of_chain);
+  const Eigen::SimplicialLLT<Sparse> factor(chain);
+  if (factor.info() != Eigen::Success)
+    throw std::runtime_error("nothing tells how the odometry errs");
+  const Sparse across = equations.bottomLeftCorner(of_chain, kept);
+  const Eigen::MatrixXd solved = factor.solve(Eigen::MatrixXd(across));
+  Eigen::MatrixXd reduced = equations.topLeftCorner(kept, kept);
+  reduced -= across.transpose() * solved;
+  return reduced;
+}
+
+Eigen::Index sizeOf(const ceres::Problem& problem, const std::vector<double*>& blocks) {
+  Eigen::Index size = 0;
+  for (const double* block : blocks) size += problem.ParameterBlockSize(block);
+  return size;
+}
+
 }  // namespace
 
 Eigen::MatrixXd covarianceOf(ceres::Problem& problem, const std::vector<double*>& wanted,
+                             const std::vector<double*>& chain,
                              const std::vector<double*>& points) {
-  std::unordered_set<const double*> known(wanted.begin(), wanted.end());
-  known.insert(points.begin(), points.end());
+  std::unordered_set<const double*> known;
+  for (const auto* blocks : {&wanted, &chain, &points})
+    known.insert(blocks->begin(), blocks->end());
   std::vector<double*> all, order = wanted;
   problem.GetParameterBlocks(&all);
   for (double* block : all) {
     if (known.count(block) == 0) order.push_back(block);
   }
+  order.insert(order.end(), chain.begin(), chain.end());
   order.insert(order.end(), points.begin(), points.end());
-  const Sparse J = jacobianOf(problem, order);
-  const Eigen::Index of_points = kPoint * static_cast<Eigen::Index>(points.size());
-  const Sparse by_points = J.rightCols(of_points);
-  const Sparse by_others = J.leftCols(J.cols() - of_points);
-  const Sparse root = inverseRoot(Sparse(by_points.transpose() * by_points));
-  const Sparse shared = Sparse(by_others.transpose() * by_points) * root;
-  const Sparse reduced =
-      Sparse(by_others.transpose() * by_others) - Sparse(shared * shared.transpose());
+  const Sparse equations = withoutPoints(jacobianOf(problem, order), sizeOf(problem, points));
+  Eigen::MatrixXd reduced = withoutChain(equations, sizeOf(problem, chain));
 
-  Eigen::Index size = 0;
-  for (const double* block : wanted) size += problem.ParameterBlockSize(block);
-  const Eigen::SimplicialLLT<Sparse> factor(reduced);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(reduced);  // in place
   if (factor.info() != Eigen::Success)
     throw std::runtime_error("nothing tells how well the flight is known");
+  const Eigen::Index size = sizeOf(problem, wanted);
   const Eigen::MatrixXd columns = factor.solve(Eigen::MatrixXd::Identity(reduced.rows(), size));
   const Eigen::MatrixXd P = columns.topRows(size);
   if (!P.allFinite()) throw std::runtime_error("what is known of the flight is out of range");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -16,8 +17,8 @@ namespace {
 constexpr std::array<double, 3> kBounds{30, 8, 2.5};
 constexpr double kMostSigmas = 4;             // beyond it a view is of another point
 constexpr std::size_t kFewestInKeyframe = 6;  // views on average; with less the odometry is all
-// How well they are known takes their cube: at the most 140 s and 1.4 GB.
-constexpr std::size_t kMostKnown = 800;
+// How well they are known takes their cube, and 1.1 GB for 1000.
+constexpr std::size_t kMostKnown = 1500;
 
 /// The last keyframe that is not after it, or the first.
 std::size_t keyframeOf(const MapAnchor& anchor, const FlightRecord& record) {
@@ -29,14 +30,28 @@ std::size_t keyframeOf(const MapAnchor& anchor, const FlightRecord& record) {
   return count == 0 ? 0 : count - 1;
 }
 
-/// Empty where it cannot be told.
+/// Anchors err as their keyframes. Empty where it cannot be told.
 Eigen::MatrixXd anchorCovariance(const std::vector<MapAnchor>& anchors, const FlightRecord& record,
                                  Bundle& bundle) {
+  constexpr Eigen::Index kPose = 6;
+  std::map<std::size_t, Eigen::Index> column_of;
   std::vector<std::size_t> keyframes;
-  keyframes.reserve(anchors.size());
-  for (const MapAnchor& anchor : anchors) keyframes.push_back(keyframeOf(anchor, record));
+  const auto rows = SavedMap::kAnchor * static_cast<Eigen::Index>(anchors.size());
+  Eigen::MatrixXd J =
+      Eigen::MatrixXd::Zero(rows, 1 + kPose * static_cast<Eigen::Index>(anchors.size()));
+  Eigen::Index row = 0;
+  for (const MapAnchor& anchor : anchors) {
+    const std::size_t k = keyframeOf(anchor, record);
+    const auto next = 1 + kPose * static_cast<Eigen::Index>(keyframes.size());
+    const auto [found, is_new] = column_of.emplace(k, next);
+    if (is_new) keyframes.push_back(k);
+    J.block<kPose, kPose>(row, found->second).setIdentity();
+    J(row + kPose, 0) = 1;  // all distances are too long by the odometry's scale error
+    row += SavedMap::kAnchor;
+  }
   try {
-    return bundle.covariance(keyframes);
+    const Eigen::MatrixXd P = bundle.covariance(keyframes);
+    return J.leftCols(P.cols()) * P * J.leftCols(P.cols()).transpose();
   } catch (const std::runtime_error&) {
     return {};
   }

@@ -17,7 +17,7 @@ struct Refinement {
   std::vector<Eigen::Isometry3d> T_map_base;  ///< of the record's keyframes
   std::vector<TrackPoint3d> points;
   /// SavedMap::anchor_covariance of the anchors that were named; empty where it cannot be told, or
-  /// there are more than 800 keyframes.
+  /// there are more than 1500 keyframes.
   Eigen::MatrixXd anchor_covariance;
   std::size_t views = 0;           ///< that count
   std::size_t views_left_out = 0;  ///< as they, or others of their point, contradict the rest
