@@ -72,7 +72,9 @@ class Slam {
 
   /// The map, up to the last frame.
   const std::vector<Landmark>& landmarks() const;
-  /// Takes the memory for max_landmarks, and for those that one image adds before the oldest go.
+  /// Another cap of the map, from the next frame on. @throws ConfigError
+  void limitMap(const LandmarkMapConfig& config);
+  /// Takes the memory for max_landmarks, and for what one image adds before the oldest go.
   void reserveMap();
   /// REP-105: corrects the odometry's drift. Identity until the first correction.
   Eigen::Isometry3d T_map_odom() const;

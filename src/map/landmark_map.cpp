@@ -11,7 +11,9 @@ LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const LandmarkIds& ids
   validate(config);
 }
 
-void LandmarkMap::reserve(std::size_t landmarks) {
+void LandmarkMap::reserve() {
+  constexpr std::size_t kOfOneImage = 500;
+  const std::size_t landmarks = static_cast<std::size_t>(config_.max_landmarks) + kOfOneImage;
   landmarks_.reserve(landmarks);
   index_of_id_.reserve(landmarks);
   columns_.reserve(landmarks);
@@ -133,6 +135,11 @@ void LandmarkMap::enter(const Landmark& landmark) {
 DescriptorIndex& LandmarkMap::index() {
   assert(index_is_laid_out_ && stale_for_index_.empty() && "the index is not up to date");
   return index_;
+}
+
+void LandmarkMap::limit(const LandmarkMapConfig& config) {
+  validate(config);
+  config_ = config;
 }
 
 int LandmarkMap::enforceCap() {

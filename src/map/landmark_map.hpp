@@ -25,6 +25,8 @@ class LandmarkMap {
   std::uint32_t add(const Landmark& landmark);
   /// Removes by id; unknown ids are ignored. O(1).
   void remove(std::uint32_t id);
+  /// Another cap. @throws ConfigError
+  void limit(const LandmarkMapConfig& config);
   /// Removes the landmarks not seen for longest until the cap holds. @return how many were removed.
   int enforceCap();
 
@@ -32,9 +34,10 @@ class LandmarkMap {
   const std::vector<Landmark>& all() const { return landmarks_; }
   /// Number of landmarks.
   std::size_t size() const { return landmarks_.size(); }
-  /// Takes the memory for so many landmarks now, so that nothing is moved while the map grows;
-  /// without the index, which most flights never need, and 24 to 40 bytes of each landmark's id.
-  void reserve(std::size_t landmarks);
+  /// Takes the memory for the cap, and for those that one image adds before the oldest go, now, so
+  /// that nothing is moved while the map grows; without the index, which most flights never need,
+  /// and 24 to 40 bytes of each landmark's id.
+  void reserve();
   /// For changes; they must be made before columns() or advanceIndex() is called next.
   /// @param index  into all()
   Landmark& at(std::size_t index);

@@ -14,14 +14,8 @@ namespace {
 
 constexpr double kDoubt = 0.5;  // sigma of a doubtful way, of its length
 
-void refuseExtrinsics(const Eigen::Isometry3d& T_base_cam) {
-  const std::string fault = extrinsicsFault(T_base_cam);
-  if (!fault.empty()) throw std::invalid_argument("the camera's mounting: " + fault);
-}
-
-void refuseMaps(const SlamConfig& config) {
-  const std::string fault = faultOfMaps(config);
-  if (!fault.empty()) throw std::invalid_argument(fault);
+void refuse(const std::string& fault, const char* what = "") {
+  if (!fault.empty()) throw std::invalid_argument(what + fault);
 }
 
 }  // namespace
@@ -29,7 +23,7 @@ void refuseMaps(const SlamConfig& config) {
 Slam::Slam(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam) {
   validate(config);
   if (const auto faults = faultsBetween(config); !faults.empty()) throw ConfigError(faults);
-  refuseExtrinsics(T_base_cam);
+  refuse(extrinsicsFault(T_base_cam), "the camera's mounting: ");
   state_ = std::make_unique<State>(config, T_base_cam);
 }
 
@@ -45,7 +39,7 @@ bool Slam::canChangeCamera() const {
 
 void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   assert(canChangeCamera() && "an estimated error of the extrinsics is one camera's");
-  refuseExtrinsics(T_base_cam);
+  refuse(extrinsicsFault(T_base_cam), "the camera's mounting: ");
   state_->view.changeCamera();
   state_->T_base_cam = T_base_cam;
   state_->estimator->changeCamera(T_base_cam);
@@ -53,12 +47,12 @@ void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 
 void Slam::load(SavedMap map) {
   assert(state_->result.stamp_ns == 0 && "a map is loaded before the first frame");
-  refuseMaps(state_->config);
+  refuse(faultOfMaps(state_->config));
   state_->search = std::make_unique<MapSearch>(std::move(map), state_->config);
 }
 
 void Slam::lookNear(const PlaceHint& hint) {
-  refuseMaps(state_->config);
+  refuse(faultOfMaps(state_->config));
   if (!isSearching() && landmarks().size() < kFewestFixLandmarks)
     throw std::invalid_argument("there is no map yet to look in: fly first");
   if (!isSearching()) state_ = state_->flyAgain();
@@ -74,7 +68,7 @@ bool Slam::hasWholeMap() const {
 }
 
 SavedMap Slam::save() const {
-  refuseMaps(state_->config);
+  refuse(faultOfMaps(state_->config));
   if (isSearching() && hasWholeMap()) return state_->search->map();
   return state_->save();
 }
@@ -83,10 +77,13 @@ const std::vector<Landmark>& Slam::landmarks() const {
   return state_->map.all();
 }
 
+void Slam::limitMap(const LandmarkMapConfig& config) {
+  state_->map.limit(config);
+  state_->config.landmark_map = config;
+}
+
 void Slam::reserveMap() {
-  constexpr std::size_t kOfOneImage = 500;
-  const auto most = static_cast<std::size_t>(state_->config.landmark_map.max_landmarks);
-  state_->map.reserve(most + kOfOneImage);
+  state_->map.reserve();
 }
 
 Eigen::Isometry3d Slam::T_map_odom() const {
