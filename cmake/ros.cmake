@@ -1,7 +1,7 @@
 # Finds ROS, generates the messages and declares the catkin package. Sets ARDRONE_VSLAM_WITH_ROS.
 set(ARDRONE_VSLAM_ROS_COMPONENTS
   roscpp nodelet pluginlib message_generation std_msgs std_srvs sensor_msgs geometry_msgs nav_msgs visualization_msgs
-  cv_bridge image_transport camera_info_manager tf2 tf2_ros tf2_msgs diagnostic_updater rosbag)
+  cv_bridge image_transport camera_info_manager tf2 tf2_ros tf2_msgs diagnostic_updater dynamic_reconfigure rosbag)
 find_package(catkin QUIET OPTIONAL_COMPONENTS ${ARDRONE_VSLAM_ROS_COMPONENTS})  # so that all that miss are named at once
 
 set(ARDRONE_VSLAM_WITH_ROS FALSE)

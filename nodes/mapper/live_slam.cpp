@@ -56,6 +56,11 @@ void LiveSlam::lookNear(const PlaceHint& hint) {
   slam_->lookNear(hint);
 }
 
+void LiveSlam::limitMap(const LandmarkMapConfig& config) {
+  if (slam_) slam_->limitMap(config);
+  config_.landmark_map = config;
+}
+
 void LiveSlam::endMap() {
   ++counts_.restarts;
   slam_.reset();

@@ -41,6 +41,8 @@ class LiveSlam {
   SavedMap save() const;
   /// @throws std::exception when there is no map to look in
   void lookNear(const PlaceHint& hint);
+  /// Of the map in use and of later ones.
+  void limitMap(const LandmarkMapConfig& config);
   void countCameraChange() { ++counts_.camera_changes; }
   void endMap();
 

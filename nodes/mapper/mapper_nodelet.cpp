@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "conversions/frame_names.hpp"
-#include "with_ros/params.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -20,13 +19,14 @@ double now_s() {
 
 void MapperNodelet::onInit() {
   readParameters();
-  outputs_ = std::make_unique<MapperOutputs>(getNodeHandle(), settings_.node.outputs);
+  outputs_ = std::make_unique<MapperOutputs>(getNodeHandle(), settings().node.outputs);
   extrinsics_ = std::make_unique<ExtrinsicsTf>(getNodeHandle());
   makeMaps();
   makeInputs();
   status_ = std::make_unique<MapperStatus>(
       getNodeHandle(), getPrivateNodeHandle(), getName(),
-      MapperStatus::Parts{*features_, *odometry_, *heights_, *extrinsics_, *matcher_, *slam_},
+      MapperStatus::Parts{*features_, *odometry_, *heights_, *extrinsics_, *matcher_, *slam_,
+                          *parameters_},
       warnings_);
   // Last: callbacks run at once, in another thread. In this one, which loads the tracker, too:
   // where one thread advertises while another subscribes, roscpp connects them twice.
@@ -34,25 +34,18 @@ void MapperNodelet::onInit() {
 }
 
 void MapperNodelet::readParameters() {
-  ParamReader reader(getPrivateNodeHandle());
-  reader.read(settings_.node);
-  reader.read(settings_.slam);
-  for (const auto& sentence : reader.unknownKeys()) NODELET_WARN_STREAM(sentence);
   try {
-    reader.finish();
-    // Some faults lie between parameters: tell them now, not in mid-air.
-    const Slam trial(settings_.slam, Eigen::Isometry3d::Identity());
-    slam_ = std::make_unique<LiveSlam>(settings_.slam, warnings_);
-    matcher_ = std::make_unique<FrameMatcher>(
-        settings_.slam.odometry, settings_.node.odometry_wait_s, slam_->setup().clock());
+    parameters_ = std::make_unique<MapperParameters>(
+        getPrivateNodeHandle(), warnings_,
+        [this](const std::string& read) { NODELET_INFO_STREAM(read); });
+    const SlamConfig& slam = settings().slam;
+    slam_ = std::make_unique<LiveSlam>(slam, warnings_);
+    matcher_ = std::make_unique<FrameMatcher>(slam.odometry, settings().node.odometry_wait_s,
+                                              slam_->setup().clock());
   } catch (const ConfigError& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;
   }
-  settings_.tf_prefix = tfPrefixOf(getPrivateNodeHandle());
-  NODELET_INFO_STREAM("ardrone_vslam " ARDRONE_VSLAM_VERSION " mapper: "
-                      << reader.summary()
-                      << (settings_.tf_prefix.empty() ? "" : " tf_prefix=" + settings_.tf_prefix));
 }
 
 void MapperNodelet::makeMaps() {
@@ -70,12 +63,12 @@ void MapperNodelet::makeMaps() {
   };
   maps_ = std::make_unique<MapServices>(
       getPrivateNodeHandle(), std::move(calls),
-      settings_.slam.msckf.localise_only ? "" : settings_.node.save_map);
+      settings().slam.msckf.localise_only ? "" : settings().node.save_map);
   try {
-    const std::string fault = faultOfMaps(settings_.slam);
-    if (!settings_.node.save_map.empty() && !fault.empty()) throw MapFileError(fault);
-    if (settings_.node.map_file.empty()) return;
-    slam_->useMap(MapServices::open(settings_.node.map_file));
+    const std::string fault = faultOfMaps(settings().slam);
+    if (!settings().node.save_map.empty() && !fault.empty()) throw MapFileError(fault);
+    if (settings().node.map_file.empty()) return;
+    slam_->useMap(MapServices::open(settings().node.map_file));
   } catch (const MapFileError& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;
@@ -85,12 +78,12 @@ void MapperNodelet::makeMaps() {
 void MapperNodelet::makeInputs() {
   ros::NodeHandle& nh = getNodeHandle();
   odometry_ = std::make_unique<OdometryTopic>(
-      nh, *extrinsics_, settings_, *matcher_, warnings_,
+      nh, *extrinsics_, settings(), *matcher_, warnings_,
       OdometryTopic::Calls{
           [this](std::int64_t stamp_ns) { restartAt(stamp_ns, odometry_->name()); },
           [this] { processReady(); }});
   heights_ =
-      std::make_unique<HeightTopic>(settings_.slam.height_input, settings_.slam.odometry.buffer_s,
+      std::make_unique<HeightTopic>(settings().slam.height_input, settings().slam.odometry.buffer_s,
                                     [this](const std::string& topic, const std::string& fault) {
                                       warnings_.refuse(topic, fault);
                                     });
@@ -116,7 +109,11 @@ void MapperNodelet::start() {
   });
   heights_->subscribe(nh);
   odometry_->subscribe(nh);
-  features_->subscribe(nh, settings_.node.queue_size);
+  features_->subscribe(nh, settings().node.queue_size);
+  parameters_->offer([this](const MapperChanges& changes) {
+    slam_->limitMap(changes.landmark_map);
+    outputs_->change(changes.outputs);
+  });
 }
 
 void MapperNodelet::processReady() {
@@ -138,7 +135,7 @@ bool MapperNodelet::prepareSlam(const Features& features) {
     return false;
   }
   const Frames& frames = odometry_->frames();
-  const std::string frame = withTfPrefix(settings_.tf_prefix, camera.frame);
+  const std::string frame = withTfPrefix(settings().tf_prefix, camera.frame);
   const auto T_base_cam = extrinsics_->find(frames.base, frame);
   if (!T_base_cam) return false;
   useCamera(camera, *T_base_cam, frame);

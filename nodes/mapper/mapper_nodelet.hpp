@@ -12,7 +12,7 @@
 #include "mapper/features_topic.hpp"
 #include "mapper/live_slam.hpp"
 #include "mapper/map_services.hpp"
-#include "mapper/mapper_settings.hpp"
+#include "mapper/mapper_parameters.hpp"
 #include "mapper/mapper_status.hpp"
 #include "mapper/odometry_topic.hpp"
 #include "outputs/mapper_outputs.hpp"
@@ -27,6 +27,7 @@ class MapperNodelet : public nodelet::Nodelet {
  private:
   void onInit() override;
   void readParameters();
+  const MapperSettings& settings() const { return parameters_->atStart(); }
   void makeMaps();
   void makeInputs();
   void start();
@@ -45,8 +46,8 @@ class MapperNodelet : public nodelet::Nodelet {
   void beginMapAnew(const std::string& why);
   void onSecond();
 
-  MapperSettings settings_;
   Warnings warnings_{[this](const std::string& sentence) { NODELET_WARN_STREAM(sentence); }};
+  std::unique_ptr<MapperParameters> parameters_;
   std::unique_ptr<MapperOutputs> outputs_;
   std::unique_ptr<ExtrinsicsTf> extrinsics_;
   std::unique_ptr<LiveSlam> slam_;

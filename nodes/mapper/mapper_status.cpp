@@ -55,6 +55,7 @@ void MapperStatus::publish(Status& status) {
   status.ranges_refused = parts_.heights.refused();
   status.heights_missing = parts_.heights.input().missing();
   status.heights_tilted = parts_.heights.input().tilted();
+  status.changed_parameters = parts_.parameters.changed();
   publisher_.publish(status);
   latest_ = status;
 }
@@ -124,6 +125,8 @@ void MapperStatus::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper
   parts_.slam.setup().diagnose(wrapper);
   wrapper.add("results not finite", counts.results_not_finite);
   wrapper.add("camera changes", counts.camera_changes);
+  if (!latest_.changed_parameters.empty())
+    wrapper.add("parameters changed in flight", latest_.changed_parameters);
   wrapper.add("landmarks", latest_.landmarks);
   wrapper.add("landmark matches", latest_.landmark_matches);
   wrapper.add("deviation [m]", latest_.deviation);

@@ -9,6 +9,7 @@
 #include "inputs/height_topic.hpp"
 #include "mapper/features_topic.hpp"
 #include "mapper/live_slam.hpp"
+#include "mapper/mapper_parameters.hpp"
 #include "mapper/odometry_topic.hpp"
 #include "timing/clock_watch.hpp"
 
@@ -25,6 +26,7 @@ class MapperStatus {
     const ExtrinsicsTf& extrinsics;
     const FrameMatcher& matcher;
     const LiveSlam& slam;
+    const MapperParameters& parameters;
   };
 
   MapperStatus(ros::NodeHandle nh, const ros::NodeHandle& private_nh, const std::string& name,

@@ -13,7 +13,7 @@
 #include "inputs/frame_matcher.hpp"
 #include "inputs/odometry_intake.hpp"
 #include "inputs/odometry_maker.hpp"
-#include "mapper/mapper_settings.hpp"
+#include "mapper/mapper_parameters.hpp"
 #include "mapper/odometry_watch.hpp"
 
 namespace ardrone_vslam {

@@ -21,6 +21,7 @@ class MapperOutputs {
   static constexpr double kMapPeriod_s = 0.5;
 
   MapperOutputs(ros::NodeHandle& nh, const OutputsConfig& config);
+  void change(const OutputsConfig& config) { config_ = config; }
 
   /// Pose, odometry and correction of one image; remembers the path.
   /// @param odometry  at the image's stamp

@@ -4,10 +4,21 @@
 #include <ros/time.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "tracker/track_ids.hpp"
 
 namespace ardrone_vslam {
+
+CameraIntrinsics anyCamera() {
+  CameraIntrinsics camera;
+  camera.width_px = 640;
+  camera.height_px = 480;
+  camera.fx_px = camera.fy_px = 500;
+  camera.cx_px = 320;
+  camera.cy_px = 240;
+  return camera;
+}
 
 LiveTracker::LiveTracker(const TrackerNodeConfig& node_config, const TrackerConfig& config,
                          const ImageReceiver& images, Warnings& warnings)
@@ -45,6 +56,16 @@ std::string LiveTracker::prepare(const sensor_msgs::CameraInfo& info, const std:
   camera_ = camera;
   camera_frame_ = frame;
   return {};
+}
+
+void LiveTracker::change(const TrackerChanges& changes) {
+  TrackerConfig wanted = config_;
+  wanted.corners = changes.corners;
+  wanted.tracks = changes.tracks;
+  auto tracker =
+      std::make_unique<Tracker>(wanted, tracker_ ? camera_ : anyCamera(), next_track_id_);
+  if (tracker_) tracker_ = std::move(tracker);
+  config_ = wanted;
 }
 
 std::string LiveTracker::imageFault(const CameraIntrinsics& camera, const std::string& frame,

@@ -17,6 +17,21 @@
 
 namespace ardrone_vslam {
 
+/// For what a tracker is told before it has one.
+CameraIntrinsics anyCamera();
+
+/// What of the tracker's parameters may change in flight.
+struct TrackerChanges {
+  CornerDetectorConfig corners;
+  FrameTrackerConfig tracks;
+};
+
+template <class Visitor>
+void visitParameters(TrackerChanges& c, Visitor&& visit) {
+  visitParameters(c.corners, visit);
+  visitParameters(c.tracks, visit);
+}
+
 /// The Tracker that fits the camera of the images that come.
 class LiveTracker {
  public:
@@ -28,6 +43,9 @@ class LiveTracker {
   /// @return why there is none, and what helps: the image must be dropped
   std::string prepare(const sensor_msgs::CameraInfo& info, const std::string& frame,
                       const GreyImage& image);
+  /// From the next image on; tracks begin anew.
+  /// @throws ConfigError; std::invalid_argument where the camera's images do not allow it
+  void change(const TrackerChanges& changes);
   /// The tracks end: time began again.
   void reset() { tracker_.reset(); }
   /// @pre prepare() has found no fault

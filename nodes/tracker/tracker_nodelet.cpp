@@ -29,9 +29,12 @@ void TrackerNodelet::onInit() {
   NODELET_INFO_STREAM("images from " << images_->imageTopic() << ", calibration from "
                                      << images_->infoTopic());
   tracker_ = std::make_unique<LiveTracker>(node_config_, config_, *images_, warnings_);
+  changes_ = std::make_unique<ParameterChanges<TrackerChanges>>(
+      getPrivateNodeHandle(), TrackerChanges{config_.corners, config_.tracks}, warnings_,
+      [this](const TrackerChanges& changes) { tracker_->change(changes); });
   status_ = std::make_unique<TrackerStatus>(
       nh, getPrivateNodeHandle(), getName(),
-      TrackerStatus::Parts{*images_, *tracker_, attitude_.get()}, warnings_);
+      TrackerStatus::Parts{*images_, *tracker_, *changes_, attitude_.get()}, warnings_);
   timers_.every(nh, 1.0, [this] { status_->endSecond(); });
   images_->start();  // last: callbacks run at once, in another thread
 }
@@ -44,13 +47,7 @@ void TrackerNodelet::readParameters() {
   try {
     reader.finish();
     // Some faults lie between parameters: a tracker for any camera tells them now, not in mid-air.
-    CameraIntrinsics any_camera;
-    any_camera.width_px = 640;
-    any_camera.height_px = 480;
-    any_camera.fx_px = any_camera.fy_px = 500;
-    any_camera.cx_px = 320;
-    any_camera.cy_px = 240;
-    Tracker(config_, any_camera);
+    Tracker(config_, anyCamera());
   } catch (const ConfigError& e) {
     NODELET_FATAL_STREAM(getName() << ": " << e.what());
     throw;

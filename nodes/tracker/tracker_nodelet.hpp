@@ -9,6 +9,7 @@
 #include <string>
 
 #include "inputs/attitude_input.hpp"
+#include "parameters/parameter_changes.hpp"
 #include "timing/stamp_guard.hpp"
 #include "timing/timers.hpp"
 #include "timing/warning_limiter.hpp"
@@ -40,6 +41,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   StampGuard stamps_;
   std::unique_ptr<AttitudeInput> attitude_;
   std::unique_ptr<LiveTracker> tracker_;
+  std::unique_ptr<ParameterChanges<TrackerChanges>> changes_;
   std::unique_ptr<TrackerStatus> status_;
   // Last, as they call: they end first.
   std::unique_ptr<ImageReceiver> images_;

@@ -51,6 +51,8 @@ void TrackerStatus::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status
   status.add("images without camera_info", counts.without_info);
   status.add("images waiting", counts.waiting);
   if (parts_.attitude) status.add("images without attitude", parts_.attitude->imagesWithout());
+  if (!parts_.changes.changed().empty())
+    status.add("parameters changed in flight", parts_.changes.changed());
   status.add("features in the latest image", parts_.tracker.features().size());
   status.add("tracks in the latest image", parts_.tracker.features().tracked());
   status.add("tracks aligned in the latest image", parts_.tracker.features().aligned());

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "inputs/attitude_input.hpp"
+#include "parameters/parameter_changes.hpp"
 #include "tracker/image_watch.hpp"
 #include "tracker/live_tracker.hpp"
 
@@ -17,6 +18,7 @@ class TrackerStatus {
   struct Parts {
     const ImageReceiver& images;
     const LiveTracker& tracker;
+    const ParameterChanges<TrackerChanges>& changes;
     const AttitudeInput* attitude;  ///< with use_attitude
   };
 

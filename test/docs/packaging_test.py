@@ -18,7 +18,7 @@ ESSENTIAL = {"g++", "make"}  # build-essential, which no package names
 # Names of package.xml that Debian has otherwise than most.
 DEBIAN_NAMES = {"eigen": "libeigen3-dev", "nlohmann-json-dev": "nlohmann-json3-dev", "tf2": "libtf2-ros-dev",
                 "nodelet": "libnodelet-dev", "message_runtime": "ros-message-runtime", "rosbag": "librosbag-dev",
-                "zlib": "zlib1g-dev"}
+                "zlib": "zlib1g-dev", "dynamic_reconfigure": "libdynamic-reconfigure-config-init-mutex-dev"}
 
 
 def text_of(path):
