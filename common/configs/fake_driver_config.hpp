@@ -25,9 +25,10 @@ void visitParameters(FakeDriverConfig& c, Visitor&& visit) {
                       "a flight of make_world --list that it flies by itself; none: on the floor, "
                       "obeying takeoff, land, reset and cmd_vel"},
         c.autopilot);
-  visit(ParameterInfo{"world", "name", 0, 0,
-                      "room, furnished, moving, corridor; empty: the flight's own, else room"},
-        c.world);
+  visit(
+      ParameterInfo{"world", "name", 0, 0,
+                    "room, furnished, moving, corridor, hotel; empty: the flight's own, else room"},
+      c.world);
   visit(ParameterInfo{"camera", "name", 0, 0,
                       "which streams first: front, front_wide, bottom; togglecam changes to the "
                       "other side's"},

@@ -101,7 +101,7 @@ Lighting World::lightAt(double t_s) const {
 }
 
 std::vector<std::string> worldNames() {
-  return {"room", "furnished", "moving", "corridor"};
+  return {"room", "furnished", "moving", "corridor", "hotel"};
 }
 
 std::vector<std::string> lightNames() {
@@ -117,6 +117,7 @@ World makeWorld(const std::string& name, const std::string& light, std::uint64_t
   const World::Extent extent{{0, 0, 0}, {kRoomLength_m, kRoomWidth_m, kRoomHeight_m}};
   if (name == "room") return {makeRoom(world_seed), {}, extent, light};
   if (name == "furnished") return {makeFurnishedRoom(world_seed), {}, extent, light};
+  if (name == "hotel") return {makeHotelRoom(world_seed), {}, extent, light};
   if (name == "moving") {
     return {makeFurnishedRoom(world_seed), movingThings(world_seed), extent, light};
   }

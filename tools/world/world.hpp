@@ -46,7 +46,7 @@ class World {
 };
 
 /// room: makeRoom; furnished: with a table and furniture; moving: the same with moving boxes;
-/// corridor: 33 m long.
+/// corridor: 33 m long; hotel: rooms that are alike, one for each seed.
 std::vector<std::string> worldNames();
 /// steady: as painted; moving: a lamp wanders about; fading: dark from 20 to 32 s, then dim.
 std::vector<std::string> lightNames();

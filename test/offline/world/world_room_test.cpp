@@ -4,11 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <set>
+#include <vector>
 
+#include "world/scene/world_furniture.hpp"
 #include "world/scene/world_paint.hpp"
+#include "world/scene/world_posters.hpp"
 #include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {
@@ -89,6 +93,51 @@ TEST(WorldRoom, ItsSurfacesCloseTheBoxSeenFromInside) {
     const cv::Mat image = renderer.render(room, lookAround(i), 0);
     EXPECT_EQ(cv::countNonZero(image != 200), 0) << "view " << i;
   }
+}
+
+bool looksAlike(const Surface& a, const Surface& b) {
+  const Eigen::Vector2f right(1, 0), down(0, 1);
+  for (int i = 0; i < 400; ++i) {
+    const Eigen::Vector2f at(10 + 7.3F * static_cast<float>(i % 20),
+                             10 + 5.1F * static_cast<float>(i / 20));
+    if (a.texture->sample(at, right, down) != b.texture->sample(at, right, down)) return false;
+  }
+  return true;
+}
+
+TEST(HotelRoom, HasItsOwnWallsAndTheFurnitureOfAllOthers) {
+  const Scene one = makeHotelRoom(1), other = makeHotelRoom(2);
+  constexpr std::size_t kWalls = 6;  // with floor and ceiling
+  ASSERT_EQ(one.surfaces.size(), other.surfaces.size());
+  ASSERT_GT(one.surfaces.size(), kWalls);
+  for (std::size_t i = 0; i < one.surfaces.size(); ++i) {
+    EXPECT_EQ(looksAlike(one.surfaces[i], other.surfaces[i]), i >= kWalls) << i;
+    EXPECT_EQ(one.surfaces[i].corner, other.surfaces[i].corner) << i;
+  }
+}
+
+TEST(HotelRoom, ItsPostersAreTheSameForEverySeed) {
+  constexpr double kWall_m = 30, kPoster_m = 0.5;
+  const auto posters = [&](std::uint64_t seed) {
+    Painter painter(kWall_m, kPoster_m, seed, 0);
+    std::vector<std::vector<std::uint8_t>> pictures;
+    for (double x = 0; x + kPoster_m <= kWall_m; x += kPoster_m) {
+      painter.fill({x, 0, kPoster_m, kPoster_m}, 0);
+      paintPosterOfCatalogue(painter, {x, 0, kPoster_m, kPoster_m});
+      const auto texels = [](double m) { return static_cast<int>(m * Painter::kTexelsPerMetre); };
+      const cv::Mat poster =
+          painter.picture()({texels(x), 0, texels(kPoster_m), texels(kPoster_m)}).clone();
+      pictures.emplace_back(poster.datastart, poster.dataend);
+    }
+    return pictures;
+  };
+  const auto one = posters(1), other = posters(2);
+  EXPECT_NE(one, other);  // in another order
+  const std::set<std::vector<std::uint8_t>> ones(one.begin(), one.end());
+  EXPECT_LE(ones.size(), 30U);  // of 60: 24, and a few twice, where a texel is rounded otherwise
+  const auto known = std::count_if(other.begin(), other.end(),
+                                   [&](const auto& poster) { return ones.count(poster) > 0; });
+  EXPECT_GT(known, 40);  // of 60
 }
 
 }  // namespace

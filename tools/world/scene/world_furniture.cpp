@@ -39,10 +39,7 @@ std::uint64_t addTable(std::uint64_t seed, std::uint64_t stream, std::vector<Sur
   return addBox(slab, paintWood, paintTop, seed, stream, surfaces);
 }
 
-}  // namespace
-
-Scene makeFurnishedRoom(std::uint64_t world_seed) {
-  Scene room = makeRoom(world_seed);
+void furnish(std::uint64_t world_seed, Scene& room) {
   const auto grain = makeGrain(world_seed);
   for (auto& surface : room.surfaces) {
     if (surface.corner.z() == 0) surface.grain = grain;  // the floor
@@ -61,6 +58,20 @@ Scene makeFurnishedRoom(std::uint64_t world_seed) {
   add({{3.4, -2.4, 0}, {0.6, 0.6, 0.55}, 0.3}, paintCarton);
   add({{3.45, -2.45, 0.55}, {0.42, 0.42, 0.4}, -0.2}, paintCarton);
   add({{-3.3, 2.3, 0}, {0.3, 0.3, kRoomHeight_m}}, paintWood);  // a pillar
+}
+
+}  // namespace
+
+Scene makeFurnishedRoom(std::uint64_t world_seed) {
+  Scene room = makeRoom(world_seed);
+  furnish(world_seed, room);
+  return room;
+}
+
+Scene makeHotelRoom(std::uint64_t world_seed) {
+  constexpr std::uint64_t kFurniture = 0;
+  Scene room = makeRoom(world_seed, paintPosterOfCatalogue);
+  furnish(kFurniture, room);
   return room;
 }
 

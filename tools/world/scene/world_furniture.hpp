@@ -16,4 +16,8 @@ constexpr double kTableHeight_m = 0.75;
 /// floor and table top show grain from nearby.
 Scene makeFurnishedRoom(std::uint64_t world_seed);
 
+/// One of a hotel's rooms: its furniture is the same in all of them, and its posters are repeated
+/// in the room and in the others. The seed decides where they hang, and paints floor and ceiling.
+Scene makeHotelRoom(std::uint64_t world_seed);
+
 }  // namespace ardrone_vslam

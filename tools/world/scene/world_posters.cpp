@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ardrone_vslam {
 namespace {
@@ -153,6 +154,19 @@ void paintPoster(Painter& painter, const cv::Rect2d& area) {
       paintShelf(painter, inside);
       break;
   }
+}
+
+void paintPosterOfCatalogue(Painter& painter, const cv::Rect2d& area) {
+  constexpr int kPosters = 24;
+  constexpr std::uint64_t kStream = 800;
+  constexpr double kLargest_m = 0.5;
+  const auto which = static_cast<std::uint64_t>(painter.random().integer(0, kPosters - 1));
+  const RandomSource of_the_room =
+      std::exchange(painter.random(), RandomSource(0, kStream + which));
+  const double width_m = kLargest_m * painter.random().uniform(0.8, 1);
+  const double height_m = kLargest_m * painter.random().uniform(0.8, 1);
+  paintPoster(painter, {area.x, area.y, width_m, height_m});
+  painter.random() = of_the_room;
 }
 
 void paintBricks(Painter& painter, const cv::Rect2d& area) {

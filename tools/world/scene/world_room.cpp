@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/scene/world_posters.hpp"
 #include "world/scene/world_walls.hpp"
 
 namespace ardrone_vslam {
@@ -15,7 +14,7 @@ constexpr double kPlainBay_m = 0.6;
 enum WallStream : std::uint64_t { kFront, kBack, kLeft, kRight, kFloor, kCeiling };
 
 /// The wall's special thing, its left side at x. @return what it takes up
-Bay paintSpecial(Painter& painter, WallStream wall, double x) {
+Bay paintSpecial(Painter& painter, WallStream wall, double x, const PosterPaint& poster) {
   switch (wall) {
     case kFront:
       paintBricks(painter, {x, 0, 1.6, kRoomHeight_m});
@@ -25,19 +24,19 @@ Bay paintSpecial(Painter& painter, WallStream wall, double x) {
       return {x - 0.08, x + 0.98};
     default:
       paintWindow(painter, x);
-      paintColumn(painter, x - 0.1, x + 1.4, 1.95);
+      paintColumn(painter, x - 0.1, x + 1.4, 1.95, poster);
       return {x - 0.14, x + 1.44};
   }
 }
 
-Painter paintWall(WallStream wall, double width_m, std::uint64_t seed) {
+Painter paintWall(WallStream wall, double width_m, std::uint64_t seed, const PosterPaint& poster) {
   Painter painter(width_m, kRoomHeight_m, seed, wall);
   paintPlaster(painter);
   const double middle = width_m / 2;
   const double special_x = painter.random().uniform(0.8, middle - 0.7);
   const double plain_x = painter.random().uniform(middle + 1.0, width_m - 1.5);
-  const Bay special = paintSpecial(painter, wall, special_x);
-  paintPosters(painter, {special, {plain_x, plain_x + kPlainBay_m}});
+  const Bay special = paintSpecial(painter, wall, special_x, poster);
+  paintPosters(painter, {special, {plain_x, plain_x + kPlainBay_m}}, poster);
   paintSkirting(painter);
   return painter;
 }
@@ -83,15 +82,18 @@ Painter paintCeiling(std::uint64_t seed) {
 
 }  // namespace
 
-Scene makeRoom(std::uint64_t world_seed) {
+Scene makeRoom(std::uint64_t world_seed, const PosterPaint& poster) {
   constexpr double kX = kRoomLength_m / 2, kY = kRoomWidth_m / 2, kZ = kRoomHeight_m;
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
                         z = Eigen::Vector3d::UnitZ();
+  const auto wall = [&](WallStream which, double width_m) {
+    return paintWall(which, width_m, world_seed, poster);
+  };
   Scene room;
-  room.surfaces = {makeSurface({kX, kY, kZ}, -y, -z, paintWall(kFront, kRoomWidth_m, world_seed)),
-                   makeSurface({-kX, -kY, kZ}, y, -z, paintWall(kBack, kRoomWidth_m, world_seed)),
-                   makeSurface({-kX, kY, kZ}, x, -z, paintWall(kLeft, kRoomLength_m, world_seed)),
-                   makeSurface({kX, -kY, kZ}, -x, -z, paintWall(kRight, kRoomLength_m, world_seed)),
+  room.surfaces = {makeSurface({kX, kY, kZ}, -y, -z, wall(kFront, kRoomWidth_m)),
+                   makeSurface({-kX, -kY, kZ}, y, -z, wall(kBack, kRoomWidth_m)),
+                   makeSurface({-kX, kY, kZ}, x, -z, wall(kLeft, kRoomLength_m)),
+                   makeSurface({kX, -kY, kZ}, -x, -z, wall(kRight, kRoomLength_m)),
                    makeSurface({kX, kY, 0}, -y, -x, paintFloor(world_seed)),
                    makeSurface({-kX, kY, kZ}, -y, x, paintCeiling(world_seed))};
   return room;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "world/scene/world_posters.hpp"
 #include "world/scene/world_scene.hpp"
 
 namespace ardrone_vslam {
@@ -14,6 +15,6 @@ constexpr double kRoomHeight_m = 3;
 
 /// A box room with boards on its floor, tiles at its ceiling, bricks on a part of one wall, a door,
 /// windows and posters; each wall keeps a plain bay. The seed decides where and what.
-Scene makeRoom(std::uint64_t world_seed);
+Scene makeRoom(std::uint64_t world_seed, const PosterPaint& poster = paintPoster);
 
 }  // namespace ardrone_vslam

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/scene/world_posters.hpp"
-
 namespace ardrone_vslam {
 namespace {
 
@@ -43,7 +41,8 @@ void paintWindow(Painter& painter, double x) {
   painter.fill({x - 0.12, top + height + 0.07, width + 0.24, 0.05}, 215);
 }
 
-void paintColumn(Painter& painter, double left, double right, double top) {
+void paintColumn(Painter& painter, double left, double right, double top,
+                 const PosterPaint& paint) {
   RandomSource& random = painter.random();
   const double bottom = painter.height_m() - 0.14;
   const int rows = std::max(1, static_cast<int>(std::lround((bottom - top) / kCell_m)));
@@ -53,11 +52,11 @@ void paintColumn(Painter& painter, double left, double right, double top) {
     const double height = row_m * random.uniform(0.75, 0.95);
     const double x = random.uniform(left, right - width);
     const double y = top + row * row_m + random.uniform(0, row_m - height);
-    paintPoster(painter, {x, y, width, height});
+    paint(painter, {x, y, width, height});
   }
 }
 
-void paintPosters(Painter& painter, std::vector<Bay> bays) {
+void paintPosters(Painter& painter, std::vector<Bay> bays, const PosterPaint& paint) {
   bays.push_back({painter.width_m(), painter.width_m()});
   double left = 0;
   for (const auto& bay : bays) {
@@ -65,7 +64,7 @@ void paintPosters(Painter& painter, std::vector<Bay> bays) {
     const int columns = static_cast<int>(std::lround(span / kCell_m));
     for (int i = 0; i < columns; ++i) {
       paintColumn(painter, left + i * span / columns + 0.02, left + (i + 1) * span / columns - 0.02,
-                  0.08);
+                  0.08, paint);
     }
     left = bay.end;
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "world/scene/world_paint.hpp"
+#include "world/scene/world_posters.hpp"
 #include "world/scene/world_scene.hpp"
 
 namespace ardrone_vslam {
@@ -16,7 +17,8 @@ void paintDoor(Painter& painter, double x);
 void paintWindow(Painter& painter, double x);
 void paintSkirting(Painter& painter);
 /// A column of posters between `left` and `right`, from `top` down to the skirting.
-void paintColumn(Painter& painter, double left, double right, double top);
+void paintColumn(Painter& painter, double left, double right, double top,
+                 const PosterPaint& paint = paintPoster);
 
 /// Part of a wall that posters leave free, in x.
 struct Bay {
@@ -24,7 +26,7 @@ struct Bay {
   double end;
 };
 /// Columns of posters everywhere between the bays, which come in ascending order.
-void paintPosters(Painter& painter, std::vector<Bay> bays);
+void paintPosters(Painter& painter, std::vector<Bay> bays, const PosterPaint& paint = paintPoster);
 
 /// The painted picture as a surface.
 Surface makeSurface(const Eigen::Vector3d& corner, const Eigen::Vector3d& right,
