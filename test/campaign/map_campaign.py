@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Looks for rendered flights in the maps of others, of the same room and of rooms like it; scripts/map_campaign runs it."""
+import argparse
+import concurrent.futures
+import json
+import math
+import os
+import random
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+from ardrone_vslam_evaluation.align import best_alignment
+from ardrone_vslam_evaluation.associate import associate
+from ardrone_vslam_evaluation.read_text import read_tum
+
+RATE_HZ = 10
+LOOK_S, FLIGHT_S, LAP_S, MAP_S = 6, 12, 22, 40
+WRONG_M = 0.5  # off by more (RMSE) is another place
+ROOM, HOTEL = "furnished", "hotel"
+SAME_STAMP_S = 0.001
+
+
+class Campaign:
+    def __init__(self, programs, work):
+        self.programs, self.work = programs, work
+
+    def run(self, program, *arguments):
+        done = subprocess.run([os.path.join(self.programs, program), *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                              universal_newlines=True, check=False)
+        return done.returncode, done.stderr
+
+    def must(self, program, *arguments):
+        code, said = self.run(program, *arguments)
+        if code:
+            sys.exit(f"map_campaign: {program} {' '.join(map(str, arguments))}: exit code {code}: {said.strip()}")
+
+    def path(self, *parts):
+        return os.path.join(self.work, *parts)
+
+    def render(self, name, world, room, seconds, seed, start=None):
+        options = [] if start is None else ["--start", "%.2f,%.2f,%.2f" % start]
+        self.must("make_world", "laps", "--world", world, "--world-seed", room, "--seconds", seconds, "--rate", RATE_HZ, "--seed", seed,
+                  "--out", self.path(name), "--force", *options)
+
+    def make_map(self, name, world, room, seconds, refines):
+        """NAME.vmap as flown, NAME_refined.vmap, and the runs' folders beside them."""
+        self.render(name, world, room, seconds, room)
+        for kind, options in (("", []), ("_refined", ["--refine"]))[:1 + refines]:
+            self.must("replay", self.path(name), "--odometry-profile", "drone", "--seed", room, *options,
+                      "--save-map", self.path(name + kind + ".vmap"), "--out", self.path(name + kind + "_run"))
+        shutil.rmtree(self.path(name))
+
+    def look(self, flight, name, seed):
+        """A flight in a map, its odometry beginning at the origin. (found after s, RMSE in m, run folder); None: not found."""
+        out = self.path(f"{flight}_in_{name}")
+        code, said = self.run("replay", self.path(flight), "--odometry-profile", "drone", "--seed", seed, "--odometry-at-zero",
+                              "--map", self.path(name + ".vmap"), "--localise-only", "--out", out)
+        try:
+            with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
+                summary = json.load(file)
+        except OSError:
+            sys.exit(f"map_campaign: replay {flight} in {name}: exit code {code}: {said.strip()}")
+        found_s = summary["map_found_s"]
+        return None if found_s is None else (found_s, summary["fused_ate_rmse_m"], out)
+
+
+def way_of_map(run, trajectory):
+    """What lays the path of the map's own flight on the truth."""
+    pairs = associate(read_tum(os.path.join(run, trajectory)), read_tum(os.path.join(run, "truth.tum")), SAME_STAMP_S)
+    return best_alignment(pairs.estimate.positions_m, pairs.truth.positions_m, with_scale=False)
+
+
+def error_in_map_m(run, found_s, alignment):
+    """RMSE of what was flown after the place was found, in the map's own frame."""
+    pairs = associate(read_tum(os.path.join(run, "fused.tum")), read_tum(os.path.join(run, "truth.tum")), SAME_STAMP_S)
+    is_after = pairs.estimate.stamps_ns >= pairs.estimate.stamps_ns[0] + found_s * 1e9
+    off_m = alignment.apply(pairs.estimate).positions_m[is_after] - pairs.truth.positions_m[is_after]
+    return math.sqrt((off_m**2).sum(axis=1).mean())
+
+
+def starts_of(count, seed):
+    """Anywhere in the room, between its table and its furniture, with any heading."""
+    numbers = random.Random(seed)
+    return [(numbers.uniform(-2.4, 2.4), numbers.uniform(-1.6, 1.6), numbers.uniform(-math.pi, math.pi)) for _ in range(count)]
+
+
+def in_one_room(campaign, starts, pool):
+    """Another flight in the map of the first one, as flown and refined."""
+    campaign.make_map("first", ROOM, 1, MAP_S, refines=True)
+    ways = {"first": way_of_map(campaign.path("first_run"), "fused.tum"),
+            "first_refined": way_of_map(campaign.path("first_refined_run"), "refined.tum")}
+
+    def try_start(i):
+        flight = f"start_{i}"
+        campaign.render(flight, ROOM, 1, FLIGHT_S, 100 + i, starts[i])
+        results = {}
+        for name, way in ways.items():
+            found = campaign.look(flight, name, 100 + i)
+            results[name] = found and {"found_s": found[0], "error_m": found[1], "error_in_map_m": error_in_map_m(found[2], found[0], way)}
+            shutil.rmtree(campaign.path(f"{flight}_in_{name}"))
+        shutil.rmtree(campaign.path(flight))
+        return results
+
+    tries = show("start", pool.map(try_start, range(len(starts))), len(starts))
+    return {name: [one[name] for one in tries] for name in ways}
+
+
+def in_rooms_alike(campaign, rooms, starts, pool):
+    """Each flight in the maps of all rooms of the hotel."""
+    def make_room(room):
+        campaign.make_map(f"room_{room}", HOTEL, room, LAP_S, refines=False)
+        for i, start in enumerate(starts):
+            campaign.render(f"flight_{room}_{i}", HOTEL, room, LOOK_S, 100 + i, start)
+
+    def try_flight(flight):
+        room, i = flight
+        results = []
+        for other in range(rooms):
+            name = f"room_{other}"
+            found = campaign.look(f"flight_{room}_{i}", name, 100 + i)
+            results.append({"room": room, "map": other, "start": i, "found_s": found and found[0], "error_m": found and found[1]})
+            shutil.rmtree(campaign.path(f"flight_{room}_{i}_in_{name}"))
+        return results
+
+    show("room", pool.map(make_room, range(rooms)), rooms)
+    flights = [(room, i) for room in range(rooms) for i in range(len(starts))]
+    return sum(show("flight in all maps", pool.map(try_flight, flights), len(flights)), [])
+
+
+def show(what, results, count):
+    done = []
+    for result in results:
+        done.append(result)
+        print(f"{what} {len(done)} / {count}", file=sys.stderr, flush=True)
+    return done
+
+
+def report_room(name, tries):
+    found = [one for one in tries if one]
+    wrong = [one for one in found if one["error_m"] > WRONG_M]
+    def of(key):
+        values = [one[key] for one in found] or [math.nan]
+        return f"{np.median(values):.3f} | {np.percentile(values, 95):.3f}"
+    print(f"| {name} | {len(found)} of {len(tries)} | {len(wrong)} | {np.median([one['found_s'] for one in found] or [math.nan]):.1f} | "
+          f"{of('error_m')} | {of('error_in_map_m')} |")
+    return len(wrong), len(tries) - len(found)
+
+
+def report(results):
+    """@return how many wrong places"""
+    print("| map | found | wrong places | after [s], median | error [m], median | 95 % | in the map's own frame [m], median | 95 % |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
+    wrong = sum(report_room(name, tries)[0] for name, tries in results["one room"].items())
+    own = [one for one in results["rooms alike"] if one["room"] == one["map"]]
+    others = [one for one in results["rooms alike"] if one["room"] != one["map"]]
+    found_own = [one for one in own if one["found_s"] is not None]
+    in_others = [one for one in others if one["found_s"] is not None]
+    wrong_in_own = [one for one in found_own if one["error_m"] > WRONG_M]
+    print(f"\nrooms alike: found in its own map {len(found_own)} of {len(own)}, {len(wrong_in_own)} of them at a wrong place; "
+          f"in another room's map {len(in_others)} of {len(others)}")
+    for one in in_others:
+        print(f"  the flight from start {one['start']} in room {one['room']}: found in the map of room {one['map']} after {one['found_s']:.1f} s")
+    return wrong + len(wrong_in_own) + len(in_others)
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="map_campaign", description=__doc__.split(";")[0] + ".")
+    parser.add_argument("--starts", type=int, default=50, metavar="N", help="flights in one room's map; default: %(default)s")
+    parser.add_argument("--rooms", type=int, default=20, metavar="N", help="that are alike; default: %(default)s")
+    parser.add_argument("--starts-in-each", type=int, default=3, metavar="N", help="flights in each of these; default: %(default)s")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="programs at a time; default: %(default)s")
+    parser.add_argument("--json", metavar="FILE", help="all tries")
+    parser.add_argument("--no-build", action="store_true", help="with what was built before")
+    parser.add_argument("--programs", metavar="FOLDER", required=True, help=argparse.SUPPRESS)
+    parser.add_argument("--work", metavar="FOLDER", help="for flights and maps, some GB; default: map_campaign in the build folder")
+    parser.add_argument("--version", action="store_true", help="of the package")  # scripts/map_campaign answers
+    arguments = parser.parse_args()
+
+    os.makedirs(arguments.work, exist_ok=True)
+    campaign = Campaign(arguments.programs, os.path.abspath(arguments.work))
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        results = {"one room": in_one_room(campaign, starts_of(arguments.starts, 1), pool),
+                   "rooms alike": in_rooms_alike(campaign, arguments.rooms, starts_of(arguments.starts_in_each, 2), pool)}
+    if arguments.json:
+        with open(arguments.json, "w", encoding="utf-8") as file:
+            json.dump(results, file, indent=1)
+    return 1 if report(results) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
