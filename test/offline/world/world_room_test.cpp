@@ -98,8 +98,9 @@ TEST(WorldRoom, ItsSurfacesCloseTheBoxSeenFromInside) {
 bool looksAlike(const Surface& a, const Surface& b) {
   const Eigen::Vector2f right(1, 0), down(0, 1);
   for (int i = 0; i < 400; ++i) {
+    const int row = i / 20;
     const Eigen::Vector2f at(10 + 7.3F * static_cast<float>(i % 20),
-                             10 + 5.1F * static_cast<float>(i / 20));
+                             10 + 5.1F * static_cast<float>(row));
     if (a.texture->sample(at, right, down) != b.texture->sample(at, right, down)) return false;
   }
   return true;
