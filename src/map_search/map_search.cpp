@@ -20,8 +20,8 @@ namespace {
 // Images of one moment show the same, right or wrong: an observation counts only so long after
 // another.
 constexpr double kBetweenLooks_s = 0.2;
-constexpr std::size_t kSightsRemembered = 10;
-constexpr std::size_t kSightsNeeded = 4;
+constexpr std::size_t kSightsRemembered = 11;
+constexpr int kSightsNeeded = 4;
 // Sights agree when they put the newest image so close together: a share of the landmarks'
 // distance, and what odometry may have drifted by since.
 constexpr double kAgreeDistance = 0.1;
@@ -29,7 +29,8 @@ constexpr double kAgreeDrift = 0.1;  // of the way
 constexpr double kAgreeHeading_rad = 0.09;
 // A place is recognised nearly all over the image, what only looks like a part of it in that part.
 // Two thirds of true observations pass, in a real kitchen and in rooms with the same furniture and
-// posters; of observations of such a room in another one's map one in a hundred.
+// posters; of observations of such a room in another one's map one in a hundred, but then several
+// in a second. So those between them must not speak against them: the mean passes, too.
 constexpr double kLeastCover = 0.75;
 // A landmark is known again from so many times the distance that it was seen from.
 constexpr double kSeenAgain = 2;
@@ -116,10 +117,9 @@ std::optional<MapEntry> MapSearch::see(const ImageFeatures& features,
   looked_ns_ = features.stamp_ns;
   auto observation = look(features, T_flight_cam);
   if (!observation) return std::nullopt;
-  const bool is_confirmed = isConfirmed(*observation);
   observations_.push_back(*observation);
   if (observations_.size() > kSightsRemembered) observations_.erase(observations_.begin());
-  if (!is_confirmed) return std::nullopt;
+  if (!isConfirmed()) return std::nullopt;
   return observation->entry;
 }
 
@@ -173,7 +173,7 @@ std::optional<MapSearch::Observation> MapSearch::look(const ImageFeatures& featu
   entry.anchor = static_cast<std::size_t>(
       std::max_element(seen_of_anchor.begin(), seen_of_anchor.end()) - seen_of_anchor.begin());
   observation.distance_m = medianOf(distances_m);
-  if (cover(features, *consensus, observation.distance_m) < kLeastCover) return std::nullopt;
+  observation.cover = cover(features, *consensus, observation.distance_m);
   return observation;
 }
 
@@ -188,7 +188,8 @@ double MapSearch::cover(const ImageFeatures& features, const ObservationConsensu
   return cover_.of(view, landmarks_);
 }
 
-bool MapSearch::isConfirmed(const Observation& newest) const {
+bool MapSearch::isConfirmed() const {
+  const Observation& newest = observations_.back();
   const auto agrees = [&newest](const Observation& earlier) {
     const Eigen::Isometry3d difference =
         newest.entry.T_loaded_flight * earlier.entry.T_loaded_flight.inverse();
@@ -198,8 +199,18 @@ bool MapSearch::isConfirmed(const Observation& newest) const {
     return off_m < kAgreeDistance * newest.distance_m + kAgreeDrift * displacement_m &&
            std::abs(headingOf(difference.linear())) < kAgreeHeading_rad;
   };
-  const auto agreeing = std::count_if(observations_.begin(), observations_.end(), agrees);
-  return static_cast<std::size_t>(agreeing) + 1 >= kSightsNeeded;
+  int sights = 0;
+  int since_first_sight = 0;
+  double sum_of_covers = 0;
+  for (const Observation& one : observations_) {
+    const bool is_sight = one.cover >= kLeastCover;
+    if (!agrees(one) || (sights == 0 && !is_sight)) continue;
+    if (is_sight) ++sights;
+    ++since_first_sight;
+    sum_of_covers += one.cover;
+  }
+  return newest.cover >= kLeastCover && sights >= kSightsNeeded &&
+         sum_of_covers >= kLeastCover * since_first_sight;
 }
 
 }  // namespace ardrone_vslam

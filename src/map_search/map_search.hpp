@@ -20,7 +20,7 @@ namespace ardrone_vslam {
 /// Looks for a flight in the map of an earlier one, by images and gravity alone: position and
 /// heading are unknown. Features are matched with all landmarks; the pose that more of them agree
 /// on than chance explains is an observation of the place; the flight is found once several
-/// observations, by images apart in time, agree on where it began.
+/// observations, by images apart in time, agree on where it began and show what is in the map.
 class MapSearch {
  public:
   /// @param is_own  it is the map of this very flight
@@ -47,6 +47,7 @@ class MapSearch {
     MapEntry entry;
     double distance_m = 0;                                    // of the landmarks, median
     Eigen::Vector3d camera_flight = Eigen::Vector3d::Zero();  // its position
+    double cover = 0;                                         // of the image, see ImageCover
   };
 
   /// What was said, and where the flight had base then.
@@ -64,7 +65,7 @@ class MapSearch {
                                   const Eigen::Isometry3d& T_flight_cam);
   double cover(const ImageFeatures& features, const ObservationConsensus& consensus,
                double distance_m);
-  bool isConfirmed(const Observation& newest) const;
+  bool isConfirmed() const;
 
   SavedMap map_;
   bool is_own_;
