@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapper/live_slam.hpp"
 
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace ardrone_vslam {
@@ -57,6 +59,10 @@ void LiveSlam::lookNear(const PlaceHint& hint) {
 }
 
 void LiveSlam::limitMap(const LandmarkMapConfig& config) {
+  if (slam_ && config_.msckf.localise_only &&
+      slam_->landmarks().size() > static_cast<std::size_t>(config.max_landmarks))
+    throw std::invalid_argument("with localise_only the map keeps its " +
+                                std::to_string(slam_->landmarks().size()) + " landmarks");
   if (slam_) slam_->limitMap(config);
   config_.landmark_map = config;
 }

@@ -42,6 +42,7 @@ class LiveSlam {
   /// @throws std::exception when there is no map to look in
   void lookNear(const PlaceHint& hint);
   /// Of the map in use and of later ones.
+  /// @throws std::invalid_argument where landmarks of a map that is not to be changed would go
   void limitMap(const LandmarkMapConfig& config);
   void countCameraChange() { ++counts_.camera_changes; }
   void endMap();

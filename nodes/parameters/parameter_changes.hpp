@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,19 +52,19 @@ class ParameterChanges {
     try {
       const std::vector<std::string> faults = takeOver(request.config, wanted);
       if (!faults.empty()) throw ConfigError(faults);
-      use_(wanted);
+      if (textsOf(wanted) != textsOf(config_)) use(wanted);
     } catch (const std::exception& e) {
-      warnings_.event(std::string("no parameter is changed: ") + e.what());
-      return false;
+      const std::string why = std::string("no parameter is changed: ") + e.what();
+      warnings_.say(why);
+      throw std::runtime_error(why);  // which goes to who has called
     }
-    keep(wanted);
     response.config = valuesOf(config_);
-    updates_.publish(response.config);
     return true;
   }
 
   /// The master knows them, too, so that a nodelet that begins again begins with them.
-  void keep(const Config& wanted) {
+  void use(const Config& wanted) {
+    use_(wanted);
     const std::map<std::string, std::string> before = textsOf(config_);
     config_ = wanted;
     visitParameters(config_, [&](const ParameterInfo& info, auto& value) {
@@ -74,7 +75,8 @@ class ParameterChanges {
       if (value != at_start_.at(name))
         changed_ += (changed_.empty() ? "" : " ") + name + "=" + value;
     }
-    warnings_.event("changed in flight: " + (changed_.empty() ? "nothing any more" : changed_));
+    updates_.publish(valuesOf(config_));
+    warnings_.say("changed in flight: " + (changed_.empty() ? "nothing any more" : changed_));
   }
 
   static std::map<std::string, std::string> textsOf(Config config) {

@@ -20,18 +20,6 @@ namespace {
 // Images of one moment show the same, right or wrong: an observation counts only so long after
 // another.
 constexpr double kBetweenLooks_s = 0.2;
-constexpr std::size_t kSightsRemembered = 11;
-constexpr int kSightsNeeded = 4;
-// Sights agree when they put the newest image so close together: a share of the landmarks'
-// distance, and what odometry may have drifted by since.
-constexpr double kAgreeDistance = 0.1;
-constexpr double kAgreeDrift = 0.1;  // of the way
-constexpr double kAgreeHeading_rad = 0.09;
-// A place is recognised nearly all over the image, what only looks like a part of it in that part.
-// Two thirds of true observations pass, in a real kitchen and in rooms with the same furniture and
-// posters; of observations of such a room in another one's map one in a hundred, but then several
-// in a second. So those between them must not speak against them: the mean passes, too.
-constexpr double kLeastCover = 0.75;
 // A landmark is known again from so many times the distance that it was seen from.
 constexpr double kSeenAgain = 2;
 constexpr double kHintSigmas = 3;   // so far from what was said a place is looked for
@@ -41,10 +29,6 @@ constexpr double kMapBends = 0.01;  // landmarks beside each other, of their dis
 constexpr double kPriorVariance = 9;
 
 const Eigen::Vector3d kCamera = Eigen::Vector3d::Zero();  // in the rig, which here is the camera
-
-double headingOf(const Eigen::Matrix3d& R) {
-  return portable::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1));
-}
 
 /// Position and heading by the landmarks that agree; roll and pitch are the prediction's.
 Eigen::Matrix4d covarianceOf(const ObservationConsensus& consensus, double sigma_a) {
@@ -90,7 +74,7 @@ void MapSearch::gatherLandmarks() {
 
 void MapSearch::lookNear(const PlaceHint& hint) {
   near_ = Near{hint, std::nullopt};
-  observations_.clear();
+  sights_.clear();
   gatherLandmarks();
 }
 
@@ -115,12 +99,9 @@ std::optional<MapEntry> MapSearch::see(const ImageFeatures& features,
   if (looked_ns_ != 0 && seconds(features.stamp_ns - looked_ns_) < kBetweenLooks_s)
     return std::nullopt;
   looked_ns_ = features.stamp_ns;
-  auto observation = look(features, T_flight_cam);
-  if (!observation) return std::nullopt;
-  observations_.push_back(*observation);
-  if (observations_.size() > kSightsRemembered) observations_.erase(observations_.begin());
-  if (!isConfirmed()) return std::nullopt;
-  return observation->entry;
+  const std::optional<PlaceSight> sight = look(features, T_flight_cam);
+  if (!sights_.add(sight)) return std::nullopt;
+  return sight->entry;
 }
 
 std::vector<MapObservation> MapSearch::observe(const ImageFeatures& features) {
@@ -144,8 +125,8 @@ std::vector<MapObservation> MapSearch::observe(const ImageFeatures& features) {
   return observations;
 }
 
-std::optional<MapSearch::Observation> MapSearch::look(const ImageFeatures& features,
-                                                      const Eigen::Isometry3d& T_flight_cam) {
+std::optional<PlaceSight> MapSearch::look(const ImageFeatures& features,
+                                          const Eigen::Isometry3d& T_flight_cam) {
   Clone gravity;
   gravity.R_map_rig = T_flight_cam.linear();
   const double sigma_a = angle_sigma_px_ / features.focal_length_px;
@@ -154,14 +135,14 @@ std::optional<MapSearch::Observation> MapSearch::look(const ImageFeatures& featu
   if (!consensus || static_cast<int>(consensus->observations.size()) < kFewestFixLandmarks)
     return std::nullopt;
 
-  Observation observation;
-  observation.camera_flight = T_flight_cam.translation();
-  MapEntry& entry = observation.entry;
+  PlaceSight sight;
+  sight.camera_flight = T_flight_cam.translation();
+  MapEntry& entry = sight.entry;
   entry.camera_loaded = consensus->position_map;
   const double heading_rad = headingOf(consensus->R_map_rig * T_flight_cam.linear().transpose());
   entry.T_loaded_flight.linear() = rotationAboutZ(heading_rad);
   entry.T_loaded_flight.translation() =
-      entry.camera_loaded - entry.T_loaded_flight.linear() * observation.camera_flight;
+      entry.camera_loaded - entry.T_loaded_flight.linear() * sight.camera_flight;
   entry.covariance = kPriorVariance * covarianceOf(*consensus, sigma_a);
   if (!entry.covariance.allFinite() || (near_ && !near_->allows(entry))) return std::nullopt;
   std::vector<double> distances_m;
@@ -172,9 +153,9 @@ std::optional<MapSearch::Observation> MapSearch::look(const ImageFeatures& featu
   }
   entry.anchor = static_cast<std::size_t>(
       std::max_element(seen_of_anchor.begin(), seen_of_anchor.end()) - seen_of_anchor.begin());
-  observation.distance_m = medianOf(distances_m);
-  observation.cover = cover(features, *consensus, observation.distance_m);
-  return observation;
+  sight.distance_m = medianOf(distances_m);
+  sight.cover = cover(features, *consensus, sight.distance_m);
+  return sight;
 }
 
 double MapSearch::cover(const ImageFeatures& features, const ObservationConsensus& consensus,
@@ -186,31 +167,6 @@ double MapSearch::cover(const ImageFeatures& features, const ObservationConsensu
   view.reset(features, T_loaded_cam, false);
   view.setPositionVariance(squared(kMapBends * distance_m), false);
   return cover_.of(view, landmarks_);
-}
-
-bool MapSearch::isConfirmed() const {
-  const Observation& newest = observations_.back();
-  const auto agrees = [&newest](const Observation& earlier) {
-    const Eigen::Isometry3d difference =
-        newest.entry.T_loaded_flight * earlier.entry.T_loaded_flight.inverse();
-    const Eigen::Vector3d position = earlier.entry.T_loaded_flight * newest.camera_flight;
-    const double off_m = (difference * position - position).norm();
-    const double displacement_m = (newest.camera_flight - earlier.camera_flight).norm();
-    return off_m < kAgreeDistance * newest.distance_m + kAgreeDrift * displacement_m &&
-           std::abs(headingOf(difference.linear())) < kAgreeHeading_rad;
-  };
-  int sights = 0;
-  int since_first_sight = 0;
-  double sum_of_covers = 0;
-  for (const Observation& one : observations_) {
-    const bool is_sight = one.cover >= kLeastCover;
-    if (!agrees(one) || (sights == 0 && !is_sight)) continue;
-    if (is_sight) ++sights;
-    ++since_first_sight;
-    sum_of_covers += one.cover;
-  }
-  return newest.cover >= kLeastCover && sights >= kSightsNeeded &&
-         sum_of_covers >= kLeastCover * since_first_sight;
 }
 
 }  // namespace ardrone_vslam

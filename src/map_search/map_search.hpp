@@ -12,6 +12,7 @@
 #include "association/global_matcher.hpp"
 #include "map/landmark_map.hpp"
 #include "map_search/image_cover.hpp"
+#include "map_search/place_sights.hpp"
 #include "map_update/map_fix.hpp"
 #include "window/map_entry.hpp"
 
@@ -42,14 +43,6 @@ class MapSearch {
   bool isOwn() const { return is_own_; }
 
  private:
-  /// The pose of one image in the map.
-  struct Observation {
-    MapEntry entry;
-    double distance_m = 0;                                    // of the landmarks, median
-    Eigen::Vector3d camera_flight = Eigen::Vector3d::Zero();  // its position
-    double cover = 0;                                         // of the image, see ImageCover
-  };
-
   /// What was said, and where the flight had base then.
   struct Near {
     PlaceHint hint;
@@ -61,11 +54,10 @@ class MapSearch {
 
   void gatherLandmarks();
   std::vector<MapObservation> observe(const ImageFeatures& features);
-  std::optional<Observation> look(const ImageFeatures& features,
-                                  const Eigen::Isometry3d& T_flight_cam);
+  std::optional<PlaceSight> look(const ImageFeatures& features,
+                                 const Eigen::Isometry3d& T_flight_cam);
   double cover(const ImageFeatures& features, const ObservationConsensus& consensus,
                double distance_m);
-  bool isConfirmed() const;
 
   SavedMap map_;
   bool is_own_;
@@ -77,7 +69,7 @@ class MapSearch {
   LandmarkMap landmarks_;  // that are looked for
   std::optional<Near> near_;
   std::int64_t looked_ns_ = 0;
-  std::vector<Observation> observations_;  // the last few
+  PlaceSights sights_;
 };
 
 }  // namespace ardrone_vslam

@@ -7,6 +7,7 @@ import unittest
 
 import rospy
 import rostest
+from dynamic_reconfigure import DynamicReconfigureCallbackException
 from dynamic_reconfigure.client import Client
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -38,11 +39,9 @@ class ParameterChangesTest(unittest.TestCase):
         return self.drone.status.wait(lambda status: status.header.stamp == stamp)
 
     def assert_refused(self, client, changes, said):
-        before = values_of(client)
-        with self.assertRaises(Exception):
+        with self.assertRaises(DynamicReconfigureCallbackException):
             client.update_configuration(changes)
         self.assertIsNotNone(self.drone.log.wait(lambda log: "no parameter is changed" in log.msg and said in log.msg), said)
-        self.assertEqual(values_of(client), before)
 
     def test_1_they_are_described(self):
         for client, expected in ((self.tracker, OF_TRACKER), (self.mapper, OF_MAPPER)):
@@ -71,9 +70,9 @@ class ParameterChangesTest(unittest.TestCase):
         self.assertEqual(self.status_after(1).changed_parameters, "")
 
     def test_3_what_cannot_be_is_refused(self):
-        self.assert_refused(self.tracker, {"features_per_frame": 100, "threshold_min": 40}, "threshold_min is 40 but must be between 1 and 35")
+        self.assert_refused(self.tracker, {"features_per_frame": 30, "threshold_min": 40}, "threshold_min is 40 but must be between 1 and 35")
         self.assert_refused(self.mapper, {"max_landmarks": 1}, "max_landmarks is 1 but must be between 10 and 10000000")
-        self.status_after(1)
+        self.assertGreater(self.status_after(5).features, 50)  # not 30
 
 
 if __name__ == "__main__":

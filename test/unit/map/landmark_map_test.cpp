@@ -89,6 +89,18 @@ TEST(LandmarkMap, CapDropsThoseNotSeenForLongest) {
   for (const Landmark& landmark : map.all()) EXPECT_EQ(map.find(landmark.id), &landmark);
 }
 
+TEST(LandmarkMap, AnotherCapHoldsFromThenOn) {
+  LandmarkMap map(LandmarkMapConfig{100});
+  for (int i = 0; i < 100; ++i) map.add(seenAt(i));
+  map.limit(LandmarkMapConfig{50});
+  EXPECT_EQ(map.enforceCap(), 55);
+  EXPECT_EQ(map.size(), 45U);
+  map.limit(LandmarkMapConfig{1000});
+  for (int i = 0; i < 500; ++i) map.add(seenAt(i));
+  EXPECT_EQ(map.enforceCap(), 0);
+  EXPECT_THROW(map.limit(LandmarkMapConfig{1}), ConfigError);
+}
+
 TEST(LandmarkMap, OfEquallyOldOnesTheLowestIdsGo) {
   LandmarkMapConfig config;
   config.max_landmarks = 10;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "window/map_entry.hpp"
+
+namespace ardrone_vslam {
+
+/// About the vertical.
+double headingOf(const Eigen::Matrix3d& R);
+
+/// What one image says of the place: where the flight began in the map.
+struct PlaceSight {
+  MapEntry entry;
+  double distance_m = 0;                                    ///< of the landmarks, median
+  Eigen::Vector3d camera_flight = Eigen::Vector3d::Zero();  ///< its position
+  double cover = 0;  ///< how much of the image is recognised there, see ImageCover
+};
+
+/// Whether images apart in time agree on the place, and know enough of it. What only looks like a
+/// place is recognised in a part of the image, and not for long.
+class PlaceSights {
+ public:
+  /// The next image that was looked at; without a sight it says no place.
+  /// @return whether the flight is found where this image says: so do three others before it that
+  /// are recognised as well as a place must be, and all images since the first of them are so in
+  /// the mean, where those that do not say the same count as not recognised
+  bool add(const std::optional<PlaceSight>& sight);
+  void clear() { latest_.clear(); }
+
+ private:
+  std::vector<std::optional<PlaceSight>> latest_;
+};
+
+}  // namespace ardrone_vslam
