@@ -100,7 +100,7 @@ std::optional<MapEntry> MapSearch::see(const ImageFeatures& features,
     return std::nullopt;
   looked_ns_ = features.stamp_ns;
   const std::optional<PlaceSight> sight = look(features, T_flight_cam);
-  if (!sights_.add(sight)) return std::nullopt;
+  if (!sights_.add(sight, is_own_ || near_)) return std::nullopt;
   return sight->entry;
 }
 

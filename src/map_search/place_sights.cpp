@@ -9,16 +9,21 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr std::size_t kRemembered = 11;
-constexpr int kNeeded = 4;
 // Sights agree when they put the newest image so close together: a share of the landmarks'
 // distance, and what odometry may have drifted by since.
 constexpr double kAgreeDistance = 0.1;
 constexpr double kAgreeDrift = 0.1;  // of the way
 constexpr double kAgreeHeading_rad = 0.09;
+
+struct Demands {
+  int sights;
+  double cover;
+};
+constexpr Demands kHere{3, 0.6};
 // Two thirds of true sights pass, in a real kitchen and in rooms with the same furniture and
 // posters (make_world's hotel); of sights of such a room in another one's map one in a hundred, but
 // then several in a second.
-constexpr double kLeastCover = 0.75;
+constexpr Demands kElsewhere{4, 0.75};
 
 bool agree(const PlaceSight& earlier, const PlaceSight& newest) {
   const Eigen::Isometry3d difference =
@@ -36,21 +41,22 @@ double headingOf(const Eigen::Matrix3d& R) {
   return portable::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1));
 }
 
-bool PlaceSights::add(const std::optional<PlaceSight>& sight) {
+bool PlaceSights::add(const std::optional<PlaceSight>& sight, bool is_here) {
+  const Demands& demands = is_here ? kHere : kElsewhere;
   latest_.push_back(sight);
   if (latest_.size() > kRemembered) latest_.erase(latest_.begin());
-  if (!sight || sight->cover < kLeastCover) return false;
+  if (!sight || sight->cover < demands.cover) return false;
   int good = 0;
   int since_first = 0;
   double sum_of_covers = 0;
   for (const auto& one : latest_) {
     const double cover = one && agree(*one, *sight) ? one->cover : 0;
-    if (cover >= kLeastCover) ++good;
+    if (cover >= demands.cover) ++good;
     if (good == 0) continue;
     ++since_first;
     sum_of_covers += cover;
   }
-  return good >= kNeeded && sum_of_covers >= kLeastCover * since_first;
+  return good >= demands.sights && sum_of_covers >= demands.cover * since_first;
 }
 
 }  // namespace ardrone_vslam

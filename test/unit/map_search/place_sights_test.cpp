@@ -62,6 +62,15 @@ TEST(PlaceSights, WhatWasLongAgoIsForgotten) {
   EXPECT_TRUE(isFoundAtLast(sights));
 }
 
+TEST(PlaceSights, LessIsNeededWhereTheFlightIsKnownToBeInTheMap) {
+  PlaceSights place;
+  EXPECT_FALSE(place.add(sightOf(0.65), true));
+  EXPECT_FALSE(place.add(sightOf(0.65), true));
+  EXPECT_FALSE(place.add(sightOf(0.45), true));
+  EXPECT_FALSE(place.add(sightOf(0.6), true));  // the mean is not enough
+  EXPECT_TRUE(place.add(sightOf(0.7), true));
+}
+
 TEST(PlaceSights, ClearForgetsAll) {
   PlaceSights place;
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(place.add(sightOf(1)));
