@@ -61,8 +61,9 @@ void LiveSlam::lookNear(const PlaceHint& hint) {
 void LiveSlam::limitMap(const LandmarkMapConfig& config) {
   if (slam_ && config_.msckf.localise_only &&
       slam_->landmarks().size() > static_cast<std::size_t>(config.max_landmarks))
-    throw std::invalid_argument("with localise_only the map keeps its " +
-                                std::to_string(slam_->landmarks().size()) + " landmarks");
+    throw std::invalid_argument("max_landmarks must be at least " +
+                                std::to_string(slam_->landmarks().size()) +
+                                ": with localise_only the map keeps all that it has");
   if (slam_) slam_->limitMap(config);
   config_.landmark_map = config;
 }

@@ -56,7 +56,7 @@ class Warnings {
   /// @param say  writes a sentence to the node's log
   explicit Warnings(std::function<void(const std::string&)> say) : say_(std::move(say)) {}
 
-  /// Without limit: for what is said once, or once a second.
+  /// Without limit: for what is said once, once a second, or as the answer to a call.
   void say(const std::string& sentence) const { say_(sentence); }
   /// A camera that changes, a clock that begins again: see EventLimiter.
   void event(const std::string& sentence) {
