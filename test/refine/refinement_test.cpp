@@ -84,6 +84,17 @@ TEST(Refinement, TakesOutWhatTheOdometryDrifts) {
   EXPECT_TRUE(refined.T_map_base.front().isApprox(flight.truth.front(), 0.01));
 }
 
+TEST(Refinement, OfWhatViewsHaveInCommonTheFiltersPartIsLeftOut) {
+  RecordedFlight flight{drifting()};
+  const auto refinedWith = [&flight](double common_px) {
+    flight.record.config.track_common_px = common_px;
+    return refine(flight.record).T_map_base.back().translation().eval();
+  };
+  const Eigen::Vector3d at_most = refinedWith(0.7);
+  EXPECT_LT((refinedWith(3.5) - at_most).norm(), 1e-6);
+  EXPECT_GT((refinedWith(0.3) - at_most).norm(), 1e-3);
+}
+
 TEST(Refinement, ViewsOfOtherPointsAreLeftOut) {
   FlightErrors errors = drifting();
   errors.wrong_views = 0.05;

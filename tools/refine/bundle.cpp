@@ -15,6 +15,8 @@ namespace {
 
 // Of a sigma [m, m/s, rad]: as good as exact; with less the equations are worse than double is.
 constexpr double kLeast = 1e-5;
+// More of what tracks have in common is what the filter does with it: it linearises once [px].
+constexpr double kMostCommon_px = 0.7;
 
 double squared(double value) {
   return value * value;
@@ -127,6 +129,7 @@ void Bundle::addHeights() {
 }
 
 void Bundle::addViews() {
+  const double common_px = std::min(record_.config.track_common_px, kMostCommon_px);
   std::vector<double> in_keyframe(poses_.size(), 0.0);
   for (const TrackPoint3d& point : points_) {
     for (const Sight& sight : point.sights) ++in_keyframe[sight.keyframe];
@@ -136,7 +139,7 @@ void Bundle::addViews() {
     for (const Sight& sight : points_[i].sights) {
       const Keyframe& keyframe = record_.keyframes[sight.keyframe];
       // However many they are: together a keyframe's views err by what all of them share.
-      const double common_rad = record_.config.track_common_px / keyframe.focal_length_px;
+      const double common_rad = common_px / keyframe.focal_length_px;
       const double weight =
           1 / (1 + in_keyframe[sight.keyframe] * squared(common_rad / sight.sigma_rad));
       View view;
