@@ -45,15 +45,17 @@ enum class SlamState {
   kResting,          ///< MSCKF: the image is still and holds the position
   kRotating,         ///< MSCKF: the camera turns on the spot, the image holds the position
   kRelocated,        ///< MSCKF: as kLocalised, by landmarks looked for nearly everywhere
-  kDistrusted,       ///< MSCKF: camera and odometry contradict each other, the pose is the
-                     ///< odometry's (Watchdog)
+  kDistrusted,       ///< camera and odometry contradict each other, the pose is the odometry's
   kSearchingMap,     ///< MSCKF: the flight has not been found in its map yet
+  kBlind,            ///< MSCKF: fewer than kFewestFeatures or tracks, the pose is the odometry's
 };
 /// As in Status and frames.csv, by the enumerators' order.
-constexpr std::array<const char*, 12> kSlamStateNames{
+constexpr std::array<const char*, 13> kSlamStateNames{
     "building_map",  "localised",  "too_few_landmarks", "fix_rejected",
     "observer_only", "not_finite", "tracking",          "resting",
-    "rotating",      "relocated",  "distrusted",        "searching_map"};
+    "rotating",      "relocated",  "distrusted",        "searching_map",
+    "blind"};
+constexpr int kFewestFeatures = 8;  ///< fewer tell neither a motion nor that there is none
 
 /// One frame's answer.
 struct FrameResult {
@@ -75,8 +77,7 @@ struct FrameResult {
   double velocity_bias_sigma_m_s = 0;
   /// MSCKF: drift of its yaw as learned, over `yaw_walk_deg_per_sqrt_s` and `_m`; 0 likewise.
   double yaw_walk_factor = 0;
-  /// MSCKF: of the odometry, which reports (1 + error) times the way; 0 with the
-  /// others.
+  /// MSCKF: of the odometry, which reports (1 + error) times the way; 0 with the others.
   double scale_error = 0;
   double scale_sigma = 0;                       ///< standard deviation of scale_error
   HeightOutcome height = HeightOutcome::kNone;  ///< MSCKF

@@ -33,6 +33,8 @@ std::uint8_t stateOf(SlamState state) {
       return Status::RELOCATED;
     case SlamState::kSearchingMap:
       return Status::SEARCHING_MAP;
+    case SlamState::kBlind:
+      return Status::BLIND;
   }
   assert(false && "a SlamState that Status.msg does not know");
   return Status::OBSERVER_ONLY;
@@ -41,8 +43,7 @@ std::uint8_t stateOf(SlamState state) {
 }  // namespace
 
 bool hasHardlyACorner(const FrameResult& result) {
-  constexpr int kFewest = 8;  // fewer tell neither a motion nor that there is none
-  return result.features < kFewest;
+  return result.features < kFewestFeatures;
 }
 
 void toStatus(SlamState state, Status& status) {

@@ -86,8 +86,7 @@ Correction MsckfEstimator::correct(const AssociationResult& matches, const Frame
   Correction correction;
   const Eigen::Vector3d camera_offset_map =
       filter_.newest().R_map_rig * T_rig_cam_.translation();  // at the predicted attitude
-  correction.state = fix(matches, view, map);
-  state_ = correction.state;
+  state_ = correction.state = fix(matches, view, map);
   judge(matches, map);
   correction.by_landmarks =
       locator_.locate(trusted_, view, map, mapper_.angleSigma_rad(view.focalLength_px()));
@@ -119,7 +118,10 @@ SlamState MsckfEstimator::fix(const AssociationResult& matches, const FrameView&
       break;
   }
   if (filter_.isDistrustful()) return SlamState::kDistrusted;
-  return map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTracking;
+  const bool has_map = map.size() > 0;  // before, an image may have no tracks yet
+  const std::size_t followed = has_map ? view.features().tracked() : view.features().size();
+  if (followed < kFewestFeatures) return SlamState::kBlind;
+  return has_map ? SlamState::kTracking : SlamState::kBuildingMap;
 }
 
 void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& map) {
@@ -138,8 +140,7 @@ void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& 
         (verdict == ObservationVerdict::kContradicts && state_ == SlamState::kRelocated);
     if (!is_wrong) trusted_.push_back(match);
   }
-  const bool is_blind = static_cast<int>(trusted_.size()) < kFewestFixLandmarks;
-  if (is_blind) time_since_fix_.passFrame();
+  if (static_cast<int>(trusted_.size()) < kFewestFixLandmarks) time_since_fix_.passFrame();
   time_since_fix_.link(anchors);
 }
 

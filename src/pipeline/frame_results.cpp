@@ -97,8 +97,10 @@ const char* explain(SlamState state) {
              "mounting, whether the scene itself moves, and velocity_bias_m_s";
     case SlamState::kSearchingMap:
       return "the flight has not been found in the map yet: look where that was made, from "
-             "a "
-             "like distance; until then the pose is beside another origin";
+             "a like distance; until then the pose is beside another origin";
+    case SlamState::kBlind:
+      return "nothing that the camera shows can correct the pose, so it follows the odometry: "
+             "hardly a corner is there or goes on from image to image; give light, or fly slower";
     case SlamState::kNotFinite:
       return "the pose is not finite and is not published; the map begins anew: check odometry, "
              "calibration and mounting for absurd values";

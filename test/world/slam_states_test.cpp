@@ -160,6 +160,20 @@ TEST_F(SlamStates, NothingButDarkImages) {
   }
 }
 
+TEST_F(SlamStates, InTheDarkTracksDoNotCorrectThePose) {
+  SlamConfig config = test::thesisConfig();
+  config.estimator = EstimatorKind::kMsckf;
+  Slam slam(config, test::forwardExtrinsics());
+  EXPECT_EQ(slam.process(dark(0), odometry_[0]).state, SlamState::kBlind);
+  for (std::size_t i = 1; i < 60; ++i)
+    EXPECT_NE(slam.process(look(i), odometry_[i]).state, SlamState::kBlind);
+  EXPECT_EQ(slam.process(dark(60), odometry_[60]).state, SlamState::kBlind);
+  ImageFeatures blurred = look(61);
+  blurred.age_frames.assign(blurred.size(), 0);
+  EXPECT_EQ(slam.process(blurred, odometry_[61]).state, SlamState::kBlind) << "none goes on";
+  EXPECT_NE(slam.process(look(62), odometry_[62]).state, SlamState::kBlind);
+}
+
 TEST_F(SlamStates, DarkImagesDoNotWearTheMapDown) {
   Slam slam(test::thesisConfig(), test::forwardExtrinsics());
   for (std::size_t i = 0; i < 60; ++i) slam.process(look(i), odometry_[i]);

@@ -37,7 +37,8 @@ TOLERANCE = rospy.Duration(0.2)  # transform_tolerance_s
 FLAGS, STATE, STAMP_NS, FUSED, OBSERVER, COUNTS, DEVIATION = range(7)
 # The program's states in the order of its protocol, and those of Status.
 STATES = [Status.BUILDING_MAP, Status.LOCALISED, Status.TOO_FEW_LANDMARKS, Status.FIX_REJECTED, Status.OBSERVER_ONLY,
-          Status.NOT_FINITE, Status.TRACKING, Status.RESTING, Status.ROTATING, Status.RELOCATED, Status.DISTRUSTED]
+          Status.NOT_FINITE, Status.TRACKING, Status.RESTING, Status.ROTATING, Status.RELOCATED, Status.DISTRUSTED,
+          Status.SEARCHING_MAP, Status.BLIND]
 
 
 def numbers(pose):

@@ -171,7 +171,7 @@ class BadMessages(unittest.TestCase):
         self.assertIsNotNone(self.drone.answered(stamp))
         status = self.drone.status.wait(lambda s: s.header.stamp == stamp)
         self.assertEqual(status.features, 0)
-        self.assertNotEqual(status.state, Status.LOCALISED)
+        self.assertEqual(status.state, Status.BLIND)
         self.assertIn("hardly a corner", status.reason)
         self.assert_said("hardly a corner")
         self.fly_well()

@@ -147,6 +147,7 @@ TEST(ResultConversion, EveryOtherStateHasAReason) {
       {SlamState::kRelocated, Status::RELOCATED},
       {SlamState::kDistrusted, Status::DISTRUSTED},
       {SlamState::kSearchingMap, Status::SEARCHING_MAP},
+      {SlamState::kBlind, Status::BLIND},
       {SlamState::kOdometryOnly, Status::OBSERVER_ONLY},
       {SlamState::kNotFinite, Status::NOT_FINITE}};
   for (const auto& [state, constant] : states) {
