@@ -55,7 +55,7 @@ enum {
   VSLAM_DISTRUSTED = 10,
   VSLAM_SEARCHING_MAP =
       11, /* not found yet in a loaded map, or after a restart: the pose is beside another origin */
-  VSLAM_BLIND = 12, /* hardly a corner is seen or followed: the pose is the observer's */
+  VSLAM_BLIND = 12, /* hardly a corner is followed: the pose goes on by the observer's way */
   VSLAM_LAST_STATE = VSLAM_BLIND, /* of those with a pose */
   /* From here on there is no pose. */
   VSLAM_WAITING_FOR_IMAGES = 32,

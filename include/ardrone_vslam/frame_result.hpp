@@ -47,7 +47,7 @@ enum class SlamState {
   kRelocated,        ///< MSCKF: as kLocalised, by landmarks looked for nearly everywhere
   kDistrusted,       ///< camera and odometry contradict each other, the pose is the odometry's
   kSearchingMap,     ///< MSCKF: the flight has not been found in its map yet
-  kBlind,            ///< MSCKF: fewer than kFewestFeatures or tracks, the pose is the odometry's
+  kBlind,            ///< MSCKF: no track corrected the pose, and hardly one goes on
 };
 /// As in Status and frames.csv, by the enumerators' order.
 constexpr std::array<const char*, 13> kSlamStateNames{

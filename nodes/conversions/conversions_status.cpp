@@ -57,7 +57,7 @@ void toStatus(const FrameResult& result, const std::string& map_frame, Status& s
   status.header.stamp = toRosTime(result.stamp_ns);
   status.header.frame_id = map_frame;
   toStatus(result.state, status);
-  if (hasHardlyACorner(result)) {
+  if (hasHardlyACorner(result) && result.state != SlamState::kBlind) {
     const std::string why_state = status.reason.empty() ? "" : "; " + status.reason;
     status.reason =
         "the image has hardly a corner: it is dark, over-exposed, blurred or without texture" +

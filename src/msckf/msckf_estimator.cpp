@@ -118,10 +118,7 @@ SlamState MsckfEstimator::fix(const AssociationResult& matches, const FrameView&
       break;
   }
   if (filter_.isDistrustful()) return SlamState::kDistrusted;
-  const bool has_map = map.size() > 0;  // before, an image may have no tracks yet
-  const std::size_t followed = has_map ? view.features().tracked() : view.features().size();
-  if (followed < kFewestFeatures) return SlamState::kBlind;
-  return has_map ? SlamState::kTracking : SlamState::kBuildingMap;
+  return map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTracking;
 }
 
 void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& map) {
@@ -152,10 +149,13 @@ MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView
   // Landmarks decided on the state, be it that they were rejected: the image's rest stays unsaid.
   const bool is_located = state_ == SlamState::kLocalised || state_ == SlamState::kRelocated ||
                           state_ == SlamState::kFixRejected;
-  if (!is_located && filter_.motion() == CameraMotion::kResting)
-    changes.state = SlamState::kResting;
-  if (!is_located && filter_.motion() == CameraMotion::kRotating)
-    changes.state = SlamState::kRotating;
+  const bool is_by_tracks = state_ == SlamState::kTracking || state_ == SlamState::kBuildingMap;
+  if (is_by_tracks && filter_.used() == 0 && filter_.state().frames().size() > 1 &&
+      view.features().tracked() < kFewestFeatures)
+    changes.state = SlamState::kBlind;
+  const CameraMotion motion = filter_.motion();
+  if (!is_located && motion == CameraMotion::kResting) changes.state = SlamState::kResting;
+  if (!is_located && motion == CameraMotion::kRotating) changes.state = SlamState::kRotating;
   moveTo(camera(), view);
   if (config_.msckf.localise_only) {
     followTracks(view, trusted_, map);

@@ -99,8 +99,8 @@ const char* explain(SlamState state) {
       return "the flight has not been found in the map yet: look where that was made, from "
              "a like distance; until then the pose is beside another origin";
     case SlamState::kBlind:
-      return "nothing that the camera shows can correct the pose, so it follows the odometry: "
-             "hardly a corner is there or goes on from image to image; give light, or fly slower";
+      return "hardly a corner goes on from image to image: it is dark, over-exposed, blurred or "
+             "without texture; the pose goes on by the odometry's way";
     case SlamState::kNotFinite:
       return "the pose is not finite and is not published; the map begins anew: check odometry, "
              "calibration and mounting for absurd values";

@@ -141,11 +141,12 @@ TEST_F(SlamStates, OdometryOnly) {
 TEST_F(SlamStates, EachHasAnExplanationExceptTheGoodOne) {
   std::set<std::string> sentences;
   for (const SlamState state : {SlamState::kBuildingMap, SlamState::kTooFewLandmarks,
-                                SlamState::kFixRejected, SlamState::kOdometryOnly}) {
+                                SlamState::kFixRejected, SlamState::kOdometryOnly,
+                                SlamState::kBlind}) {
     EXPECT_STRNE(explain(state), "");
     sentences.insert(explain(state));
   }
-  EXPECT_EQ(sentences.size(), 4U);
+  EXPECT_EQ(sentences.size(), 5U);
   EXPECT_STREQ(explain(SlamState::kLocalised), "");
 }
 
@@ -160,18 +161,24 @@ TEST_F(SlamStates, NothingButDarkImages) {
   }
 }
 
-TEST_F(SlamStates, InTheDarkTracksDoNotCorrectThePose) {
+TEST_F(SlamStates, WithoutTracksThatGoOnItIsBlind) {
   SlamConfig config = test::thesisConfig();
   config.estimator = EstimatorKind::kMsckf;
   Slam slam(config, test::forwardExtrinsics());
-  EXPECT_EQ(slam.process(dark(0), odometry_[0]).state, SlamState::kBlind);
-  for (std::size_t i = 1; i < 60; ++i)
+  EXPECT_EQ(slam.process(dark(0), odometry_[0]).state, SlamState::kBuildingMap);
+  EXPECT_EQ(slam.process(dark(1), odometry_[1]).state, SlamState::kBlind);
+  for (std::size_t i = 2; i < 60; ++i)
     EXPECT_NE(slam.process(look(i), odometry_[i]).state, SlamState::kBlind);
-  EXPECT_EQ(slam.process(dark(60), odometry_[60]).state, SlamState::kBlind);
-  ImageFeatures blurred = look(61);
+  const FrameResult ended = slam.process(dark(60), odometry_[60]);
+  EXPECT_EQ(ended.state, SlamState::kTracking) << "by the tracks that end";
+  EXPECT_GT(ended.feature_matches, 0);
+  const FrameResult blind = slam.process(dark(61), odometry_[61]);
+  EXPECT_EQ(blind.state, SlamState::kBlind);
+  EXPECT_EQ(blind.feature_matches, 0);
+  ImageFeatures blurred = look(62);
   blurred.age_frames.assign(blurred.size(), 0);
-  EXPECT_EQ(slam.process(blurred, odometry_[61]).state, SlamState::kBlind) << "none goes on";
-  EXPECT_NE(slam.process(look(62), odometry_[62]).state, SlamState::kBlind);
+  EXPECT_EQ(slam.process(blurred, odometry_[62]).state, SlamState::kBlind) << "none goes on";
+  EXPECT_NE(slam.process(look(63), odometry_[63]).state, SlamState::kBlind);
 }
 
 TEST_F(SlamStates, DarkImagesDoNotWearTheMapDown) {
