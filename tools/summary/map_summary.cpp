@@ -24,7 +24,7 @@ void addMap(const RunResult& run, std::size_t found_frame, nlohmann::ordered_jso
   if (!isFound(run, found_frame)) return;
   const std::int64_t searched_ns =
       run.frames[found_frame].result.stamp_ns - run.frames.front().result.stamp_ns;
-  summary["map_found_s"] = static_cast<double>(searched_ns) * 1e-9;
+  summary["map_found_s"] = static_cast<double>(searched_ns) / 1e9;  // 5.3 and not 5.300000000000001
 }
 
 }  // namespace ardrone_vslam
