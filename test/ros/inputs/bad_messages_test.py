@@ -162,13 +162,14 @@ class BadMessages(unittest.TestCase):
             info.header.stamp = image.header.stamp
         self.refuse_image(change, "/camera/image_raw", "stamps must ascend")
 
-    def test_black_image_is_answered(self):
+    def test_black_images_are_answered(self):
         self.fly_well()
-        stamp = self.drone.next()
-        image = self.drone.image()
-        image.data = bytes(WIDTH * HEIGHT)
-        self.drone.send(self.drone.odometry(), image, self.drone.info())
-        self.assertIsNotNone(self.drone.answered(stamp))
+        for _ in range(2):  # the tracks that end with the first one may correct the pose
+            stamp = self.drone.next()
+            image = self.drone.image()
+            image.data = bytes(WIDTH * HEIGHT)
+            self.drone.send(self.drone.odometry(), image, self.drone.info())
+            self.assertIsNotNone(self.drone.answered(stamp))
         status = self.drone.status.wait(lambda s: s.header.stamp == stamp)
         self.assertEqual(status.features, 0)
         self.assertEqual(status.state, Status.BLIND)
