@@ -140,9 +140,9 @@ TEST_F(SlamStates, OdometryOnly) {
 
 TEST_F(SlamStates, EachHasAnExplanationExceptTheGoodOne) {
   std::set<std::string> sentences;
-  for (const SlamState state : {SlamState::kBuildingMap, SlamState::kTooFewLandmarks,
-                                SlamState::kFixRejected, SlamState::kOdometryOnly,
-                                SlamState::kBlind}) {
+  for (const SlamState state :
+       {SlamState::kBuildingMap, SlamState::kTooFewLandmarks, SlamState::kFixRejected,
+        SlamState::kOdometryOnly, SlamState::kBlind}) {
     EXPECT_STRNE(explain(state), "");
     sentences.insert(explain(state));
   }
@@ -167,7 +167,8 @@ TEST_F(SlamStates, WithoutTracksThatGoOnItIsBlind) {
   Slam slam(config, test::forwardExtrinsics());
   EXPECT_EQ(slam.process(dark(0), odometry_[0]).state, SlamState::kBuildingMap);
   EXPECT_EQ(slam.process(dark(1), odometry_[1]).state, SlamState::kBlind);
-  for (std::size_t i = 2; i < 60; ++i)
+  EXPECT_EQ(slam.process(look(2), odometry_[2]).state, SlamState::kBlind) << "all are new";
+  for (std::size_t i = 3; i < 60; ++i)
     EXPECT_NE(slam.process(look(i), odometry_[i]).state, SlamState::kBlind);
   const FrameResult ended = slam.process(dark(60), odometry_[60]);
   EXPECT_EQ(ended.state, SlamState::kTracking) << "by the tracks that end";
