@@ -150,9 +150,9 @@ MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView
   const bool is_located = state_ == SlamState::kLocalised || state_ == SlamState::kRelocated ||
                           state_ == SlamState::kFixRejected;
   const bool is_by_tracks = state_ == SlamState::kTracking || state_ == SlamState::kBuildingMap;
-  if (is_by_tracks && filter_.used() == 0 && filter_.state().frames().size() > 1 &&
-      view.features().tracked() < kFewestFeatures)
-    changes.state = SlamState::kBlind;
+  const bool is_first = filter_.state().frames().size() == 1;  // which has no tracks yet
+  const bool goes_on = is_first || view.features().tracked() >= kFewestFeatures;
+  if (is_by_tracks && filter_.used() == 0 && !goes_on) changes.state = SlamState::kBlind;
   const CameraMotion motion = filter_.motion();
   if (!is_located && motion == CameraMotion::kResting) changes.state = SlamState::kResting;
   if (!is_located && motion == CameraMotion::kRotating) changes.state = SlamState::kRotating;

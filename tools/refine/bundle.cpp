@@ -15,7 +15,7 @@ namespace {
 
 // Of a sigma [m, m/s, rad]: as good as exact; with less the equations are worse than double is.
 constexpr double kLeast = 1e-5;
-// More of what tracks have in common is what the filter does with it: it linearises once [px].
+// Of `track_common_px`: with a street's 3.5, which the filter needs, views would hardly count here.
 constexpr double kMostCommon_px = 0.7;
 
 double squared(double value) {
