@@ -6,8 +6,8 @@
 
 namespace ardrone_vslam {
 
-void Estimator::enterMap(const MapEntry& /*entry*/, const SavedMap& /*loaded*/,
-                         const FrameView& /*view*/, LandmarkMap& /*map*/) {
+void Estimator::enterMap(MapEntry /*entry*/, SavedMap /*loaded*/, const FrameView& /*view*/,
+                         LandmarkMap& /*map*/) {
   assert(false && "this estimator keeps no anchors");
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "linear/scalars.hpp"
-#include "window/map_entry.hpp"
 #include "zero_motion/scene_limit.hpp"
 
 namespace ardrone_vslam {
@@ -42,7 +41,7 @@ void Msckf::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 
 void Msckf::enterMap(const MapEntry& entry, const LoadedAnchors& loaded) {
   zero_motion_.beginAnew(state_);  // it remembers odometry in the old frame
-  MapEntrance(state_).enter(entry, loaded, config_.localise_only);
+  MapEntrance(state_).enter(entry, loaded);
   propagator_.moveOdometry(entry.T_loaded_flight);
   watchdog_.moveInto(entry.T_loaded_flight);
   anchors_.useLoaded(loaded.anchors);

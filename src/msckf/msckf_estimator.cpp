@@ -12,8 +12,6 @@ namespace {
 // Odometry drifts otherwise than it claims: after so long without a fix the pose's sigma counts
 // twice in the search, after twice as long three times.
 constexpr double kWidening_s = 10;
-// Above the floor, with `planar`: any constant says that z stays.
-constexpr double kPlanarHeight_m = 0;
 
 }  // namespace
 
@@ -44,18 +42,19 @@ void MsckfEstimator::predict(const OdometryState& odometry,
   T_odom_base_ = odometry.T_odom_base;
   OdometryState moved = odometry;  // for the filter, odom is the frame that it works in
   moved.T_odom_base = T_filter_odom_ * odometry.T_odom_base;
-  if (config_.planar) moved.height_m = kPlanarHeight_m;
+  if (config_.planar) moved.height_m = 0;  // any constant says that z stays
   std::optional<OdometryStep> moved_step = step;
   if (moved_step) {
     moved_step->jump_odom_m = T_filter_odom_.linear() * step->jump_odom_m;
     moved_step->motion_odom_m = T_filter_odom_.linear() * step->motion_odom_m;
   }
-  started_ ? filter_.predict(moved, moved_step) : filter_.start(moved);
-  started_ = true;
+  const bool is_first = filter_.state().frames().empty();
+  is_first ? filter_.start(moved) : filter_.predict(moved, moved_step);
 }
 
-void MsckfEstimator::enterMap(const MapEntry& entry, const SavedMap& loaded, const FrameView& view,
+void MsckfEstimator::enterMap(MapEntry entry, SavedMap loaded, const FrameView& view,
                               LandmarkMap& map) {
+  if (config_.msckf.localise_only) loaded = fixed_map_.emplace(std::move(loaded)).exact(entry);
   const LoadedAnchors anchors = anchorsOf(loaded);
   filter_.enterMap(entry, anchors);
   T_filter_odom_ = entry.T_loaded_flight * T_filter_odom_;
@@ -67,7 +66,7 @@ void MsckfEstimator::enterMap(const MapEntry& entry, const SavedMap& loaded, con
 }
 
 SavedMap MsckfEstimator::save(const LandmarkMap& map) const {
-  return savedMapOf(filter_.state(), map.all());
+  return fixed_map_ ? fixed_map_->map() : savedMapOf(filter_.state(), map.all());
 }
 
 CameraPose MsckfEstimator::camera() {
@@ -204,6 +203,7 @@ Estimate MsckfEstimator::estimate() const {
   estimate.scale_sigma = filter_.scaleSigma();
   estimate.height = filter_.heightOutcome();
   estimate.doubtful_way_m = filter_.doubtfulWay_m();
+  if (fixed_map_) fixed_map_->addErrors(estimate);
   return estimate;
 }
 

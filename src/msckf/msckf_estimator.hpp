@@ -5,6 +5,7 @@
 
 #include "estimator/estimator.hpp"
 #include "map/mapper.hpp"
+#include "map_update/fixed_map.hpp"
 #include "map_update/time_since_fix.hpp"
 #include "msckf/landmark_upkeep.hpp"
 #include "msckf/msckf.hpp"
@@ -27,8 +28,7 @@ class MsckfEstimator final : public Estimator {
   Estimate estimate() const override;
   void heed(const SetupFinding& finding) override;
   bool canChangeCamera() const override;
-  void enterMap(const MapEntry& entry, const SavedMap& loaded, const FrameView& view,
-                LandmarkMap& map) override;
+  void enterMap(MapEntry entry, SavedMap loaded, const FrameView& view, LandmarkMap& map) override;
   SavedMap save(const LandmarkMap& map) const override;
   void changeCamera(const Eigen::Isometry3d& T_base_cam) override;
 
@@ -44,11 +44,11 @@ class MsckfEstimator final : public Estimator {
   LandmarkLocator locator_;
   Mapper mapper_;
   TimeSinceFix time_since_fix_;
-  bool started_ = false;
   Eigen::Isometry3d T_odom_base_ = Eigen::Isometry3d::Identity();
   /// Odometry that begins in a loaded map is given to the filter as if it had begun there.
   Eigen::Isometry3d T_filter_odom_ = Eigen::Isometry3d::Identity();
   SlamState state_ = SlamState::kBuildingMap;  // of the newest frame, by landmarks
+  std::optional<FixedMap> fixed_map_;  // with localise_only, once the flight has been found in it
   UnconfirmedLandmarks unconfirmed_;
   std::vector<Association> trusted_;  // the newest frame's matches that may be right
 };

@@ -6,6 +6,13 @@
 
 namespace ardrone_vslam {
 
+PoseByAnchor poseByAnchor(const Eigen::Vector3d& from_anchor) {
+  PoseByAnchor J = PoseByAnchor::Identity();
+  J.block<3, 3>(0, 3) = -skew(from_anchor);
+  J.topRightCorner<3, 1>() = -from_anchor;
+  return J;
+}
+
 void MapEntrance::move(const MapEntry& entry) {
   const Eigen::Matrix3d R = entry.T_loaded_flight.linear();
   state_.R_map_odom_ =
@@ -45,14 +52,10 @@ void MapEntrance::share(const MapEntry& entry, std::size_t loaded) {
   for (std::size_t i = 0; i < state_.frames_.size(); ++i)
     moves(state_.frames_[i], state_.frameCoordinate(i));
   // And what the anchor's errors move: the camera, as seen from its landmarks.
-  const Eigen::Vector3d from_anchor =
-      entry.camera_loaded - state_.anchors_[entry.anchor].position_map;
-  Eigen::Matrix<double, 4, WindowState::kAnchor> M =
-      Eigen::Matrix<double, 4, WindowState::kAnchor>::Zero();
-  M.topLeftCorner<3, 3>().setIdentity();
-  M.block<3, 3>(0, 3) = -skew(from_anchor);
-  M.topRightCorner<3, 1>() = -from_anchor;
-  M(3, 5) = 1;
+  const PoseByAnchor by_anchor =
+      poseByAnchor(entry.camera_loaded - state_.anchors_[entry.anchor].position_map);
+  Eigen::Matrix<double, 4, WindowState::kAnchor> M;
+  M << by_anchor.topRows<3>(), by_anchor.row(5);
   const Eigen::MatrixXd MP =
       M * P.middleRows<WindowState::kAnchor>(state_.anchorCoordinate(entry.anchor));
   const Eigen::Matrix4d all =
@@ -63,7 +66,7 @@ void MapEntrance::share(const MapEntry& entry, std::size_t loaded) {
   P += J * all * J.transpose();
 }
 
-void MapEntrance::enter(const MapEntry& entry, const LoadedAnchors& loaded, bool are_fixed) {
+void MapEntrance::enter(const MapEntry& entry, const LoadedAnchors& loaded) {
   move(entry);
   const auto count = static_cast<int>(loaded.anchors.size());
   state_.covariance_.insert(WindowState::kGlobals, WindowState::kAnchor * count);
@@ -71,7 +74,6 @@ void MapEntrance::enter(const MapEntry& entry, const LoadedAnchors& loaded, bool
                                  WindowState::kAnchor * count, WindowState::kAnchor * count) =
       loaded.covariance;
   state_.anchors_.insert(state_.anchors_.begin(), loaded.anchors.begin(), loaded.anchors.end());
-  state_.fixed_anchors_ = are_fixed ? count : 0;
   share(entry, loaded.anchors.size());
 }
 

@@ -22,6 +22,12 @@ struct MapEntry {
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
 };
 
+/// How a pose errs with an anchor that it is known by: rows position and attitude, columns the
+/// anchor's coordinates.
+using PoseByAnchor = Eigen::Matrix<double, 6, 7>;
+/// @param from_anchor  the pose's position beside that of the anchor, axes of map [m]
+PoseByAnchor poseByAnchor(const Eigen::Vector3d& from_anchor);
+
 /// The anchors of a loaded map.
 struct LoadedAnchors {
   std::vector<Clone> anchors;
@@ -36,9 +42,7 @@ class MapEntrance {
   explicit MapEntrance(WindowState& state) : state_(state) {}
   /// The flight is moved, and the map's anchors join, ahead of the others. The flight's errors from
   /// now on have those of the anchor that it was found by. O(coordinates^2).
-  /// @param are_fixed  no update corrects the map's anchors: their errors are considered, not
-  /// estimated (a Schmidt-Kalman filter)
-  void enter(const MapEntry& entry, const LoadedAnchors& loaded, bool are_fixed);
+  void enter(const MapEntry& entry, const LoadedAnchors& loaded);
 
  private:
   void move(const MapEntry& entry);

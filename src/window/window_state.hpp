@@ -117,7 +117,6 @@ class WindowState {
   Eigen::Vector3d velocity_bias_m_s_ = Eigen::Vector3d::Zero();
   double scale_error_ = 0;
   double floor_map_m_ = 0;
-  int fixed_anchors_ = 0;  // the first of anchors_
   std::vector<Clone> frames_;
   std::vector<Clone> anchors_;
   CovarianceMatrix covariance_;

@@ -30,10 +30,7 @@ bool WindowState::update(const Information& information) {
   if (!correction) return false;
   if (correction->error().size() == 0) return true;
   auto P = covariance_.all();
-  Eigen::VectorXd error = correction->error();
-  const int fixed = kAnchor * fixed_anchors_;
-  error.segment(kGlobals, fixed).setZero();
-  const Eigen::MatrixXd P_fixed = P.block(kGlobals, kGlobals, fixed, fixed);
+  const Eigen::VectorXd& error = correction->error();
 
   // P - G G', of which then the dilation is turned: (I - T S) (P - G G') (I - T S)', S picking
   // bias and scale.
@@ -41,7 +38,6 @@ bool WindowState::update(const Information& information) {
   const Stretch P_s = P.middleCols<4>(kBias) - correction->gainTimesRows(kBias);
   const Stretch V = P_s - 0.5 * T * P_s.middleRows<4>(kBias);
   correction->subtractFrom(P, T, V);
-  P.block(kGlobals, kGlobals, fixed, fixed) = P_fixed;
   inject(error);
   return true;
 }

@@ -55,7 +55,7 @@ TEST(MapEntry, MovesPosesAndKeepsWhatTheyKnowOfEachOther) {
   OdometryWindow window = flight();
   const WindowState before = window;
   const MapEntry entry = someEntry(window);
-  MapEntrance(window).enter(entry, twoAnchors(), false);
+  MapEntrance(window).enter(entry, twoAnchors());
   const Eigen::Matrix3d R = entry.T_loaded_flight.linear();
   ASSERT_EQ(window.anchors().size(), 3U);
   ASSERT_EQ(window.frames().size(), before.frames().size());
@@ -87,7 +87,7 @@ TEST(MapEntry, TheFlightErrsWithTheAnchorThatItWasFoundBy) {
   const WindowState before = window;
   MapEntry entry = someEntry(window);
   const LoadedAnchors loaded = twoAnchors();
-  MapEntrance(window).enter(entry, loaded, false);
+  MapEntrance(window).enter(entry, loaded);
   const Eigen::MatrixXd P = window.covariance();
   EXPECT_LT((P - P.transpose()).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_GT(test::leastEigenvalue(P), -1e-12);
@@ -99,7 +99,7 @@ TEST(MapEntry, TheFlightErrsWithTheAnchorThatItWasFoundBy) {
   OdometryWindow exact = flight();
   LoadedAnchors known = loaded;
   known.covariance.setZero();
-  MapEntrance(exact).enter(entry, known, false);
+  MapEntrance(exact).enter(entry, known);
   const int at = exact.frameCoordinate(exact.frames().size() - 1);
   const int was = before.frameCoordinate(before.frames().size() - 1);
   const Eigen::Matrix3d R = entry.T_loaded_flight.linear();
@@ -110,33 +110,19 @@ TEST(MapEntry, TheFlightErrsWithTheAnchorThatItWasFoundBy) {
             1e-12);
 }
 
-TEST(MapEntry, FixedAnchorsAreConsideredAndNotCorrected) {
-  OdometryWindow free = flight();
-  OdometryWindow fixed = flight();
-  const MapEntry entry = someEntry(free);
-  MapEntrance(free).enter(entry, twoAnchors(), false);
-  MapEntrance(fixed).enter(entry, twoAnchors(), true);
-  const WindowState before = fixed;
-  const int newest = free.frameCoordinate(free.frames().size() - 1);
-  const int anchor = free.anchorCoordinate(0);
-  // The x positions of a frame and an anchor are measured relative to each other.
-  Information information({newest, anchor});
-  const double weight = 1 / (0.02 * 0.02);
-  information.matrix << weight, -weight, -weight, weight;
-  information.vector << 0.1 * weight, -0.1 * weight;
-  ASSERT_TRUE(free.update(information));
-  ASSERT_TRUE(fixed.update(information));
-  EXPECT_GT((free.anchors()[0].position_map - before.anchors()[0].position_map).norm(), 1e-6);
-  for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_EQ(fixed.anchors()[i].position_map, before.anchors()[i].position_map);
-  EXPECT_LT((fixed.newest().position_map - free.newest().position_map).norm(), 1e-12)
-      << "the gain of what is estimated is the same";
-  const int first = WindowState::kGlobals;
-  EXPECT_EQ(fixed.covariance().block(first, first, 14, 14),
-            before.covariance().block(first, first, 14, 14));
-  // A consider filter never claims more than one that may correct all.
-  const Eigen::MatrixXd more = fixed.covariance() - free.covariance();
-  EXPECT_GT(test::leastEigenvalue(more), -1e-10);
+/// What the derivative says is what a pose does that keeps its place among the anchor's landmarks.
+TEST(MapEntry, APoseMovesWithItsAnchor) {
+  const Eigen::Vector3d from_anchor(1, -2, 0.5);
+  const double step = 1e-6;
+  const PoseByAnchor J = poseByAnchor(from_anchor);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d turn = step * Eigen::Vector3d::Unit(axis);
+    const Eigen::Vector3d moved = rotationOf(turn) * from_anchor - from_anchor;
+    EXPECT_LT((moved / step - J.block<3, 1>(0, 3 + axis)).norm(), 1e-5);
+    EXPECT_EQ(J(3 + axis, 3 + axis), 1);
+  }
+  // Distances that are too long by a share: the true place is nearer to the anchor.
+  EXPECT_TRUE((J.topRightCorner<3, 1>()).isApprox(-from_anchor));
 }
 
 }  // namespace
