@@ -9,13 +9,15 @@
 #include "refine/bundle_covariance.hpp"
 #include "refine/bundle_solver.hpp"
 #include "refine/residuals.hpp"
+#include "refine/view_weights.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 // Of a sigma [m, m/s, rad]: as good as exact; with less the equations are worse than double is.
 constexpr double kLeast = 1e-5;
-// Of `track_common_px`: with a street's 3.5, which the filter needs, views would hardly count here.
+// Of `track_common_px`: with a street's 3.5, which the filter needs, views would hardly count. How
+// well the result is known follows from all of it.
 constexpr double kMostCommon_px = 0.7;
 
 double squared(double value) {
@@ -129,28 +131,29 @@ void Bundle::addHeights() {
 }
 
 void Bundle::addViews() {
-  const double common_px = std::min(record_.config.track_common_px, kMostCommon_px);
-  std::vector<double> in_keyframe(poses_.size(), 0.0);
-  for (const TrackPoint3d& point : points_) {
-    for (const Sight& sight : point.sights) ++in_keyframe[sight.keyframe];
-  }
   views_of_.resize(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     for (const Sight& sight : points_[i].sights) {
       const Keyframe& keyframe = record_.keyframes[sight.keyframe];
-      // However many they are: together a keyframe's views err by what all of them share.
-      const double common_rad = common_px / keyframe.focal_length_px;
-      const double weight =
-          1 / (1 + in_keyframe[sight.keyframe] * squared(common_rad / sight.sigma_rad));
       View view;
-      view.weight =
-          std::make_unique<ceres::ScaledLoss>(&loss_, weight, ceres::DO_NOT_TAKE_OWNERSHIP);
+      view.weight = std::make_unique<ceres::LossFunctionWrapper>(nullptr, ceres::TAKE_OWNERSHIP);
       view.residual = problem_.AddResidualBlock(
           costOf<ViewResidual, 2, 6, 3>({sight.root_base, sight.bearing_base,
                                          keyframe.T_base_cam.translation(), keyframe.T_map_base}),
           view.weight.get(), poses_[sight.keyframe].data(), points_[i].position_map.data());
       views_of_[i].push_back(std::move(view));
     }
+  }
+  weighViews(kMostCommon_px);
+}
+
+void Bundle::weighViews(double most_common_px) {
+  const ViewWeights weights(record_, points_, most_common_px);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    for (std::size_t j = 0; j < views_of_[i].size(); ++j)
+      views_of_[i][j].weight->Reset(new ceres::ScaledLoss(&loss_, weights.of(points_[i].sights[j]),
+                                                          ceres::DO_NOT_TAKE_OWNERSHIP),
+                                    ceres::TAKE_OWNERSHIP);
   }
 }
 
@@ -209,6 +212,7 @@ Eigen::Isometry3d Bundle::T_map_base(std::size_t keyframe) const {
 }
 
 Eigen::MatrixXd Bundle::covariance(const std::vector<std::size_t>& keyframes) {
+  weighViews(record_.config.track_common_px);
   std::vector<double*> wanted{&scale_error_};
   for (const std::size_t k : keyframes) wanted.push_back(poses_[k].data());
   std::vector<double*> chain;

@@ -40,13 +40,14 @@ class Bundle {
   using Vector = std::array<double, 3>;
   struct View {
     ceres::ResidualBlockId residual;
-    std::unique_ptr<ceres::LossFunction> weight;
+    std::unique_ptr<ceres::LossFunctionWrapper> weight;
   };
 
   void addOdometry();
   void addStep(std::size_t to);
   void addHeights();
   void addViews();
+  void weighViews(double most_common_px);
   std::vector<double*> pointBlocks();
   void add(ceres::CostFunction* cost, std::initializer_list<double*> of);
 
