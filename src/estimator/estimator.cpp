@@ -6,7 +6,7 @@
 
 namespace ardrone_vslam {
 
-void Estimator::enterMap(MapEntry /*entry*/, SavedMap /*loaded*/, const FrameView& /*view*/,
+void Estimator::enterMap(MapEntry&& /*entry*/, SavedMap&& /*loaded*/, const FrameView& /*view*/,
                          LandmarkMap& /*map*/) {
   assert(false && "this estimator keeps no anchors");
 }

@@ -89,7 +89,8 @@ class Estimator {
   virtual bool canChangeCamera() const { return true; }
   /// Where the flight is in a loaded map, of which it then goes on; between predict() and
   /// correct(). @pre the estimator keeps anchors, as faultOfMaps() asks for (asserted)
-  virtual void enterMap(MapEntry entry, SavedMap loaded, const FrameView& view, LandmarkMap& map);
+  virtual void enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameView& view,
+                        LandmarkMap& map);
   /// The map as it is, for a file: anchors, and the landmarks that belong to them.
   /// @pre as enterMap()
   virtual SavedMap save(const LandmarkMap& map) const;

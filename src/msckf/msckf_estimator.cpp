@@ -52,7 +52,7 @@ void MsckfEstimator::predict(const OdometryState& odometry,
   is_first ? filter_.start(moved) : filter_.predict(moved, moved_step);
 }
 
-void MsckfEstimator::enterMap(MapEntry entry, SavedMap loaded, const FrameView& view,
+void MsckfEstimator::enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameView& view,
                               LandmarkMap& map) {
   if (config_.msckf.localise_only) loaded = fixed_map_.emplace(std::move(loaded)).exact(entry);
   const LoadedAnchors anchors = anchorsOf(loaded);

@@ -28,7 +28,8 @@ class MsckfEstimator final : public Estimator {
   Estimate estimate() const override;
   void heed(const SetupFinding& finding) override;
   bool canChangeCamera() const override;
-  void enterMap(MapEntry entry, SavedMap loaded, const FrameView& view, LandmarkMap& map) override;
+  void enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameView& view,
+                LandmarkMap& map) override;
   SavedMap save(const LandmarkMap& map) const override;
   void changeCamera(const Eigen::Isometry3d& T_base_cam) override;
 

@@ -57,9 +57,9 @@ struct Slam::State {
   /// Where the flight is in a loaded map; once that is known, the frame goes on there.
   void searchMap(const ImageFeatures& features, CameraPose& camera) {
     if (!isFinite(estimator->estimate())) return;
-    const auto entry = search->see(features, camera.T_map_cam, T_base_cam);
+    auto entry = search->see(features, camera.T_map_cam, T_base_cam);
     if (!entry) return;
-    estimator->enterMap(*entry, search->map(), view, map);
+    estimator->enterMap(std::move(*entry), SavedMap(search->map()), view, map);
     search.reset();
     camera = estimator->camera();
     view.reset(features, camera.T_map_cam, hasFlatRays());
