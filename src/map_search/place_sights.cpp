@@ -1,29 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_search/place_sights.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "linear/portable_math.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-constexpr std::size_t kRemembered = 11;
 // Sights agree when they put the newest image so close together: a share of the landmarks'
 // distance, and what odometry may have drifted by since.
 constexpr double kAgreeDistance = 0.1;
 constexpr double kAgreeDrift = 0.1;  // of the way
 constexpr double kAgreeHeading_rad = 0.09;
 
+/// Of the sights that agree with the newest one.
 struct Demands {
+  std::size_t of_latest;  // images, that long ago at most
   int sights;
-  double cover;
+  double least_cover;  // of each of them
+  double mean_cover;   // of all images since the first of them: another place or none counts as 0
 };
-constexpr Demands kHere{3, 0.6};
+constexpr Demands kHere{11, 3, 0.6, 0.6};
 // Two thirds of true sights pass, in a real kitchen and in rooms with the same furniture and
 // posters (make_world's hotel); of sights of such a room in another one's map one in a hundred, but
 // then several in a second.
-constexpr Demands kElsewhere{4, 0.75};
+constexpr Demands kAtOnce{11, 4, 0.75, 0.75};
+// A map that bends is never recognised that well, but again and again.
+constexpr Demands kInTheLongRun{32, 20, 0.01, 0.5};
+constexpr std::size_t kRemembered = kInTheLongRun.of_latest;
 
 bool agree(const PlaceSight& earlier, const PlaceSight& newest) {
   const Eigen::Isometry3d difference =
@@ -42,21 +49,26 @@ double headingOf(const Eigen::Matrix3d& R) {
 }
 
 bool PlaceSights::add(const std::optional<PlaceSight>& sight, bool is_here) {
-  const Demands& demands = is_here ? kHere : kElsewhere;
   latest_.push_back(sight);
   if (latest_.size() > kRemembered) latest_.erase(latest_.begin());
-  if (!sight || sight->cover < demands.cover) return false;
-  int good = 0;
-  int since_first = 0;
-  double sum_of_covers = 0;
-  for (const auto& one : latest_) {
-    const double cover = one && agree(*one, *sight) ? one->cover : 0;
-    if (cover >= demands.cover) ++good;
-    if (good == 0) continue;
-    ++since_first;
-    sum_of_covers += cover;
-  }
-  return good >= demands.sights && sum_of_covers >= demands.cover * since_first;
+  if (!sight) return false;
+  const auto meets = [&](const Demands& demands) {
+    int good = 0;
+    int since_first = 0;
+    double sum_of_covers = 0;
+    const std::size_t looked_at = std::min(demands.of_latest, latest_.size());
+    for (auto one = latest_.end() - static_cast<std::ptrdiff_t>(looked_at); one != latest_.end();
+         ++one) {
+      const double cover = *one && agree(**one, *sight) ? (*one)->cover : 0;
+      if (cover >= demands.least_cover) ++good;
+      if (good == 0) continue;
+      ++since_first;
+      sum_of_covers += cover;
+    }
+    return sight->cover >= demands.least_cover && good >= demands.sights &&
+           sum_of_covers >= demands.mean_cover * since_first;
+  };
+  return is_here ? meets(kHere) : meets(kAtOnce) || meets(kInTheLongRun);
 }
 
 }  // namespace ardrone_vslam

@@ -28,7 +28,8 @@ class PlaceSights {
   /// @param is_here  the flight is known to be in this map; else it may be in a place that is alike
   /// @return whether the flight is found where this image says: so do some others before it that
   /// are recognised as well as a place must be, and all images since the first of them are so in
-  /// the mean, where those that do not say the same count as not recognised
+  /// the mean, where those that do not say the same count as not recognised. A few will do that
+  /// are recognised well, and many that are not
   bool add(const std::optional<PlaceSight>& sight, bool is_here = false);
   void clear() { latest_.clear(); }
 

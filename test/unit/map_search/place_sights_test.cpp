@@ -62,6 +62,21 @@ TEST(PlaceSights, WhatWasLongAgoIsForgotten) {
   EXPECT_TRUE(isFoundAtLast(sights));
 }
 
+TEST(PlaceSights, ManyThatRecogniseHalfAreEnough) {
+  const PlaceSight half = sightOf(0.6);
+  EXPECT_FALSE(isFoundAtLast(std::vector<std::optional<PlaceSight>>(19, half)));
+  EXPECT_TRUE(isFoundAtLast(std::vector<std::optional<PlaceSight>>(20, half)));
+  EXPECT_FALSE(isFoundAtLast(std::vector<std::optional<PlaceSight>>(30, sightOf(0.45))));
+  // Among them are some that say another place: as long as the mean is enough.
+  std::vector<std::optional<PlaceSight>> sights(23, half);
+  sights[5] = sights[15] = sightOf(1, 9);
+  sights[10] = std::nullopt;
+  EXPECT_TRUE(isFoundAtLast(sights));
+  sights.resize(40, half);
+  for (std::size_t i = 0; i < sights.size(); i += 5) sights[i] = sightOf(1, 9);
+  EXPECT_FALSE(isFoundAtLast(sights));
+}
+
 TEST(PlaceSights, LessIsNeededWhereTheFlightIsKnownToBeInTheMap) {
   PlaceSights place;
   EXPECT_FALSE(place.add(sightOf(0.65), true));
