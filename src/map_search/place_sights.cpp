@@ -42,6 +42,23 @@ bool agree(const PlaceSight& earlier, const PlaceSight& newest) {
          std::abs(headingOf(difference.linear())) < kAgreeHeading_rad;
 }
 
+bool meet(const Demands& demands, const std::vector<std::optional<PlaceSight>>& sights) {
+  const std::optional<PlaceSight>& newest = sights.back();
+  if (!newest || newest->cover < demands.least_cover) return false;
+  const std::size_t looked_at = std::min(demands.of_latest, sights.size());
+  int good = 0;
+  int since_first = 0;
+  double sum_of_covers = 0;
+  for (std::size_t i = sights.size() - looked_at; i < sights.size(); ++i) {
+    const double cover = sights[i] && agree(*sights[i], *newest) ? sights[i]->cover : 0;
+    if (cover >= demands.least_cover) ++good;
+    if (good == 0) continue;
+    ++since_first;
+    sum_of_covers += cover;
+  }
+  return good >= demands.sights && sum_of_covers >= demands.mean_cover * since_first;
+}
+
 }  // namespace
 
 double headingOf(const Eigen::Matrix3d& R) {
@@ -51,24 +68,8 @@ double headingOf(const Eigen::Matrix3d& R) {
 bool PlaceSights::add(const std::optional<PlaceSight>& sight, bool is_here) {
   latest_.push_back(sight);
   if (latest_.size() > kRemembered) latest_.erase(latest_.begin());
-  if (!sight) return false;
-  const auto meets = [&](const Demands& demands) {
-    int good = 0;
-    int since_first = 0;
-    double sum_of_covers = 0;
-    const std::size_t looked_at = std::min(demands.of_latest, latest_.size());
-    for (auto one = latest_.end() - static_cast<std::ptrdiff_t>(looked_at); one != latest_.end();
-         ++one) {
-      const double cover = *one && agree(**one, *sight) ? (*one)->cover : 0;
-      if (cover >= demands.least_cover) ++good;
-      if (good == 0) continue;
-      ++since_first;
-      sum_of_covers += cover;
-    }
-    return sight->cover >= demands.least_cover && good >= demands.sights &&
-           sum_of_covers >= demands.mean_cover * since_first;
-  };
-  return is_here ? meets(kHere) : meets(kAtOnce) || meets(kInTheLongRun);
+  if (is_here) return meet(kHere, latest_);
+  return meet(kAtOnce, latest_) || meet(kInTheLongRun, latest_);
 }
 
 }  // namespace ardrone_vslam
