@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
@@ -40,6 +41,8 @@ class MapSearch {
 
   /// The map that is searched.
   const SavedMap& map() const { return map_; }
+  /// The same, which then is not searched any more.
+  SavedMap takeMap() { return std::move(map_); }
   bool isOwn() const { return is_own_; }
 
  private:

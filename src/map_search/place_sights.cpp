@@ -18,18 +18,20 @@ constexpr double kAgreeHeading_rad = 0.09;
 
 /// Of the sights that agree with the newest one.
 struct Demands {
-  std::size_t of_latest;  // images, that long ago at most
+  std::size_t of_latest;  // looks, the newest one included
   int sights;
   double least_cover;  // of each of them
-  double mean_cover;   // of all images since the first of them: another place or none counts as 0
+  double mean_cover;   // of all looks since the first of them, another place or none being 0; and
+                       // of the newest
+  double way;          // between the newest and some of them, of the landmarks' distance
 };
-constexpr Demands kHere{11, 3, 0.6, 0.6};
+constexpr Demands kHere{11, 3, 0.6, 0.6, 0};
 // Two thirds of true sights pass, in a real kitchen and in rooms with the same furniture and
 // posters (make_world's hotel); of sights of such a room in another one's map one in a hundred, but
 // then several in a second.
-constexpr Demands kAtOnce{11, 4, 0.75, 0.75};
-// A map that bends is never recognised that well, but again and again.
-constexpr Demands kInTheLongRun{32, 20, 0.01, 0.5};
+constexpr Demands kAtOnce{11, 4, 0.75, 0.75, 0};
+// A map that is bent is seldom recognised that well, but again and again as the camera goes on.
+constexpr Demands kInTheLongRun{32, 20, 0.01, 0.5, 0.2};
 constexpr std::size_t kRemembered = kInTheLongRun.of_latest;
 
 bool agree(const PlaceSight& earlier, const PlaceSight& newest) {
@@ -42,21 +44,26 @@ bool agree(const PlaceSight& earlier, const PlaceSight& newest) {
          std::abs(headingOf(difference.linear())) < kAgreeHeading_rad;
 }
 
-bool meet(const Demands& demands, const std::vector<std::optional<PlaceSight>>& sights) {
-  const std::optional<PlaceSight>& newest = sights.back();
-  if (!newest || newest->cover < demands.least_cover) return false;
-  const std::size_t looked_at = std::min(demands.of_latest, sights.size());
+bool meet(const Demands& demands, const std::vector<std::optional<PlaceSight>>& looks) {
+  const std::optional<PlaceSight>& newest = looks.back();
+  if (!newest || newest->cover < demands.mean_cover) return false;
   int good = 0;
   int since_first = 0;
   double sum_of_covers = 0;
-  for (std::size_t i = sights.size() - looked_at; i < sights.size(); ++i) {
-    const double cover = sights[i] && agree(*sights[i], *newest) ? sights[i]->cover : 0;
-    if (cover >= demands.least_cover) ++good;
+  double way_m = 0;
+  for (std::size_t i = looks.size() - std::min(demands.of_latest, looks.size()); i < looks.size();
+       ++i) {
+    const double cover = looks[i] && agree(*looks[i], *newest) ? looks[i]->cover : 0;
+    if (cover >= demands.least_cover) {
+      ++good;
+      way_m = std::max(way_m, (looks[i]->camera_flight - newest->camera_flight).norm());
+    }
     if (good == 0) continue;
     ++since_first;
     sum_of_covers += cover;
   }
-  return good >= demands.sights && sum_of_covers >= demands.mean_cover * since_first;
+  return good >= demands.sights && sum_of_covers >= demands.mean_cover * since_first &&
+         way_m >= demands.way * newest->distance_m;
 }
 
 }  // namespace
@@ -68,8 +75,7 @@ double headingOf(const Eigen::Matrix3d& R) {
 bool PlaceSights::add(const std::optional<PlaceSight>& sight, bool is_here) {
   latest_.push_back(sight);
   if (latest_.size() > kRemembered) latest_.erase(latest_.begin());
-  if (is_here) return meet(kHere, latest_);
-  return meet(kAtOnce, latest_) || meet(kInTheLongRun, latest_);
+  return meet(is_here ? kHere : kAtOnce, latest_) || meet(kInTheLongRun, latest_);
 }
 
 }  // namespace ardrone_vslam

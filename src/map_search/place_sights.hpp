@@ -21,15 +21,15 @@ struct PlaceSight {
 };
 
 /// Whether images apart in time agree on the place, and know enough of it. What only looks like a
-/// place is recognised in a part of the image, and not for long.
+/// place is recognised in a part of the image, and not for long as the camera goes on.
 class PlaceSights {
  public:
   /// The next image that was looked at; without a sight it says no place.
   /// @param is_here  the flight is known to be in this map; else it may be in a place that is alike
   /// @return whether the flight is found where this image says: so do some others before it that
   /// are recognised as well as a place must be, and all images since the first of them are so in
-  /// the mean, where those that do not say the same count as not recognised. A few will do that
-  /// are recognised well, and many that are not
+  /// the mean, where those that do not say the same count as not recognised. A few are enough when
+  /// they are recognised well; many, along some way, when half of what they show is
   bool add(const std::optional<PlaceSight>& sight, bool is_here = false);
   void clear() { latest_.clear(); }
 

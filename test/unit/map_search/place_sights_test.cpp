@@ -62,19 +62,45 @@ TEST(PlaceSights, WhatWasLongAgoIsForgotten) {
   EXPECT_TRUE(isFoundAtLast(sights));
 }
 
-TEST(PlaceSights, ManyThatRecogniseHalfAreEnough) {
-  const PlaceSight half = sightOf(0.6);
-  EXPECT_FALSE(isFoundAtLast(std::vector<std::optional<PlaceSight>>(19, half)));
-  EXPECT_TRUE(isFoundAtLast(std::vector<std::optional<PlaceSight>>(20, half)));
-  EXPECT_FALSE(isFoundAtLast(std::vector<std::optional<PlaceSight>>(30, sightOf(0.45))));
-  // Among them are some that say another place: as long as the mean is enough.
-  std::vector<std::optional<PlaceSight>> sights(23, half);
-  sights[5] = sights[15] = sightOf(1, 9);
-  sights[10] = std::nullopt;
+/// As many looks along a way of 4 cm each.
+std::vector<std::optional<PlaceSight>> along(std::size_t looks, double cover) {
+  std::vector<std::optional<PlaceSight>> sights(looks, sightOf(cover));
+  for (std::size_t i = 0; i < looks; ++i)
+    sights[i]->camera_flight.x() = 0.04 * static_cast<double>(i);
+  return sights;
+}
+
+TEST(PlaceSights, ManyThatRecogniseHalfAreEnoughAlongSomeWay) {
+  EXPECT_FALSE(isFoundAtLast(along(19, 0.52)));
+  EXPECT_TRUE(isFoundAtLast(along(20, 0.52)));
+  EXPECT_FALSE(isFoundAtLast(along(40, 0.48)));
+  EXPECT_FALSE(isFoundAtLast(std::vector<std::optional<PlaceSight>>(40, sightOf(0.7))))
+      << "a camera that stands before what is alike";
+  auto sights = along(20, 0.7);
+  sights.back()->cover = 0.4;
+  EXPECT_FALSE(isFoundAtLast(sights)) << "the place is that of the newest one";
+  sights = along(24, 0.6);
+  for (const std::size_t i : {3U, 9U, 15U}) sights[i]->cover = 0.05;  // they count, but say little
+  EXPECT_TRUE(isFoundAtLast({sights.begin(), sights.begin() + 20}));
+  for (const std::size_t i : {4U, 10U, 16U, 18U}) sights[i] = sightOf(1, 9);
+  EXPECT_FALSE(isFoundAtLast(sights)) << "others say another place";
+}
+
+TEST(PlaceSights, TheLongRunIsOf32Looks) {
+  auto sights = along(33, 0.85);
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    if (i % 5 == 1 || i % 5 == 3) sights[i] = std::nullopt;
+  }
+  EXPECT_FALSE(isFoundAtLast(sights)) << "20 with a place, the first of them 33 looks ago";
+  sights.erase(sights.begin() + 1);
   EXPECT_TRUE(isFoundAtLast(sights));
-  sights.resize(40, half);
-  for (std::size_t i = 0; i < sights.size(); i += 5) sights[i] = sightOf(1, 9);
-  EXPECT_FALSE(isFoundAtLast(sights));
+}
+
+TEST(PlaceSights, InTheFlightsOwnMapTheLongRunCountsToo) {
+  PlaceSights place;
+  const auto sights = along(20, 0.55);
+  for (std::size_t i = 0; i < sights.size(); ++i)
+    EXPECT_EQ(place.add(sights[i], true), i + 1 == sights.size()) << i;
 }
 
 TEST(PlaceSights, LessIsNeededWhereTheFlightIsKnownToBeInTheMap) {
