@@ -88,7 +88,7 @@ class Estimator {
   /// Whether changeCamera() may be called.
   virtual bool canChangeCamera() const { return true; }
   /// Where the flight is in a loaded map, of which it then goes on; between predict() and
-  /// correct(). @pre the estimator keeps anchors, as faultOfMaps() asks for (asserted)
+  /// correct(). Uses both up. @pre the estimator keeps anchors, as faultOfMaps() asks for
   virtual void enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameView& view,
                         LandmarkMap& map);
   /// The map as it is, for a file: anchors, and the landmarks that belong to them.

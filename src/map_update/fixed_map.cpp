@@ -6,22 +6,31 @@
 #include <cmath>
 #include <utility>
 
-#include "linear/scalars.hpp"
 #include "window/map_entry.hpp"
 
 namespace ardrone_vslam {
 
-FixedMap::FixedMap(SavedMap map) : map_(std::move(map)) {
-  assert(!map_.anchors.empty());
+FixedMap::FixedMap(SavedMap& map, MapEntry& entry) {
+  assert(!map.anchors.empty());
+  anchors_.reserve(map.landmarks.size());
+  for (Landmark& landmark : map.landmarks) anchors_.push_back(std::exchange(landmark.anchor_id, 1));
+  entry.anchor = 0;
+  map_.frame_id = map.frame_id;
+  map_.camera = map.camera;
+  map_.anchors.assign(1, {});
+  map_.anchors.swap(map.anchors);
+  map_.anchor_covariance.setZero(SavedMap::kAnchor, SavedMap::kAnchor);
+  map_.anchor_covariance.swap(map.anchor_covariance);
 }
 
-SavedMap FixedMap::exact(MapEntry& entry) const {
-  entry.anchor = 0;
-  SavedMap exact = map_;
-  exact.anchors.assign(1, {});
-  exact.anchor_covariance.setZero(SavedMap::kAnchor, SavedMap::kAnchor);
-  for (Landmark& landmark : exact.landmarks) landmark.anchor_id = 1;
-  return exact;
+SavedMap FixedMap::mapWith(std::vector<Landmark> landmarks, std::int64_t stamp_ns) const {
+  assert(landmarks.size() == anchors_.size());
+  SavedMap map = map_;
+  map.stamp_ns = stamp_ns;
+  map.landmarks = std::move(landmarks);
+  const std::size_t count = std::min(anchors_.size(), map.landmarks.size());
+  for (std::size_t i = 0; i < count; ++i) map.landmarks[i].anchor_id = anchors_[i];
+  return map;
 }
 
 void FixedMap::addErrors(Estimate& estimate) const {
@@ -37,7 +46,7 @@ void FixedMap::addErrors(Estimate& estimate) const {
   const PoseByAnchor J = poseByAnchor(position_map - nearest->T_map_rig.translation());
   estimate.covariance += J * of_anchor * J.transpose();
   constexpr int kScale = SavedMap::kAnchor - 1;
-  estimate.scale_sigma = std::sqrt(squared(estimate.scale_sigma) + of_anchor(kScale, kScale));
+  estimate.scale_sigma = std::max(estimate.scale_sigma, std::sqrt(of_anchor(kScale, kScale)));
 }
 
 }  // namespace ardrone_vslam

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "ardrone_vslam/saved_map.hpp"
 #include "estimator/estimator.hpp"
 
@@ -12,20 +15,22 @@ namespace ardrone_vslam {
 /// the map's, each time anew, and drift off from it. How the map errs is added to what is told.
 class FixedMap {
  public:
-  /// @pre it has anchors (asserted)
-  explicit FixedMap(SavedMap map);
-
-  /// As it was loaded.
-  const SavedMap& map() const { return map_; }
-  /// The same, but for the anchors: all landmarks belong to one, which is exact. O(landmarks).
+  /// Keeps what is said of its anchors, and makes it exact: all landmarks belong to one anchor,
+  /// which has no error. O(landmarks).
+  /// @param map  is made exact. @pre it has anchors (asserted)
   /// @param entry  its anchor becomes that one
-  SavedMap exact(MapEntry& entry) const;
+  FixedMap(SavedMap& map, MapEntry& entry);
 
-  /// The pose errs as the map does there, which is as its nearest anchor does. O(anchors).
+  /// As it was loaded. @param landmarks  all of them, as the flight has them, in their order
+  SavedMap mapWith(std::vector<Landmark> landmarks, std::int64_t stamp_ns) const;
+
+  /// The pose errs as the map does there, which is as its nearest anchor does, beside what it errs
+  /// in the map. The scale is at best that of the map. O(anchors).
   void addErrors(Estimate& estimate) const;
 
  private:
-  SavedMap map_;
+  SavedMap map_;                        // without landmarks
+  std::vector<std::uint32_t> anchors_;  // Landmark::anchor_id of each
 };
 
 }  // namespace ardrone_vslam

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <unordered_map>
+#include <utility>
 
 namespace ardrone_vslam {
 namespace {
@@ -107,12 +108,12 @@ LoadedAnchors anchorsOf(const SavedMap& map) {
   return loaded;
 }
 
-std::vector<Landmark> landmarksOf(const SavedMap& map, const LoadedAnchors& anchors,
-                                  std::int64_t now_ns, double fix_min_age_s) {
+std::vector<Landmark> landmarksOf(SavedMap&& map, const LoadedAnchors& anchors, std::int64_t now_ns,
+                                  double fix_min_age_s) {
   constexpr double kBeforeTheFlight_s = 60;
   const std::int64_t ended_ns =
       now_ns - static_cast<std::int64_t>((kBeforeTheFlight_s + fix_min_age_s) * 1e9);
-  std::vector<Landmark> landmarks = map.landmarks;
+  std::vector<Landmark> landmarks = std::move(map.landmarks);
   for (Landmark& landmark : landmarks) {
     landmark.anchor_id = anchors.anchors[landmark.anchor_id - 1].id;
     landmark.track_id = kNoTrack;

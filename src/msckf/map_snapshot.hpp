@@ -19,7 +19,7 @@ SavedMap savedMapOf(const WindowState& state, const std::vector<Landmark>& landm
 LoadedAnchors anchorsOf(const SavedMap& map);
 /// A loaded map's landmarks as the flight's: its clock ran before the flight began.
 /// @param now_ns  stamp of the newest image
-std::vector<Landmark> landmarksOf(const SavedMap& map, const LoadedAnchors& anchors,
-                                  std::int64_t now_ns, double fix_min_age_s);
+std::vector<Landmark> landmarksOf(SavedMap&& map, const LoadedAnchors& anchors, std::int64_t now_ns,
+                                  double fix_min_age_s);
 
 }  // namespace ardrone_vslam

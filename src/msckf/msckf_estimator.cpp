@@ -48,25 +48,25 @@ void MsckfEstimator::predict(const OdometryState& odometry,
     moved_step->jump_odom_m = T_filter_odom_.linear() * step->jump_odom_m;
     moved_step->motion_odom_m = T_filter_odom_.linear() * step->motion_odom_m;
   }
-  const bool is_first = filter_.state().frames().empty();
-  is_first ? filter_.start(moved) : filter_.predict(moved, moved_step);
+  filter_.state().frames().empty() ? filter_.start(moved) : filter_.predict(moved, moved_step);
 }
 
 void MsckfEstimator::enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameView& view,
                               LandmarkMap& map) {
-  if (config_.msckf.localise_only) loaded = fixed_map_.emplace(std::move(loaded)).exact(entry);
+  if (config_.msckf.localise_only) fixed_map_.emplace(loaded, entry);
   const LoadedAnchors anchors = anchorsOf(loaded);
   filter_.enterMap(entry, anchors);
   T_filter_odom_ = entry.T_loaded_flight * T_filter_odom_;
   // What this flight has made so far goes along with its anchors.
   applyCorrections(filter_.takeCorrections(view.focalLength_px()), view, map);
-  for (const Landmark& landmark :
-       landmarksOf(loaded, anchors, filter_.newest().stamp_ns, config_.msckf.fix_min_age_s))
+  for (const Landmark& landmark : landmarksOf(std::move(loaded), anchors, filter_.newest().stamp_ns,
+                                              config_.msckf.fix_min_age_s))
     unconfirmed_.addLoaded(map.add(landmark));
 }
 
 SavedMap MsckfEstimator::save(const LandmarkMap& map) const {
-  return fixed_map_ ? fixed_map_->map() : savedMapOf(filter_.state(), map.all());
+  if (fixed_map_) return fixed_map_->mapWith(map.all(), filter_.newest().stamp_ns);
+  return savedMapOf(filter_.state(), map.all());
 }
 
 CameraPose MsckfEstimator::camera() {

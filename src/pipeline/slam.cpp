@@ -47,7 +47,7 @@ void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 
 void Slam::load(SavedMap map) {
   assert(state_->result.stamp_ns == 0 && "a map is loaded before the first frame");
-  refuse(faultOfMaps(state_->config));
+  refuse(faultOfMaps(state_->config, map.landmarks.size()));
   state_->search = std::make_unique<MapSearch>(std::move(map), state_->config);
 }
 

@@ -59,7 +59,7 @@ struct Slam::State {
     if (!isFinite(estimator->estimate())) return;
     auto entry = search->see(features, camera.T_map_cam, T_base_cam);
     if (!entry) return;
-    estimator->enterMap(std::move(*entry), SavedMap(search->map()), view, map);
+    estimator->enterMap(std::move(*entry), search->takeMap(), view, map);
     search.reset();
     camera = estimator->camera();
     view.reset(features, camera.T_map_cam, hasFlatRays());
