@@ -203,9 +203,9 @@ RunMaps mapsOf(const Options& o, const Sequence& sequence, const PipelineConfig&
 #endif
   const bool is_saved = !o.maps.saved.empty();
   RunMaps maps{std::nullopt, is_saved, is_saved || o.maps.is_refined};
-  const bool is_wanted = maps.is_saved || maps.is_recorded || !o.maps.loaded.empty();
-  if (!fault.empty() && is_wanted) throw UsageError(fault);
-  if (!o.maps.loaded.empty()) maps.loaded = loadMap(o.maps.loaded, sequence.camera());
+  if (!fault.empty() && (maps.is_recorded || !o.maps.loaded.empty())) throw UsageError(fault);
+  if (!o.maps.loaded.empty())
+    maps.loaded = loadMap(o.maps.loaded, sequence.camera(), config.mapper);
   return maps;
 }
 

@@ -78,10 +78,12 @@ void visitParameters(MsckfConfig& c, Visitor&& visit) {
                       "landmarks of one place err alike: together they are not taken as better "
                       "than so many independent ones"},
         c.fix_independent_landmarks);
-  visit(ParameterInfo{"localise_only", "switch", 0, 0,
-                      "a loaded map is never changed: no landmark is added, moved or dropped, and "
-                      "no fix moves it. Without a loaded map there are no landmarks then"},
-        c.localise_only);
+  visit(
+      ParameterInfo{
+          "localise_only", "switch", 0, 0,
+          "a loaded map is never changed, and counts as exact: what it errs by is added to "
+          "the pose's covariance. Without a loaded map there are no landmarks then"},
+      c.localise_only);
 }
 
 }  // namespace ardrone_vslam

@@ -34,7 +34,7 @@ void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& 
 }
 
 void LiveSlam::useMap(std::shared_ptr<const SavedMap> loaded) {
-  std::string fault = faultOfMaps(config_);
+  std::string fault = faultOfMaps(config_, loaded ? loaded->landmarks.size() : 0);
   if (fault.empty() && loaded && slam_) fault = differenceOf(*loaded, camera_);
   if (loaded && !fault.empty()) throw MapFileError(fault);
   loaded_ = std::move(loaded);
@@ -59,13 +59,12 @@ void LiveSlam::lookNear(const PlaceHint& hint) {
 }
 
 void LiveSlam::limitMap(const LandmarkMapConfig& config) {
-  if (slam_ && config_.msckf.localise_only &&
-      slam_->landmarks().size() > static_cast<std::size_t>(config.max_landmarks))
-    throw std::invalid_argument("max_landmarks must be at least " +
-                                std::to_string(slam_->landmarks().size()) +
-                                ": with localise_only the map keeps all that it has");
+  SlamConfig limited = config_;
+  limited.landmark_map = config;
+  const std::string fault = faultOfMaps(limited, loaded_ ? loaded_->landmarks.size() : 0);
+  if (loaded_ && !fault.empty()) throw std::invalid_argument(fault);
   if (slam_) slam_->limitMap(config);
-  config_.landmark_map = config;
+  config_ = limited;
 }
 
 void LiveSlam::endMap() {

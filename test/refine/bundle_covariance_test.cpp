@@ -110,5 +110,24 @@ TEST(BundleCovariance, IsAsLargeAsTheErrorsOfFlights) {
   EXPECT_LT(mean, 2.4);
 }
 
+/// Views are weighed by a part of what they share; how well the result is known follows from all.
+TEST(BundleCovariance, GrowsWithWhatTheViewsShare) {
+  test::FlightErrors errors;
+  errors.corner_px = 0.5;
+  errors.way_m = 0.01;
+  test::RecordedFlight flight(errors);
+  std::vector<MapAnchor> anchors(1);
+  constexpr std::size_t kAnchor = 45;
+  anchors[0].stamp_ns = flight.record.keyframes[kAnchor].stamp_ns + 100;
+  flight.record.config.track_common_px = 0.7;
+  const Refinement room = refine(flight.record, anchors);
+  flight.record.config.track_common_px = 3.5;
+  const Refinement street = refine(flight.record, anchors);
+  EXPECT_TRUE(street.T_map_base[kAnchor].isApprox(room.T_map_base[kAnchor], 1e-9));
+  for (int axis = 0; axis < 6; ++axis)  // measured: 1.25 or more
+    EXPECT_GT(street.anchor_covariance(axis, axis), 1.15 * room.anchor_covariance(axis, axis))
+        << axis;
+}
+
 }  // namespace
 }  // namespace ardrone_vslam

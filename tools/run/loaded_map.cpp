@@ -5,12 +5,14 @@
 
 namespace ardrone_vslam {
 
-SavedMap loadMap(const std::string& path, const CameraIntrinsics& camera) {
+SavedMap loadMap(const std::string& path, const CameraIntrinsics& camera,
+                 const SlamConfig& config) {
   SavedMap map = readMap(path);
   const double focal_length_px = std::sqrt(camera.fx_px * camera.fy_px);
-  const std::string difference =
+  std::string fault =
       cameraDifference(map.camera, {camera.width_px, camera.height_px, focal_length_px});
-  if (!difference.empty()) throw MapFileError(path + ": " + difference);
+  if (fault.empty()) fault = faultOfMaps(config, map.landmarks.size());
+  if (!fault.empty()) throw MapFileError(path + ": " + fault);
   return map;
 }
 

@@ -5,10 +5,11 @@
 
 #include "ardrone_vslam/camera_model.hpp"
 #include "ardrone_vslam/saved_map.hpp"
+#include "ardrone_vslam/slam_config.hpp"
 
 namespace ardrone_vslam {
 
-/// @throws MapFileError as readMap, and for the map of another camera
-SavedMap loadMap(const std::string& path, const CameraIntrinsics& camera);
+/// @throws MapFileError as readMap, for the map of another camera, and with the faultOfMaps
+SavedMap loadMap(const std::string& path, const CameraIntrinsics& camera, const SlamConfig& config);
 
 }  // namespace ardrone_vslam

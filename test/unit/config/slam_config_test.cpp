@@ -84,5 +84,20 @@ TEST(SlamConfig, FloorPointsNeedAHeightAndTheMsckf) {
   EXPECT_EQ(faultsOf(config).size(), 2U) << "the height is none of its, either";
 }
 
+TEST(SlamConfig, AMapThatStaysAsItIsMustNotBeTooLarge) {
+  constexpr std::size_t kMost = 10;
+  SlamConfig config;
+  config.landmark_map.max_landmarks = kMost;
+  EXPECT_TRUE(faultOfMaps(config, kMost + 1).empty()) << "the oldest go";
+  config.msckf.localise_only = true;
+  EXPECT_TRUE(faultOfMaps(config, kMost).empty());
+  const std::string fault = faultOfMaps(config, kMost + 1);
+  for (const char* word : {"localise_only", "11 landmarks", "max_landmarks is 10", "prune --most"})
+    EXPECT_NE(fault.find(word), std::string::npos) << fault << "\nhas no " << word;
+  SavedMap map;
+  map.landmarks.resize(kMost + 1);
+  EXPECT_THROW(Slam(config, Eigen::Isometry3d::Identity()).load(map), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace ardrone_vslam
