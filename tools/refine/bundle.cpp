@@ -17,7 +17,7 @@ namespace {
 // Of a sigma [m, m/s, rad]: as good as exact; with less the equations are worse than double is.
 constexpr double kLeast = 1e-5;
 // Of `track_common_px`: with a street's 3.5, which the filter needs, views would hardly count. How
-// well the result is known follows from all of it.
+// well the result is known follows from all of it, as with the best weights: rather too small.
 constexpr double kMostCommon_px = 0.7;
 
 double squared(double value) {
