@@ -116,8 +116,8 @@ def kitti(tools):
 def _drifting(tools, section, sequence, options):
     """An observer that drifts, which the thesis had not: as wheels do in the street, as a drone's in the corridor."""
     profile = "wheel" if tools.kitti else "drone"
-    seeds = (1,) if tools.quick else (1, 2, 3)
-    folders = {name: [tools.replay(f"street_drift_{name}_{seed}", sequence, "--odometry-profile", profile, "--seed", str(seed), "--estimator", name, *options) for seed in seeds]
+    seeds = 1 if tools.quick else 3
+    folders = {name: tools.replay_seeds(f"street_drift_{name}", seeds, sequence, "--odometry-profile", profile, "--estimator", name, *options)
                for name in ("thesis", "msckf")}
 
     def rmse(folder, key):
@@ -130,7 +130,7 @@ def _drifting(tools, section, sequence, options):
         removed = [rmse(folder, "ratio_scale_removed") for folder in runs]
         rows.append([f"`{name}`", digits(np.median(errors)), digits(np.median(removed))])
         section.claim(f"{profile}: `{name}` over observer, drawn scale error removed, median of the seeds", float(np.median(removed)), high=1.05)
-    section.text(f"The same with an observer that drifts (profile `{profile}`, {len(seeds)} seed{'s' if len(seeds) > 1 else ''}; without alignment, medians):")
+    section.text(f"The same with an observer that drifts (profile `{profile}`, {seeds} seed{'s' if seeds > 1 else ''}; without alignment, medians):")
     section.table(["", "RMSE [m]", "over the observer, drawn scale error removed"], rows)
     if tools.kitti:
         section.text("On a first pass nothing is seen twice, and wheels are good: the camera gains nothing there, and does no harm. On the way back it does: [results.md](results.md), "
@@ -197,8 +197,7 @@ def hover(tools):
     section = Section("Figure 1.2b: drift while hovering")
     world = tools.make_world("hover", "hover", "--seconds", f"{thesis.HOVER_S:g}", "--rate", "20")
     seeds = 3 if tools.quick else 20
-    folders = {name: [tools.replay(f"hover_{name}_{seed}", world, "--odometry-profile", "hover", "--seed", str(seed), "--estimator", name) for seed in range(1, seeds + 1)]
-               for name in ("thesis", "msckf")}
+    folders = {name: tools.replay_seeds(f"hover_{name}", seeds, world, "--odometry-profile", "hover", "--estimator", name) for name in ("thesis", "msckf")}
     figure, (axes,) = panels(1, 3.8)
     final = {}
     lines = [("observer alone", folders["msckf"], "odometry_error_m", "#d62728"), ("`thesis`", folders["thesis"], "fused_error_m", "#ff7f0e"),

@@ -45,6 +45,11 @@ class Tools:
         self._run(os.path.join(self.programs, "replay"), sequence, "--whole-pixels", "--out", folder, *options, *self._settings(settings))
         return folder
 
+    def replay_seeds(self, name, seeds, sequence, *options):
+        """With the odometry's noise of seeds 1 to `seeds`, for which the images are tracked once. @return the runs' folders"""
+        folder = self.replay(name, sequence, "--seeds", f"1:{seeds}", *options)
+        return [os.path.join(folder, f"seed_{seed}") for seed in range(1, seeds + 1)]
+
     def simulate_landmarks(self, name, path, *options, settings=()):
         folder = os.path.join(self.out, "runs", name)
         self._run(os.path.join(self.programs, "simulate_landmarks"), path, "--out", folder, *options, *self._settings(settings))
