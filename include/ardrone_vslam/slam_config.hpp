@@ -172,7 +172,8 @@ struct LandmarkMapConfig {
 template <class Visitor>
 void visitParameters(LandmarkMapConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"max_landmarks", "landmarks", 10, 10000000,
-                      "cap of the map; landmarks that were not seen for longest go first",
+                      "cap of the map; those go first that are worth least: seldom or long ago "
+                      "matched, badly known, one of many in their place",
                       turnFirst(19)},
         c.max_landmarks);
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "map/landmark_worth.hpp"
+
 namespace ardrone_vslam {
 
 LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const LandmarkIds& ids)
@@ -147,12 +149,7 @@ int LandmarkMap::enforceCap() {
   if (landmarks_.size() <= cap) return 0;
   // A tenth of the cap at once, so that a full map does not sort at every frame.
   const std::size_t surplus = landmarks_.size() - cap + cap / 10;
-  std::vector<std::pair<std::int64_t, std::uint32_t>> age;
-  age.reserve(landmarks_.size());
-  for (const Landmark& landmark : landmarks_) age.emplace_back(landmark.last_seen_ns, landmark.id);
-  std::nth_element(age.begin(), age.begin() + static_cast<std::ptrdiff_t>(surplus), age.end());
-  std::sort(age.begin(), age.begin() + static_cast<std::ptrdiff_t>(surplus));
-  for (std::size_t i = 0; i < surplus; ++i) remove(age[i].second);
+  for (const std::uint32_t id : leastWorth(landmarks_, surplus)) remove(id);
   return static_cast<int>(surplus);
 }
 

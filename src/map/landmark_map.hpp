@@ -27,14 +27,14 @@ class LandmarkMap {
   void remove(std::uint32_t id);
   /// Another cap. @throws ConfigError
   void limit(const LandmarkMapConfig& config);
-  /// Removes the landmarks not seen for longest until the cap holds. @return how many were removed.
+  /// Removes the landmarks of leastWorth() until the cap holds. @return how many were removed.
   int enforceCap();
 
   /// All landmarks, dense; order changes only by remove (the last one takes the place).
   const std::vector<Landmark>& all() const { return landmarks_; }
   /// Number of landmarks.
   std::size_t size() const { return landmarks_.size(); }
-  /// Takes the memory for the cap, and for those that one image adds before the oldest go, now, so
+  /// Takes the memory for the cap, and for those that one image adds before some go, now, so
   /// that nothing is moved while the map grows; without the index, which most flights never need,
   /// and 24 to 40 bytes of each landmark's id.
   void reserve();

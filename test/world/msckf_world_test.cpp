@@ -55,6 +55,22 @@ TEST(MsckfWorld, RevisitsTakeTheDriftOutOfTheOdometry) {
   }
 }
 
+// Those that were not seen for longest are the ones that come next.
+TEST(MsckfWorld, AMapSmallerThanTheLapStillTakesTheDriftOut) {
+  const Flight flight = test::lapsFlight(kLapFrames, 4, 10);
+  std::vector<double> ratios;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    PointWorld world = test::pointRoom(seed);
+    SlamConfig config = test::configForDrift();
+    config.landmark_map.max_landmarks = 200;  // of some 800
+    const FlightRun run = test::fly(world, flight, test::observe(flight, {}, seed), config);
+    ratios.push_back(run.fused.rmse_m / run.odometry.rmse_m);
+    EXPECT_LE(run.results.back().landmarks, 200) << "seed " << seed;
+  }
+  // Measured: 0.07 to 0.31, median 0.14 of 20 seeds; 0.25 to 0.50 when the oldest go.
+  EXPECT_LT(test::median(ratios), 0.2);
+}
+
 TEST(MsckfWorld, AFirstPassIsBetterThanTheOdometryAndKnowsHowGoodItIs) {
   const Flight flight = test::straightFlight(300, 10, 1);
   double sum = 0;

@@ -88,7 +88,7 @@ TEST(SlamConfig, AMapThatStaysAsItIsMustNotBeTooLarge) {
   constexpr std::size_t kMost = 10;
   SlamConfig config;
   config.landmark_map.max_landmarks = kMost;
-  EXPECT_TRUE(faultOfMaps(config, kMost + 1).empty()) << "the oldest go";
+  EXPECT_TRUE(faultOfMaps(config, kMost + 1).empty()) << "some go";
   config.msckf.localise_only = true;
   EXPECT_TRUE(faultOfMaps(config, kMost).empty());
   const std::string fault = faultOfMaps(config, kMost + 1);

@@ -10,8 +10,13 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr std::int64_t kSeen_ns = 1'000'000'000;  // a second
+
+/// Each alone in space.
 Landmark seenAt(std::int64_t last_seen_ns) {
+  static int count = 0;
   Landmark landmark;
+  landmark.position_map.x() = ++count;
   landmark.last_seen_ns = last_seen_ns;
   return landmark;
 }
@@ -73,17 +78,17 @@ TEST(LandmarkMap, LastOneCanBeRemoved) {
   EXPECT_EQ(map.find(a), nullptr);
 }
 
-TEST(LandmarkMap, CapDropsThoseNotSeenForLongest) {
+TEST(LandmarkMap, OfThoseThatDifferInAgeAloneTheCapDropsTheOldest) {
   LandmarkMapConfig config;
   config.max_landmarks = 100;
   LandmarkMap map(config);
-  for (int i = 0; i < 100; ++i) map.add(seenAt((i * 37) % 100));
+  for (int i = 0; i < 100; ++i) map.add(seenAt((i * 37) % 100 * kSeen_ns));
   EXPECT_EQ(map.enforceCap(), 0);
-  map.add(seenAt(1000));
+  map.add(seenAt(1000 * kSeen_ns));
   EXPECT_EQ(map.enforceCap(), 11) << "one too many, and a tenth of the cap";
   ASSERT_EQ(map.size(), 90U);
   std::set<std::int64_t> kept;
-  for (const Landmark& landmark : map.all()) kept.insert(landmark.last_seen_ns);
+  for (const Landmark& landmark : map.all()) kept.insert(landmark.last_seen_ns / kSeen_ns);
   EXPECT_EQ(*kept.begin(), 11);
   EXPECT_EQ(*kept.rbegin(), 1000);
   for (const Landmark& landmark : map.all()) EXPECT_EQ(map.find(landmark.id), &landmark);
