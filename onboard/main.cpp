@@ -37,7 +37,7 @@ constexpr const char* kUsage =
     "  --config     yaml with the sections onboard, tracker and mapper (docs/parameters.md)\n"
     "  --self-test  check processor, clock, kernels, memory and camera; exit code 1 if one fails\n"
     "  --map        map file of an earlier flight, in whose map this one takes place\n"
-    "  --save-map   file that gets this flight's map, every minute and at the end\n"
+    "  --save-map   file that gets this flight's map, every autosave_s and at the end\n"
     "  --poses      file that gets the answers, too\n"
     "  --every-frame  no image is dropped for a newer one (a FIFO; files never drop any)\n"
     "The other options are parameters, too. SIGTERM ends it and saves the map.\n";

@@ -96,6 +96,7 @@ struct MapperNodeConfig {
   OutputsConfig outputs;
   std::string map_file;  // empty: none
   std::string save_map;  // empty: none
+  double autosave_s = 60;
   int queue_size = 10;
 };
 
@@ -118,10 +119,14 @@ void visitParameters(MapperNodeConfig& c, Visitor&& visit) {
                       "folder it is started in; empty: none"},
         c.map_file);
   visit(ParameterInfo{"save_map", "path", 0, 0,
-                      "file that gets the flight's map, every minute and at the end, unless "
+                      "file that gets the flight's map, every `autosave_s` and at the end, unless "
                       "`localise_only`; relative paths as those of `map_file`. Also read by "
                       "vslam_onboard; empty: none"},
         c.save_map);
+  visit(ParameterInfo{"autosave_s", "s", 0, 86400,
+                      "how often `save_map` gets the map in flight: what a crash may cost. Also "
+                      "read by vslam_onboard; below 1 counts as 1, 0: only at the end"},
+        c.autosave_s);
   visit(ParameterInfo{"queue_size", "images", 1, 10000, effects::kQueue}, c.queue_size);
 }
 

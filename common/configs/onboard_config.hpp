@@ -41,7 +41,6 @@ struct OnboardConfig {
   /// Without a good record for so long answers say that the controller is silent. No parameter:
   /// only tests wait for longer.
   double controller_silent_s = 0.5;
-  double save_every_s = 60;  ///< likewise: how often the map is saved in flight
 };
 
 template <class Visitor>

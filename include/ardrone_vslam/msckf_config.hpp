@@ -38,6 +38,8 @@ struct MsckfConfig {
   int max_clones = 12;
   int max_anchors = 32;
   double fix_min_age_s = 3;
+  /// Landmarks of one place err alike: together they are not taken as better than so many
+  /// independent ones. No parameter.
   int fix_independent_landmarks = 10;
   bool localise_only = false;
   HeightConfig height;
@@ -74,10 +76,6 @@ void visitParameters(MsckfConfig& c, Visitor&& visit) {
                       "landmarks of an anchor younger than this share the present drift and do not "
                       "correct it"},
         c.fix_min_age_s);
-  visit(ParameterInfo{"fix_independent_landmarks", "landmarks", 1, 1000000,
-                      "landmarks of one place err alike: together they are not taken as better "
-                      "than so many independent ones"},
-        c.fix_independent_landmarks);
   visit(
       ParameterInfo{
           "localise_only", "switch", 0, 0,

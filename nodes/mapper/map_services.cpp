@@ -3,6 +3,7 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::chrono::seconds kPatience(10);  // for the mapper's thread
 constexpr double kFirstKept_s = 10;
-constexpr double kKeptEvery_s = 60;
+constexpr double kSayEvery_s = 60;
 
 std::filesystem::path folderOfMaps() {
   const char* ros_home = std::getenv("ROS_HOME");
@@ -36,19 +37,20 @@ std::string pathOf(const std::string& name) {
 
 }  // namespace
 
-MapServices::MapServices(const ros::NodeHandle& private_nh, Calls calls, const std::string& kept)
+MapServices::MapServices(const ros::NodeHandle& private_nh, Calls calls, const Kept& kept)
     : calls_(std::move(calls)),
       nh_(private_nh),
-      kept_(kept.empty() ? "" : (folderOfMaps() / kept).string()),
+      kept_(kept.file.empty() ? "" : (folderOfMaps() / kept.file).string()),
       spinner_(1, &queue_) {
   nh_.setCallbackQueue(&queue_);
   servers_ = {nh_.advertiseService("save_map", &MapServices::onSave, this),
               nh_.advertiseService("load_map", &MapServices::onLoad, this),
               nh_.advertiseService("reset", &MapServices::onReset, this)};
   initial_pose_ = nh_.subscribe("/initialpose", 1, &MapServices::onInitialPose, this);
-  if (!kept_.empty())
-    minute_ = nh_.createWallTimer(ros::WallDuration(kFirstKept_s),
-                                  [this](const ros::WallTimerEvent&) { onMinute(); });
+  const double every_s = std::max(kept.every_s, 1.0);
+  if (!kept_.empty() && kept.every_s > 0)
+    timer_ = nh_.createWallTimer(ros::WallDuration(std::min(kFirstKept_s, every_s)),
+                                 [this, every_s](const ros::WallTimerEvent&) { onTimer(every_s); });
   spinner_.start();
 }
 
@@ -117,19 +119,19 @@ SavedMap MapServices::mapOfMapper() {
   return std::move(*map);
 }
 
-void MapServices::onMinute() {
+void MapServices::onTimer(double every_s) {
   SavedMap map;
   try {
     map = mapOfMapper();
   } catch (const std::exception& e) {
-    ROS_INFO_STREAM_THROTTLE(kKeptEvery_s, "save_map: " << e.what());
+    ROS_INFO_STREAM_THROTTLE(kSayEvery_s, "save_map: " << e.what());
     return;
   }
   try {
     keep(map);
-    minute_.setPeriod(ros::WallDuration(kKeptEvery_s));
+    timer_.setPeriod(ros::WallDuration(every_s));
   } catch (const std::exception& e) {
-    ROS_WARN_STREAM_THROTTLE(kKeptEvery_s, "save_map: " << e.what());
+    ROS_WARN_STREAM_THROTTLE(kSayEvery_s, "save_map: " << e.what());
   }
 }
 

@@ -34,9 +34,13 @@ class MapServices {
     std::function<void(const InitialPose&)> look_near;  ///< @throws std::exception with the reason
   };
 
-  /// @param kept  file that gets the map, as open()'s: after 10 s, every minute and at the end.
-  /// Empty: none
-  MapServices(const ros::NodeHandle& private_nh, Calls calls, const std::string& kept);
+  /// A file that gets the map.
+  struct Kept {
+    std::string file;    ///< as open()'s; empty: none
+    double every_s = 0;  ///< in flight, at least 1, first after 10 s at most; 0: only at the end
+  };
+
+  MapServices(const ros::NodeHandle& private_nh, Calls calls, const Kept& kept);
   ~MapServices();
   MapServices(const MapServices&) = delete;
   MapServices& operator=(const MapServices&) = delete;
@@ -54,7 +58,7 @@ class MapServices {
   bool onLoad(MapFile::Request& request, MapFile::Response& response);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void onInitialPose(const InitialPose& pose);
-  void onMinute();
+  void onTimer(double every_s);
   void keep(const SavedMap& map);
   SavedMap mapOfMapper();
   void inMapperThread(const std::function<void()>& work);
@@ -69,7 +73,7 @@ class MapServices {
   ros::Subscriber initial_pose_;
   std::string kept_;                      // path; empty: none
   std::atomic<std::int64_t> kept_ns_{0};  // SavedMap::stamp_ns of what it has of this map
-  ros::WallTimer minute_;
+  ros::WallTimer timer_;
   ros::AsyncSpinner spinner_;
 };
 

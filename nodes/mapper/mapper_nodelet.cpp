@@ -61,9 +61,11 @@ void MapperNodelet::makeMaps() {
     if (!hint.value) throw MapFileError(hint.fault);
     slam_->lookNear(*hint.value);
   };
-  maps_ = std::make_unique<MapServices>(
-      getPrivateNodeHandle(), std::move(calls),
-      settings().slam.msckf.localise_only ? "" : settings().node.save_map);
+  const MapperNodeConfig& node = settings().node;
+  const bool keeps = !settings().slam.msckf.localise_only;
+  maps_ =
+      std::make_unique<MapServices>(getPrivateNodeHandle(), std::move(calls),
+                                    MapServices::Kept{keeps ? node.save_map : "", node.autosave_s});
   try {
     const std::string fault = faultOfMaps(settings().slam);
     if (!settings().node.save_map.empty() && !fault.empty()) throw MapFileError(fault);

@@ -110,8 +110,8 @@ void FlightMap::beginAnew() {
 
 void FlightMap::saveInFlight(const Slam& slam, std::int64_t now_ns) {
   waitForChild(WNOHANG);
-  if (!isToBeSaved()) return;
-  const auto period_ns = static_cast<std::int64_t>(files_.save_every_s * 1e9);
+  if (!isToBeSaved() || files_.autosave_s == 0) return;
+  const auto period_ns = static_cast<std::int64_t>(files_.autosave_s * 1e9);
   if (next_save_ns_ == 0) next_save_ns_ = now_ns + period_ns;
   if (child_ != 0 || now_ns < next_save_ns_ || !slam.hasWholeMap()) return;
   if (slam.landmarks().empty() && !slam.isSearching()) return;

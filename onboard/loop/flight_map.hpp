@@ -18,10 +18,10 @@ namespace ardrone_vslam {
 class FlightMap {
  public:
   struct Files {
-    std::string loaded;       ///< empty: the flight begins a map
-    std::string saved;        ///< empty: its map is not kept
-    double save_every_s = 0;  ///< in flight
-    bool is_fixed = false;    ///< with localise_only there is nothing new to save
+    std::string loaded;     ///< empty: the flight begins a map
+    std::string saved;      ///< empty: its map is not kept
+    double autosave_s = 0;  ///< in flight; 0: only at the end
+    bool is_fixed = false;  ///< with localise_only there is nothing new to save
   };
 
   /// @throws MapFileError when no map can be written there

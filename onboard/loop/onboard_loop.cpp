@@ -27,7 +27,7 @@ OnboardLoop::OnboardLoop(const Settings& settings, int stop_fd)
       stop_fd_(stop_fd),
       pipeline_(settings.tracker, settings.mapper, readCalibration(settings.onboard.camera),
                 extrinsicsOf(settings.onboard),
-                {settings.map_file, settings.save_map, settings.onboard.save_every_s,
+                {settings.map_file, settings.save_map, settings.autosave_s,
                  settings.mapper.msckf.localise_only}),
       observer_source_(settings.onboard, stop_fd),
       output_(settings.onboard),

@@ -53,6 +53,7 @@ constexpr OldName kTable[] = {
     renamed("mapper", "height_deviation_m", "height_sigma_m"),
     // Of the mapper, now constants.
     constant("mapper", "observer_max_gap_s"),
+    constant("mapper", "fix_independent_landmarks"),
     constant("mapper", "range_max_gap_s", "a sensor with larger holes is too slow"),
     constant("mapper", "range_max_tilt_deg"),
     constant("mapper", "rest_depth_m", kSceneDepth),

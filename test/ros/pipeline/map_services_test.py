@@ -144,7 +144,15 @@ class MapServicesTest(unittest.TestCase):
         self.clicks.publish(message)
         time.sleep(0.5)  # a topic does not answer
 
-    def test_4_the_map_is_kept_at_the_end(self):
+    def test_4_the_map_is_kept_in_flight(self):
+        self.drone.fly(1)
+        landmarks = self.status().landmarks
+        end_s = time.monotonic() + TIMEOUT_S  # of a second
+        while time.monotonic() < end_s and landmarks_in(KEPT) != landmarks:
+            time.sleep(0.2)
+        self.assertEqual(landmarks_in(KEPT), landmarks)
+
+    def test_5_the_map_is_kept_at_the_end(self):
         self.drone.fly(1)
         landmarks = self.status().landmarks
         subprocess.run(["rosrun", "nodelet", "nodelet", "unload", "/vslam/mapper", "/vslam/manager"], check=True, timeout=TIMEOUT_S)
