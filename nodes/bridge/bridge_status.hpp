@@ -41,6 +41,8 @@ class BridgeStatus {
   void countLateTelemetry() { ++telemetry_late_; }
   /// To be called once a second.
   void endSecond();
+  /// As published last.
+  const Status& latest() const { return latest_; }
 
  private:
   void publish(Status& status);
@@ -54,7 +56,7 @@ class BridgeStatus {
   Warnings& warnings_;
   ros::Publisher publisher_;
   diagnostic_updater::Updater diagnostics_;
-  Status latest_;              // as published last
+  Status latest_;
   std::int64_t heard_ns_ = 0;  // when something good came last, by the monotonic clock; 0: nothing
   std::uint64_t poses_ = 0;
   std::uint64_t telemetry_late_ = 0;

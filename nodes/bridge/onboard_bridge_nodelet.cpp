@@ -27,6 +27,10 @@ void OnboardBridgeNodelet::onInit() {
     const std::lock_guard<std::mutex> lock(mutex_);
     outputs_->publishMap(stream_.telemetry().landmarks(), frames_.map);
   });
+  timers_.every(nh, MapperOutputs::kStatePeriod_s, [this] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    outputs_->publishState(status_->latest(), stream_.telemetry().landmarks());
+  });
   receiver_->start([this](const std::uint8_t* datagram, std::size_t size) {
     const std::lock_guard<std::mutex> lock(mutex_);
     onDatagram(datagram, size);

@@ -9,7 +9,6 @@
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/Range.h>
-#include <visualization_msgs/Marker.h>
 
 #include <string>
 #include <vector>
@@ -97,8 +96,5 @@ bool isWell(std::uint8_t state);
 /// Landmarks as a cloud: x y z [m], deviation [m], times_seen, id.
 sensor_msgs::PointCloud2 toCloud(const std::vector<Landmark>& landmarks,
                                  const std::string& map_frame, std::int64_t stamp_ns);
-/// Landmarks as one marker of points, from green (sigma at most 1 cm) to red (at least 1 m).
-visualization_msgs::Marker toMarker(const std::vector<Landmark>& landmarks,
-                                    const std::string& map_frame, std::int64_t stamp_ns);
 
 }  // namespace ardrone_vslam

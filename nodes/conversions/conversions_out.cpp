@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sensor_msgs/point_cloud2_iterator.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
 
 #include "conversions/conversions.hpp"
 
 namespace ardrone_vslam {
 namespace {
-
-constexpr double kGreenSigma_m = 0.01;
-constexpr double kRedSigma_m = 1.0;
-constexpr double kMarkerSide_m = 0.05;
 
 std_msgs::Header headerOf(std::int64_t stamp_ns, const std::string& frame) {
   std_msgs::Header header;
@@ -38,18 +31,6 @@ void fillTwist(const Vector6d& twist, const Matrix6d& covariance,
   message.twist.angular.y = twist[4];
   message.twist.angular.z = twist[5];
   toRowMajor(covariance, message.covariance);
-}
-
-/// Green over yellow to red, on a logarithmic scale.
-std_msgs::ColorRGBA colourOf(double sigma_m) {
-  const double clamped = std::clamp(sigma_m, kGreenSigma_m, kRedSigma_m);
-  const double share = std::log(clamped / kGreenSigma_m) / std::log(kRedSigma_m / kGreenSigma_m);
-  std_msgs::ColorRGBA colour;
-  colour.r = static_cast<float>(std::min(1.0, 2 * share));
-  colour.g = static_cast<float>(std::min(1.0, 2 * (1 - share)));
-  colour.b = 0.F;
-  colour.a = 1.F;
-  return colour;
 }
 
 }  // namespace
@@ -162,31 +143,6 @@ sensor_msgs::PointCloud2 toCloud(const std::vector<Landmark>& landmarks,
     ++seen_id;
   }
   return cloud;
-}
-
-visualization_msgs::Marker toMarker(const std::vector<Landmark>& landmarks,
-                                    const std::string& map_frame, std::int64_t stamp_ns) {
-  visualization_msgs::Marker marker;
-  marker.header = headerOf(stamp_ns, map_frame);
-  marker.ns = "landmarks";
-  marker.type = visualization_msgs::Marker::POINTS;
-  // rviz complains of a marker that is to be shown but has no points.
-  marker.action =
-      !landmarks.empty() ? visualization_msgs::Marker::ADD : visualization_msgs::Marker::DELETE;
-  marker.pose.orientation.w = 1;
-  marker.scale.x = kMarkerSide_m;
-  marker.scale.y = kMarkerSide_m;
-  marker.points.reserve(landmarks.size());
-  marker.colors.reserve(landmarks.size());
-  for (const Landmark& landmark : landmarks) {
-    geometry_msgs::Point point;
-    point.x = landmark.position_map.x();
-    point.y = landmark.position_map.y();
-    point.z = landmark.position_map.z();
-    marker.points.push_back(point);
-    marker.colors.push_back(colourOf(landmark.sigma_m));
-  }
-  return marker;
 }
 
 }  // namespace ardrone_vslam

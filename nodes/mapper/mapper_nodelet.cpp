@@ -109,6 +109,10 @@ void MapperNodelet::start() {
   timers_.every(nh, MapperOutputs::kMapPeriod_s, [this] {
     if (slam_->hasMap()) outputs_->publishMap(slam_->slam().landmarks(), odometry_->frames().map);
   });
+  timers_.every(nh, MapperOutputs::kStatePeriod_s, [this] {
+    static const std::vector<Landmark> kNone;
+    outputs_->publishState(status_->latest(), slam_->hasMap() ? slam_->slam().landmarks() : kNone);
+  });
   heights_->subscribe(nh);
   odometry_->subscribe(nh);
   features_->subscribe(nh, settings().node.queue_size);

@@ -35,6 +35,8 @@ class MapperStatus {
   void publishAnswer(const FrameResult& result, const Features& features);
   /// To be called once a second; says what the mapper waits for.
   void endSecond(bool has_features, bool has_answer);
+  /// As published last.
+  const Status& latest() const { return latest_; }
 
  private:
   void publishWaiting(bool has_features, bool reminds);
@@ -49,7 +51,7 @@ class MapperStatus {
   Warnings& warnings_;
   ros::Publisher publisher_;
   diagnostic_updater::Updater diagnostics_;
-  Status latest_;          // as published last
+  Status latest_;
   bool is_blind_ = false;  // hardly a corner; said when that begins
   Reminder reminder_;
 };

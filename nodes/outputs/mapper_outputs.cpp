@@ -13,11 +13,11 @@ MapperOutputs::MapperOutputs(ros::NodeHandle& nh, const OutputsConfig& config)
     : config_(config),
       pose_pub_(nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue)),
       odometry_pub_(nh.advertise<nav_msgs::Odometry>("odometry_fused", kQueue)),
-      correction_pub_(nh.advertise<PoseCorrection>("correction", kQueue)) {
+      correction_pub_(nh.advertise<PoseCorrection>("correction", kQueue)),
+      view_(nh) {
   path_.publisher = nh.advertise<nav_msgs::Path>("path", 1);
   odometry_path_.publisher = nh.advertise<nav_msgs::Path>("observer_path", 1);
   cloud_.publisher = nh.advertise<sensor_msgs::PointCloud2>("landmarks", 1);
-  markers_.publisher = nh.advertise<visualization_msgs::Marker>("landmark_markers", 1);
 }
 
 void MapperOutputs::publishFrame(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
@@ -49,8 +49,20 @@ void MapperOutputs::publishMap(const std::vector<Landmark>& landmarks,
   if (path_.isDue(newest_ns_)) path_.publisher.publish(toPath(fused_poses_));
   if (odometry_path_.isDue(newest_ns_)) odometry_path_.publisher.publish(toPath(odometry_poses_));
   if (cloud_.isDue(newest_ns_)) cloud_.publisher.publish(toCloud(landmarks, map_frame, newest_ns_));
-  if (markers_.isDue(newest_ns_))
-    markers_.publisher.publish(toMarker(landmarks, map_frame, newest_ns_));
+  std_msgs::Header header;
+  header.stamp = toRosTime(newest_ns_);
+  header.frame_id = map_frame;
+  view_.publishLandmarks(landmarks, header, base_map());
+}
+
+void MapperOutputs::publishState(const Status& status, const std::vector<Landmark>& landmarks) {
+  view_.publishState(status, base_map(), landmarks);
+}
+
+Eigen::Vector3d MapperOutputs::base_map() const {
+  if (fused_poses_.empty()) return Eigen::Vector3d::Zero();
+  const geometry_msgs::Point& at = fused_poses_.back().pose.position;
+  return {at.x, at.y, at.z};
 }
 
 void MapperOutputs::clear() {

@@ -11,6 +11,7 @@
 
 #include "configs/node_config.hpp"
 #include "conversions/conversions.hpp"
+#include "outputs/map_view.hpp"
 
 namespace ardrone_vslam {
 
@@ -19,6 +20,8 @@ class MapperOutputs {
  public:
   /// How often publishMap() is to be called: a large map twice a second leaves the link to others.
   static constexpr double kMapPeriod_s = 0.5;
+  /// How often publishState().
+  static constexpr double kStatePeriod_s = 0.2;
 
   MapperOutputs(ros::NodeHandle& nh, const OutputsConfig& config);
   void change(const OutputsConfig& config) { config_ = config; }
@@ -33,6 +36,8 @@ class MapperOutputs {
   /// Paths, cloud and markers: large, so only to those who look, and only when there is something
   /// new. Called at a bounded rate.
   void publishMap(const std::vector<Landmark>& landmarks, const std::string& map_frame);
+  /// @param status  as published last
+  void publishState(const Status& status, const std::vector<Landmark>& landmarks);
 
   /// The map began anew: empties the paths.
   void clear();
@@ -50,6 +55,7 @@ class MapperOutputs {
 
   void remember(Poses& poses, const Eigen::Isometry3d& T_a_b, const Frames& frames);
   static nav_msgs::Path toPath(const Poses& poses);
+  Eigen::Vector3d base_map() const;
 
   OutputsConfig config_;
   ros::Publisher pose_pub_;
@@ -58,7 +64,7 @@ class MapperOutputs {
   OnDemand path_;
   OnDemand odometry_path_;
   OnDemand cloud_;
-  OnDemand markers_;
+  MapView view_;
   tf2_ros::TransformBroadcaster broadcaster_;
   Poses fused_poses_;
   Poses odometry_poses_;

@@ -22,12 +22,12 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry, Path as PathMessage
 from sensor_msgs.msg import Image, PointCloud2
 from tf2_msgs.msg import TFMessage
-from visualization_msgs.msg import Marker
+from visualization_msgs.msg import MarkerArray
 
 HERE = Path(os.path.abspath(__file__)).parent.parent  # test/ros
 sys.path[:0] = [str(HERE), str(HERE.parent / "onboard")]
 sys.dont_write_bytecode = True
-from drone import TIMEOUT_S, Recorder, matrix  # noqa: E402
+from drone import TIMEOUT_S, Recorder, matrix, points_shown  # noqa: E402
 from pose_records import read_poses  # noqa: E402
 
 SOURCE = HERE.parent.parent
@@ -52,7 +52,7 @@ class OnboardBridge(unittest.TestCase):
         rospy.init_node("onboard_bridge_test")
         kinds = {"pose": PoseWithCovarianceStamped, "odometry_fused": Odometry, "correction": PoseCorrection, "status": Status,
                  "features": Features, "debug_image": Image, "path": PathMessage, "observer_path": PathMessage,
-                 "landmarks": PointCloud2, "landmark_markers": Marker}
+                 "landmarks": PointCloud2, "landmark_markers": MarkerArray, "state_markers": MarkerArray}
         cls.topics = {name: Recorder("/vslam/" + name, kind) for name, kind in kinds.items()}
         cls.other = {name: Recorder("/estimated/" + name, kinds[name]) for name in ("pose", "status")}
         cls.tf = Recorder("/tf", TFMessage)
@@ -183,7 +183,9 @@ class OnboardBridge(unittest.TestCase):
         self.assertGreater(len(apart_m), 0.8 * len(at))
         self.assertGreater(len(apart_m), 0.8 * len(ids))
         self.assertLess(np.median(apart_m), 0.01)
-        self.assertEqual(len(self.all("landmark_markers")[-1].points), cloud.width)
+        self.assertEqual(points_shown(self.all("landmark_markers")), cloud.width)
+        texts = {message.markers[0].text.split(",")[0].split("\n")[0] for message in self.all("state_markers")}
+        self.assertTrue(texts & {status.state_name.replace("_", " ") for status in self.all("status")}, texts)
 
     def test_d_features(self):
         features = self.all("features")

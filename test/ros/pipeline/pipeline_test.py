@@ -17,10 +17,10 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry, Path
 from sensor_msgs.msg import Image, PointCloud2
 from tf2_msgs.msg import TFMessage
-from visualization_msgs.msg import Marker
+from visualization_msgs.msg import MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from drone import Recorder, matrix, play, pose_of  # noqa: E402
+from drone import Recorder, matrix, play, points_shown, pose_of  # noqa: E402
 
 PLAY_TIMEOUT_S = 150
 
@@ -33,7 +33,7 @@ class Pipeline(unittest.TestCase):
             "features": Features, "pose": PoseWithCovarianceStamped,
             "odometry_fused": Odometry, "correction": PoseCorrection, "status": Status,
             "path": Path, "observer_path": Path, "landmarks": PointCloud2,
-            "landmark_markers": Marker, "debug_image": Image}
+            "landmark_markers": MarkerArray, "state_markers": MarkerArray, "debug_image": Image}
         cls.topics = {name: Recorder("/vslam/" + name, kind) for name, kind in recorders.items()}
         cls.tf = Recorder("/tf", TFMessage)
         cls.diagnostics = Recorder("/diagnostics", DiagnosticArray)
@@ -164,7 +164,16 @@ class Pipeline(unittest.TestCase):
         points = np.frombuffer(cloud.data, np.float32).reshape(cloud.width, cloud.point_step // 4)
         self.assertTrue(np.isfinite(points[:, :4]).all())
         self.assertGreater(points[:, 3].min(), 0)
-        self.assertGreater(len(self.all("landmark_markers")[-1].points), 50)
+
+    def test_markers_show_map_and_state(self):
+        self.assertEqual(points_shown(self.all("landmark_markers")), self.all("landmarks")[-1].width)
+        self.assertTrue(any(message.markers[1].points for message in self.all("state_markers")))
+        for text, in_use, lines in (message.markers for message in self.all("state_markers")):
+            status = [s for s in self.all("status") if s.header.stamp == text.header.stamp][-1]
+            self.assertTrue(text.text.startswith(status.state_name.replace("_", " ")), text.text)
+            self.assertEqual(len(lines.points), 2 * len(in_use.points))
+            # Beside the matches, landmarks that tracks have made anew; some are removed later.
+            self.assertGreaterEqual(len(in_use.points), 0.9 * status.landmark_matches)
 
     def test_debug_image(self):
         image = self.all("debug_image")[-1]

@@ -216,19 +216,6 @@ TEST(MapConversion, Cloud) {
 
 TEST(MapConversion, EmptyMap) {
   EXPECT_EQ(toCloud({}, "map", 9).width, 0U);
-  EXPECT_EQ(toMarker({}, "map", 9).action, visualization_msgs::Marker::DELETE);
-}
-
-TEST(MapConversion, MarkerColoursBySigma) {
-  const auto marker = toMarker(someMap(), "map", 9);
-  ASSERT_EQ(marker.points.size(), 5U);
-  ASSERT_EQ(marker.colors.size(), 5U);
-  EXPECT_EQ(marker.points[3].y, 6);
-  EXPECT_EQ(marker.colors[0].g, 1);  // 1 cm: green
-  EXPECT_EQ(marker.colors[0].r, 0);
-  EXPECT_EQ(marker.colors[4].r, 1);  // beyond 1 m: red
-  EXPECT_EQ(marker.colors[4].g, 0);
-  EXPECT_GT(marker.colors[2].r, marker.colors[1].r - 1e-6F);
 }
 
 }  // namespace
