@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "conversions/conversions.hpp"
-#include "timing/stamp_guard.hpp"
+#include "stamps/stamp_guard.hpp"
 #include "with_ros/navdata_conversion.hpp"
 
 namespace ardrone_vslam {

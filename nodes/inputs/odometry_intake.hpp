@@ -6,7 +6,7 @@
 
 #include "ardrone_vslam/odometry_adapter.hpp"
 #include "inputs/frame_matcher.hpp"
-#include "timing/stamp_guard.hpp"
+#include "stamps/stamp_guard.hpp"
 
 namespace ardrone_vslam {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "conversions/conversions.hpp"
-#include "timing/stamp_guard.hpp"
+#include "stamps/stamp_guard.hpp"
 #include "timing/warning_limiter.hpp"
 
 namespace ardrone_vslam {

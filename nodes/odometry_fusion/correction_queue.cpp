@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "input_checks/checked.hpp"
-#include "timing/stamp_guard.hpp"
+#include "stamps/stamp_guard.hpp"
 
 namespace ardrone_vslam {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "inputs/attitude_input.hpp"
 #include "parameters/parameter_changes.hpp"
-#include "timing/stamp_guard.hpp"
+#include "stamps/stamp_guard.hpp"
 #include "timing/timers.hpp"
 #include "timing/warning_limiter.hpp"
 #include "tracker/image_receiver.hpp"

@@ -23,7 +23,9 @@ bool ObserverStates::take(OdometryBuffer::Push answer) {
 }
 
 bool ObserverStates::add(const OdometryState& message) {
-  if (message.stamp_ns <= buffer_.newestStamp_ns() - kRestart_ns) clear();
+  const StampGuard::Answer stamp = stamps_.check(message.stamp_ns);
+  if (stamp == StampGuard::Answer::kAlone) return false;
+  if (stamp == StampGuard::Answer::kRestart) clear();
   if (message.height_m) {
     RangeReading reading;
     reading.stamp_ns = message.stamp_ns;

@@ -8,15 +8,13 @@
 #include "ardrone_vslam/odometry_adapter.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
 #include "ardrone_vslam/slam_config.hpp"
+#include "stamps/stamp_guard.hpp"
 
 namespace ardrone_vslam {
 
 /// The observer's states and heights, kept until images ask for those of their exposure.
 class ObserverStates {
  public:
-  /// As the nodelets' StampGuard: a stamp so far back is a clock that was set.
-  static constexpr std::int64_t kRestart_ns = 1'000'000'000;
-
   /// @throws ConfigError
   explicit ObserverStates(const SlamConfig& config);
 
@@ -34,6 +32,7 @@ class ObserverStates {
  private:
   bool take(OdometryBuffer::Push answer);
 
+  StampGuard stamps_;
   OdometryAdapter adapter_;
   OdometryBuffer buffer_;
   HeightInput heights_;

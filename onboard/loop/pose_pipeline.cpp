@@ -56,14 +56,13 @@ void PosePipeline::startOverEmpty() {
 }
 
 bool PosePipeline::track(const Frame& frame) {
-  const bool is_ascending = newest_ns_ == 0 || frame.stamp_ns > newest_ns_;
-  if (!is_ascending && frame.stamp_ns > newest_ns_ - ObserverStates::kRestart_ns) return false;
-  if (!is_ascending) {
+  const StampGuard::Answer stamp = stamps_.check(frame.stamp_ns);
+  if (stamp == StampGuard::Answer::kNotAfter || stamp == StampGuard::Answer::kAlone) return false;
+  if (stamp == StampGuard::Answer::kRestart) {
     startOver();
   } else if (result_ != nullptr && result_->state == SlamState::kNotFinite) {
     beginAnew();
   }
-  newest_ns_ = frame.stamp_ns;
   tracker_.process(frame.image, frame.stamp_ns, features_);
   is_waiting_ = true;
   return true;

@@ -12,6 +12,7 @@
 #include "input/frame_source.hpp"
 #include "loop/flight_map.hpp"
 #include "loop/observer_states.hpp"
+#include "stamps/stamp_guard.hpp"
 
 namespace ardrone_vslam {
 
@@ -24,8 +25,8 @@ class PosePipeline {
   PosePipeline(const TrackerConfig& tracker, const SlamConfig& slam, const CameraIntrinsics& camera,
                const Eigen::Isometry3d& T_base_cam, FlightMap::Files maps);
 
-  /// @return whether the frame is used: its stamp is after the one before. After a stamp that is a
-  /// second or more before it the map begins anew.
+  /// @return whether the frame is used: its stamp is after the one before, and no single one far
+  /// from all others (StampGuard). When time begins again the map begins anew.
   bool track(const Frame& frame);
   bool isWaiting() const { return is_waiting_; }
   /// Gives the waiting frame up.
@@ -71,7 +72,7 @@ class PosePipeline {
   SetupMonitor setup_;
   ImageFeatures features_;
   const FrameResult* result_ = nullptr;
-  std::int64_t newest_ns_ = 0;  // of the frames
+  StampGuard stamps_;
   bool is_waiting_ = false;
   int restarts_ = 0;
 };

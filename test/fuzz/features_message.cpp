@@ -6,8 +6,8 @@
 #include "fuzz/ros_bytes.hpp"
 #include "inputs/frame_matcher.hpp"
 #include "mapper/live_slam.hpp"
+#include "stamps/stamp_guard.hpp"
 #include "support/point_flight.hpp"
-#include "timing/stamp_guard.hpp"
 
 namespace ardrone_vslam::fuzz {
 namespace {

@@ -222,6 +222,36 @@ TEST_F(OnboardLoopTest, AStampThatDoesNotAscendIsDropped) {
   EXPECT_EQ(answers.back().frames_dropped, 2U);
 }
 
+TEST_F(OnboardLoopTest, ASingleStampOfAnotherTimeDeletesNoMapAndStopsNoFlight) {
+  constexpr std::int64_t kFar_ns = 1'000'000'000'000;
+  writeFile(file("frames"), pgm(stampOf(0), image_) + pgm(1, image_) + pgm(stampOf(1), image_) +
+                                pgm(stampOf(1) + kFar_ns, image_) + pgm(stampOf(2), image_));
+  std::string observer;
+  std::uint32_t sequence = 0;
+  const auto add = [&](std::int64_t stamp_ns) {
+    const Record record = recordOf(odometryAt(stamp_ns, ++sequence));
+    observer.append(record.begin(), record.end());
+  };
+  for (int i = -1; i <= kImages; ++i) {
+    add(stampOf(i));
+    if (i == 1) {
+      add(1);
+      add(stampOf(i) + kFar_ns);
+    }
+  }
+  writeFile(file("observer"), observer);
+  settings_.onboard.observer = file("observer");
+  OnboardLoop(settings_, stop_.ends[0]).run();
+  const auto answers = poses();
+  ASSERT_EQ(answers.size(), 4U);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(answers[static_cast<std::size_t>(i)].stamp_ns, stampOf(i));
+    EXPECT_NE(answers[static_cast<std::size_t>(i)].flags & VSLAM_POSE_IS_VALID, 0U) << i;
+  }
+  EXPECT_EQ(answers.back().frames_dropped, 2U);
+  EXPECT_EQ(answers.back().records_dropped, 2U);
+}
+
 TEST_F(OnboardLoopTest, WhatCannotBeOpenedIsSaidAtOnce) {
   const auto faultWith = [&](auto OnboardConfig::*key, const auto& value) -> std::string {
     Settings wrong = settings_;

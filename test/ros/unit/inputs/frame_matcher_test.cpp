@@ -7,8 +7,8 @@
 
 #include "conversions/conversions.hpp"
 #include "conversions/frame_names.hpp"
+#include "stamps/stamp_guard.hpp"
 #include "support/odometry_states.hpp"
-#include "timing/stamp_guard.hpp"
 #include "timing/warning_limiter.hpp"
 
 namespace ardrone_vslam {
