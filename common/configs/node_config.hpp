@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "ardrone_vslam/slam_config.hpp"
@@ -128,6 +129,11 @@ void visitParameters(MapperNodeConfig& c, Visitor&& visit) {
                       "read by vslam_onboard; below 1 counts as 1, 0: only at the end"},
         c.autosave_s);
   visit(ParameterInfo{"queue_size", "images", 1, 10000, effects::kQueue}, c.queue_size);
+}
+
+/// @return 0: only at the end
+inline double autosavePeriod_s(const MapperNodeConfig& c) {
+  return c.autosave_s > 0 ? std::max(c.autosave_s, 1.0) : 0;
 }
 
 struct OdometryFusionNodeConfig {

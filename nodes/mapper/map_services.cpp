@@ -47,8 +47,8 @@ MapServices::MapServices(const ros::NodeHandle& private_nh, Calls calls, const K
               nh_.advertiseService("load_map", &MapServices::onLoad, this),
               nh_.advertiseService("reset", &MapServices::onReset, this)};
   initial_pose_ = nh_.subscribe("/initialpose", 1, &MapServices::onInitialPose, this);
-  const double every_s = std::max(kept.every_s, 1.0);
-  if (!kept_.empty() && kept.every_s > 0)
+  const double every_s = kept.every_s;
+  if (!kept_.empty() && every_s > 0)
     timer_ = nh_.createWallTimer(ros::WallDuration(std::min(kFirstKept_s, every_s)),
                                  [this, every_s](const ros::WallTimerEvent&) { onTimer(every_s); });
   spinner_.start();

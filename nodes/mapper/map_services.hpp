@@ -37,7 +37,7 @@ class MapServices {
   /// A file that gets the map.
   struct Kept {
     std::string file;    ///< as open()'s; empty: none
-    double every_s = 0;  ///< in flight, at least 1, first after 10 s at most; 0: only at the end
+    double every_s = 0;  ///< in flight, first after 10 s at most; 0: only at the end
   };
 
   MapServices(const ros::NodeHandle& private_nh, Calls calls, const Kept& kept);

@@ -63,9 +63,9 @@ void MapperNodelet::makeMaps() {
   };
   const MapperNodeConfig& node = settings().node;
   const bool keeps = !settings().slam.msckf.localise_only;
-  maps_ =
-      std::make_unique<MapServices>(getPrivateNodeHandle(), std::move(calls),
-                                    MapServices::Kept{keeps ? node.save_map : "", node.autosave_s});
+  maps_ = std::make_unique<MapServices>(
+      getPrivateNodeHandle(), std::move(calls),
+      MapServices::Kept{keeps ? node.save_map : "", autosavePeriod_s(node)});
   try {
     const std::string fault = faultOfMaps(settings().slam);
     if (!settings().node.save_map.empty() && !fault.empty()) throw MapFileError(fault);

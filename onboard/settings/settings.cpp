@@ -137,7 +137,7 @@ Settings loadSettings(const std::string& path, const std::vector<std::string>& o
   s.odometry_wait_s = mapper_node.odometry_wait_s;
   s.map_file = mapper_node.map_file;
   s.save_map = mapper_node.save_map;
-  s.autosave_s = mapper_node.autosave_s;
+  s.autosave_s = autosavePeriod_s(mapper_node);
   int& landmarks = s.mapper.landmark_map.max_landmarks;
   landmarks = std::min(landmarks, s.onboard.max_map_mb * (1000000 / kBytesPerLandmark));
   return s;

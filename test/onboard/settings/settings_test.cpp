@@ -212,5 +212,14 @@ TEST(SettingsTest, TheExtrinsicsAreThoseOfTheDriversTf) {
       << "it looks down";
 }
 
+TEST(SettingsTest, SavesInFlightAtMostOnceASecondOrNotAtAll) {
+  const auto autosave_s = [](const std::string& value) {
+    return loadSettings("", {"mapper/autosave_s=" + value}).autosave_s;
+  };
+  EXPECT_EQ(autosave_s("0"), 0);
+  EXPECT_EQ(autosave_s("0.001"), 1);
+  EXPECT_EQ(autosave_s("30"), 30);
+}
+
 }  // namespace
 }  // namespace ardrone_vslam::test
