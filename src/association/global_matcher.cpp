@@ -10,7 +10,8 @@ namespace ardrone_vslam {
 
 const std::vector<DescriptorMatch>& GlobalMatcher::match(const ImageFeatures& features,
                                                          const std::vector<bool>& taken,
-                                                         LandmarkMap& map, MatchMethod method) {
+                                                         LandmarkMap& map, MatchMethod method,
+                                                         std::int64_t unseen_since_ns) {
   assert(method != MatchMethod::kGuided && "guided matching needs a view");
   queries_.clear();
   feature_of_query_.clear();
@@ -20,24 +21,37 @@ const std::vector<DescriptorMatch>& GlobalMatcher::match(const ImageFeatures& fe
     feature_of_query_.push_back(static_cast<int>(f));
   }
   if (method == MatchMethod::kIndexed) {
-    matchByIndex(map);
+    matchByIndex(map, unseen_since_ns);
   } else {
-    landmarks_.clear();
-    for (const Landmark& landmark : map.all()) landmarks_.push_back(landmark.descriptor);
-    matchExact(queries_, landmarks_, config_, matches_);
+    matchAll(map, unseen_since_ns);
   }
   for (DescriptorMatch& match : matches_)
     match.query = feature_of_query_[static_cast<std::size_t>(match.query)];
   return matches_;
 }
 
-void GlobalMatcher::matchByIndex(LandmarkMap& map) {
+void GlobalMatcher::matchAll(const LandmarkMap& map, std::int64_t unseen_since_ns) {
+  landmarks_.clear();
+  index_of_landmark_.clear();
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const Landmark& landmark = map.all()[i];
+    if (landmark.last_seen_ns >= unseen_since_ns) continue;
+    landmarks_.push_back(landmark.descriptor);
+    index_of_landmark_.push_back(static_cast<int>(i));
+  }
+  matchExact(queries_, landmarks_, config_, matches_);
+  for (DescriptorMatch& match : matches_)
+    match.train = index_of_landmark_[static_cast<std::size_t>(match.train)];
+}
+
+void GlobalMatcher::matchByIndex(LandmarkMap& map, std::int64_t unseen_since_ns) {
   matches_.clear();
   map.index().search(queries_, index_probes_, best_);
   for (std::size_t q = 0; q < queries_.size(); ++q) {
     const BestTwo& best = best_[q];
     if (!accept(best, config_)) continue;
     const Landmark* landmark = map.find(static_cast<std::uint32_t>(best.index));
+    if (landmark->last_seen_ns >= unseen_since_ns) continue;
     if (config_.cross_check && !isNearestTo(landmark->descriptor, q)) continue;
     const auto index = static_cast<int>(landmark - map.all().data());
     matches_.push_back({static_cast<int>(q), index, best.distance_bits, best.second_distance_bits});

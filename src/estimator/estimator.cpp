@@ -11,6 +11,10 @@ void Estimator::enterMap(MapEntry&& /*entry*/, SavedMap&& /*loaded*/, const Fram
   assert(false && "this estimator keeps no anchors");
 }
 
+void Estimator::shift(const Revisit& /*revisit*/, const FrameView& /*view*/, LandmarkMap& /*map*/) {
+  assert(false && "this estimator keeps no anchors");
+}
+
 SavedMap Estimator::save(const LandmarkMap& /*map*/) const {
   assert(false && "this estimator keeps no anchors");
   return {};

@@ -29,7 +29,6 @@ struct CameraPose {
 /// What an estimator knows at a frame.
 struct Estimate {
   Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();  ///< the pose
-  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();  ///< REP-105
   Matrix6d covariance = Matrix6d::Zero();       ///< of T_map_base, see FrameResult::covariance
   double fix_nis = 0;                           ///< see FrameResult::fix_nis
   double track_nis = 0;                         ///< see FrameResult::track_nis
@@ -91,6 +90,8 @@ class Estimator {
   /// correct(). Uses both up. @pre the estimator keeps anchors, as faultOfMaps() asks for
   virtual void enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameView& view,
                         LandmarkMap& map);
+  /// The flight is elsewhere in its own map; as enterMap(). Landmarks made meanwhile go along.
+  virtual void shift(const Revisit& revisit, const FrameView& view, LandmarkMap& map);
   /// The map as it is, for a file: anchors, and the landmarks that belong to them.
   /// @pre as enterMap()
   virtual SavedMap save(const LandmarkMap& map) const;

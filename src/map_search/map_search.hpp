@@ -5,16 +5,13 @@
 #include <cstdint>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/saved_map.hpp"
 #include "ardrone_vslam/slam_config.hpp"
-#include "association/global_matcher.hpp"
 #include "map/landmark_map.hpp"
-#include "map_search/image_cover.hpp"
+#include "map_search/place_look.hpp"
 #include "map_search/place_sights.hpp"
-#include "map_update/map_fix.hpp"
 #include "window/map_entry.hpp"
 
 namespace ardrone_vslam {
@@ -56,19 +53,10 @@ class MapSearch {
   };
 
   void gatherLandmarks();
-  std::vector<MapObservation> observe(const ImageFeatures& features);
-  std::optional<PlaceSight> look(const ImageFeatures& features,
-                                 const Eigen::Isometry3d& T_flight_cam);
-  double cover(const ImageFeatures& features, const ObservationConsensus& consensus,
-               double distance_m);
 
   SavedMap map_;
   bool is_own_;
-  double angle_sigma_px_;
-  double tilt_sigma_rad_;
-  std::size_t index_from_landmarks_;
-  GlobalMatcher matcher_;
-  ImageCover cover_;
+  PlaceLook look_;
   LandmarkMap landmarks_;  // that are looked for
   std::optional<Near> near_;
   std::int64_t looked_ns_ = 0;

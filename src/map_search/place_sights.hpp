@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -17,8 +18,13 @@ struct PlaceSight {
   MapEntry entry;
   double distance_m = 0;                                    ///< of the landmarks, median
   Eigen::Vector3d camera_flight = Eigen::Vector3d::Zero();  ///< its position
+  std::uint32_t anchor_id = 0;                              ///< Landmark::anchor_id of most of them
+  std::int64_t last_seen_ns = 0;                            ///< theirs, median
   double cover = 0;  ///< how much of the image is recognised there, see ImageCover
 };
+
+/// Whether they say the same place.
+bool agree(const PlaceSight& earlier, const PlaceSight& newest);
 
 /// Whether images apart in time agree on the place, and know enough of it. What only looks like a
 /// place is recognised in a part of the image, and not for long as the camera goes on.

@@ -43,8 +43,14 @@ void Msckf::enterMap(const MapEntry& entry, const LoadedAnchors& loaded) {
   zero_motion_.beginAnew(state_);  // it remembers odometry in the old frame
   MapEntrance(state_).enter(entry, loaded);
   propagator_.moveOdometry(entry.T_loaded_flight);
-  watchdog_.moveInto(entry.T_loaded_flight);
+  watchdog_.move(entry.T_loaded_flight, entry.T_loaded_flight);
   anchors_.useLoaded(loaded.anchors);
+}
+
+void Msckf::shift(const Revisit& revisit) {
+  zero_motion_.beginAnew(state_);
+  MapEntrance(state_).shift(revisit);
+  watchdog_.move(revisit.entry.T_loaded_flight, Eigen::Isometry3d::Identity());
 }
 
 void Msckf::predict(const OdometryState& odometry, const std::optional<OdometryStep>& step) {
@@ -136,28 +142,6 @@ void Msckf::dropOldest() {
   const std::size_t oldest = zero_motion_.isReferenceOnly(frames.front().id) ? 1 : 0;
   tracks_.dropFrame(frames[oldest].id);
   anchors_.retire(oldest, state_);
-}
-
-Eigen::Isometry3d Msckf::T_map_base() const {
-  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();
-  T_map_base.linear() = newest().R_map_rig * state_.R_base_rig().transpose();
-  T_map_base.translation() = newest().position_map;
-  return T_map_base;
-}
-
-Matrix6d Msckf::covariance() const {
-  const auto P = state_.covariance();
-  const int at = state_.frameCoordinate(state_.frames().size() - 1);
-  constexpr int kExtrinsics = WindowState::kExtrinsics;
-  const Eigen::Matrix3d R_map_base = T_map_base().linear();
-  const Eigen::Matrix<double, 6, 3> shared =
-      P.block<6, 3>(at, kExtrinsics) * R_map_base.transpose();
-  Matrix6d covariance = P.block<6, 6>(at, at);
-  covariance.rightCols<3>() -= shared;
-  covariance.bottomRows<3>() -= shared.transpose();
-  covariance.bottomRightCorner<3, 3>() +=
-      R_map_base * P.block<3, 3>(kExtrinsics, kExtrinsics) * R_map_base.transpose();
-  return 0.5 * (covariance + covariance.transpose());  // to the bit, whatever rounding did
 }
 
 double Msckf::scaleSigma() const {

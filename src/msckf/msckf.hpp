@@ -64,13 +64,15 @@ class Msckf {
   /// The flight has been found in a loaded map: all of it moves there, and odometry is given in its
   /// frame from now on.
   void enterMap(const MapEntry& entry, const LoadedAnchors& loaded);
+  /// The newest frame has been found elsewhere in the map: what came with it moves there.
+  void shift(const Revisit& revisit);
 
   /// The newest frame, the error of the extrinsics included: see WindowState.
   const Clone& newest() const { return state_.newest(); }
   /// Of base: newest() without the error of the extrinsics.
-  Eigen::Isometry3d T_map_base() const;
+  Eigen::Isometry3d T_map_base() const { return state_.T_map_base(); }
   /// Of T_map_base: position [m^2], rotation vector [rad^2], axes of map.
-  Matrix6d covariance() const;
+  Matrix6d covariance() const { return state_.baseCovariance(); }
   /// Mean and covariance of all that is estimated.
   const WindowState& state() const { return state_; }
   /// Standard deviation of WindowState::scaleError().

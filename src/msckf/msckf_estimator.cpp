@@ -39,7 +39,6 @@ void MsckfEstimator::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 void MsckfEstimator::predict(const OdometryState& odometry,
                              const std::optional<OdometryStep>& step) {
   time_since_fix_.see(odometry.stamp_ns);
-  T_odom_base_ = odometry.T_odom_base;
   OdometryState moved = odometry;  // for the filter, odom is the frame that it works in
   moved.T_odom_base = T_filter_odom_ * odometry.T_odom_base;
   if (config_.planar) moved.height_m = 0;  // any constant says that z stays
@@ -62,6 +61,11 @@ void MsckfEstimator::enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameVi
   for (const Landmark& landmark : landmarksOf(std::move(loaded), anchors, filter_.newest().stamp_ns,
                                               config_.msckf.fix_min_age_s))
     unconfirmed_.addLoaded(map.add(landmark));
+}
+
+void MsckfEstimator::shift(const Revisit& revisit, const FrameView& view, LandmarkMap& map) {
+  filter_.shift(revisit);
+  applyCorrections(filter_.takeCorrections(view.focalLength_px()), view, map);
 }
 
 SavedMap MsckfEstimator::save(const LandmarkMap& map) const {
@@ -193,7 +197,6 @@ void MsckfEstimator::changeLandmarks(const AssociationResult& matches,
 Estimate MsckfEstimator::estimate() const {
   Estimate estimate;
   estimate.T_map_base = filter_.T_map_base();
-  estimate.T_map_odom = estimate.T_map_base * T_odom_base_.inverse();
   estimate.covariance = filter_.covariance();
   estimate.fix_nis = filter_.fixNis();
   estimate.track_nis = filter_.trackNis();

@@ -30,6 +30,7 @@ class MsckfEstimator final : public Estimator {
   bool canChangeCamera() const override;
   void enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameView& view,
                 LandmarkMap& map) override;
+  void shift(const Revisit& revisit, const FrameView& view, LandmarkMap& map) override;
   SavedMap save(const LandmarkMap& map) const override;
   void changeCamera(const Eigen::Isometry3d& T_base_cam) override;
 
@@ -45,7 +46,6 @@ class MsckfEstimator final : public Estimator {
   LandmarkLocator locator_;
   Mapper mapper_;
   TimeSinceFix time_since_fix_;
-  Eigen::Isometry3d T_odom_base_ = Eigen::Isometry3d::Identity();
   /// Odometry that begins in a loaded map is given to the filter as if it had begun there.
   Eigen::Isometry3d T_filter_odom_ = Eigen::Isometry3d::Identity();
   SlamState state_ = SlamState::kBuildingMap;  // of the newest frame, by landmarks

@@ -87,7 +87,7 @@ void Slam::reserveMap() {
 }
 
 Eigen::Isometry3d Slam::T_map_odom() const {
-  return state_->T_map_odom;
+  return state_->result.T_map_base * state_->result.T_odom_base.inverse();
 }
 
 const FrameResult& Slam::process(const ImageFeatures& features, const OdometryState& odometry,
@@ -111,11 +111,9 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   CameraPose camera = estimator.camera();
   s.view.reset(features, camera.T_map_cam, s.hasFlatRays());
   s.seen_by = {features.width_px, features.height_px, features.focal_length_px};
-  if (s.search) {
-    enter(Stage::kAssociate);
-    s.searchMap(features, camera);
-    enter(Stage::kLocalise);
-  }
+  enter(Stage::kAssociate);
+  const bool is_found = s.searchMap(features, camera);
+  enter(Stage::kLocalise);
   moveTo(std::move(camera), s.view);
   s.matches.clear();
   // Of what is not finite nothing may reach the map; the result says so.
@@ -124,13 +122,14 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
     if (estimator.wantsLandmarks()) s.associator.matchLandmarks(s.view, s.map, s.matches);
     enter(Stage::kLocalise);
     correction = estimator.correct(s.matches, s.view, s.map);
+    if (is_found && correction.state == SlamState::kLocalised)
+      correction.state = SlamState::kRelocated;
     enter(Stage::kMap);
     changes = estimator.updateMap(s.matches, s.view, s.map);
     changes.removed_landmarks += s.map.enforceCap();
   }
 
   const Estimate estimate = estimator.estimate();
-  s.T_map_odom = estimate.T_map_odom;
   s.result = resultOf(estimate, correction, changes);
   s.result.stamp_ns = odometry.stamp_ns;
   s.result.T_odom_base = odometry.T_odom_base;

@@ -8,6 +8,7 @@
 #include "association/associator.hpp"
 #include "map/landmark_map.hpp"
 #include "map_search/map_search.hpp"
+#include "map_search/revisit_search.hpp"
 #include "map_update/map_fix.hpp"
 #include "matching/frame_view.hpp"
 #include "odometry/odometry_step.hpp"
@@ -23,7 +24,8 @@ struct Slam::State {
         T_base_cam(T),
         estimator(makeEstimator(c, T)),
         associator(c.association),
-        map(c.landmark_map) {}
+        map(c.landmark_map),
+        revisits(c) {}
 
   SlamConfig config;
   Eigen::Isometry3d T_base_cam;
@@ -34,12 +36,11 @@ struct Slam::State {
   AssociationResult matches;
   LandmarkMap map;
   std::unique_ptr<MapSearch> search;  // until the flight has been found
+  RevisitSearch revisits;             // from then on
   MapCamera seen_by;                  // the last frame
   /// The thesis's 2-D mode; the MSCKF's `planar` is a measurement of z.
   bool hasFlatRays() const { return config.planar && config.estimator != EstimatorKind::kMsckf; }
   FrameResult result;
-  Eigen::Isometry3d T_map_odom = Eigen::Isometry3d::Identity();
-
   SavedMap save() const {
     SavedMap saved = estimator->save(map);
     saved.camera = seen_by;
@@ -54,15 +55,23 @@ struct Slam::State {
       next->search = std::make_unique<MapSearch>(std::move(so_far), config, is_own);
     return next;
   }
-  /// Where the flight is in a loaded map; once that is known, the frame goes on there.
-  void searchMap(const ImageFeatures& features, CameraPose& camera) {
-    if (!isFinite(estimator->estimate())) return;
-    auto entry = search->see(features, camera.T_map_cam, T_base_cam);
-    if (!entry) return;
-    estimator->enterMap(std::move(*entry), search->takeMap(), view, map);
-    search.reset();
+  /// Where the flight is in a loaded map, or elsewhere in its own; once that is known, the frame
+  /// goes on there. @return whether it does
+  bool searchMap(const ImageFeatures& features, CameraPose& camera) {
+    if (config.estimator != EstimatorKind::kMsckf || !isFinite(estimator->estimate())) return false;
+    if (search) {
+      auto entry = search->see(features, camera.T_map_cam, T_base_cam);
+      if (!entry) return false;
+      estimator->enterMap(std::move(*entry), search->takeMap(), view, map);
+      search.reset();
+    } else {
+      const auto revisit = revisits.see(features, result.state, camera.T_map_cam, map);
+      if (!revisit) return false;
+      estimator->shift(*revisit, view, map);
+    }
     camera = estimator->camera();
     view.reset(features, camera.T_map_cam, hasFlatRays());
+    return true;
   }
 };
 

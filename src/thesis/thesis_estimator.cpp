@@ -89,8 +89,6 @@ Estimate ThesisEstimator::estimate() const {
   Estimate estimate;
   estimate.T_map_base = T_odom_base_;  // orientation: the odometry's, drift-free
   estimate.T_map_base.translation() = filter_.position_map();
-  // Only the positions differ; this form stays exact far from the origin.
-  estimate.T_map_odom.translation() = filter_.position_map() - T_odom_base_.translation();
   const double attitude_rad = kAttitudeSigma_deg * M_PI / 180;
   estimate.covariance.topLeftCorner<3, 3>() = filter_.covariance();
   estimate.covariance.bottomRightCorner<3, 3>() =

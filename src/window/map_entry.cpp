@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "window/map_entry.hpp"
 
+#include <algorithm>
+#include <cassert>
+
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/scalars.hpp"
 #include "window/window_state.hpp"
 
 namespace ardrone_vslam {
@@ -13,68 +17,132 @@ PoseByAnchor poseByAnchor(const Eigen::Vector3d& from_anchor) {
   return J;
 }
 
-void MapEntrance::move(const MapEntry& entry) {
-  const Eigen::Matrix3d R = entry.T_loaded_flight.linear();
-  state_.R_map_odom_ =
-      R * state_.R_map_odom_ * R.transpose();  // of an odometry that is moved likewise
-  state_.floor_map_m_ += entry.T_loaded_flight.translation().z();
+double Revisit::shareOf(const Clone& pose) const {
+  if (pose.is_loaded || pose.stamp_ns < from_ns) return 0;
+  if (pose.stamp_ns >= to_ns) return 1;
+  return static_cast<double>(pose.stamp_ns - from_ns) / static_cast<double>(to_ns - from_ns);
+}
+
+void MapEntrance::move(const Revisit& revisit) {
+  const Eigen::Isometry3d& T = revisit.entry.T_loaded_flight;
+  const Eigen::Vector3d turn_rad = rotationVectorOf(T.linear());
   auto P = state_.covariance_.all();
-  const auto move = [&](Clone& pose, int at) {
-    pose.position_map = entry.T_loaded_flight * pose.position_map;
-    pose.R_map_rig = R * pose.R_map_rig;
-    for (const int rotated : {at, at + 3}) {
-      P.middleRows<3>(rotated) = (R * P.middleRows<3>(rotated)).eval();
-      P.middleCols<3>(rotated) = (P.middleCols<3>(rotated) * R.transpose()).eval();
-    }
+  const auto turn = [&P](const Eigen::Matrix3d& R, int at) {
+    P.middleRows<3>(at) = (R * P.middleRows<3>(at)).eval();
+    P.middleCols<3>(at) = (P.middleCols<3>(at) * R.transpose()).eval();
   };
-  P.middleRows<3>(WindowState::kAttitude) = (R * P.middleRows<3>(WindowState::kAttitude)).eval();
-  P.middleCols<3>(WindowState::kAttitude) =
-      (P.middleCols<3>(WindowState::kAttitude) * R.transpose()).eval();
+  const auto move = [&](Clone& pose, int at) {
+    const double share = revisit.shareOf(pose);
+    if (share == 0) return;
+    const Eigen::Matrix3d R = rotationOf(share * turn_rad);
+    pose.position_map += share * (T * pose.position_map - pose.position_map);
+    pose.R_map_rig = R * pose.R_map_rig;
+    turn(R, at);
+    turn(R, at + 3);
+  };
+  state_.floor_map_m_ += T.translation().z();
+  turn(T.linear(), WindowState::kAttitude);
   for (std::size_t i = 0; i < state_.anchors_.size(); ++i)
     move(state_.anchors_[i], state_.anchorCoordinate(i));
   for (std::size_t i = 0; i < state_.frames_.size(); ++i)
     move(state_.frames_[i], state_.frameCoordinate(i));
 }
 
-void MapEntrance::share(const MapEntry& entry, std::size_t loaded) {
+Eigen::MatrixXd MapEntrance::cameraBy(std::uint32_t id, const MapEntry& entry) const {
+  const auto anchor = indexOf(state_.anchors_, id);
+  const auto frame = indexOf(state_.frames_, id);
+  assert((anchor || frame) && "a place is told by a pose of the state");
+  const Clone& pose = anchor ? state_.anchors_[*anchor] : state_.frames_[*frame];
+  const PoseByAnchor by_pose = poseByAnchor(entry.camera_loaded - pose.position_map);
+  Eigen::MatrixXd D = Eigen::MatrixXd::Zero(4, state_.covariance().rows());
+  const int at = anchor ? state_.anchorCoordinate(*anchor) : state_.frameCoordinate(*frame);
+  const int count = anchor ? WindowState::kAnchor : WindowState::kFrame;
+  D.block(0, at, 3, count) = by_pose.topLeftCorner(3, count);
+  D.block(3, at, 1, count) = by_pose.block(5, 0, 1, count);
+  return D;
+}
+
+// D: what the camera's position and heading err by from now on beside what they erred by before, of
+// all coordinates; and beside that there is what the entry errs by.
+void MapEntrance::share(const Revisit& revisit, const Eigen::MatrixXd& D) {
   auto P = state_.covariance_.all();
-  // What the entry's errors move: all alike, but for the lever of the heading.
+  // What that moves: all alike, but for the lever of the heading.
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(P.rows(), 4);
   const auto moves = [&](const Clone& pose, int at) {
-    J.block<3, 3>(at, 0).setIdentity();
-    J.block<3, 1>(at, 3) = Eigen::Vector3d::UnitZ().cross(pose.position_map - entry.camera_loaded);
-    J(at + 5, 3) = 1;
+    const double share = revisit.shareOf(pose);
+    J.block<3, 3>(at, 0) = share * Eigen::Matrix3d::Identity();
+    J.block<3, 1>(at, 3) =
+        share * Eigen::Vector3d::UnitZ().cross(pose.position_map - revisit.entry.camera_loaded);
+    J(at + 5, 3) = share;
   };
   J(WindowState::kAttitude + 2, 3) = 1;
   J(WindowState::kFloor, 2) = 1;
-  for (std::size_t i = loaded; i < state_.anchors_.size(); ++i)
+  for (std::size_t i = 0; i < state_.anchors_.size(); ++i)
     moves(state_.anchors_[i], state_.anchorCoordinate(i));
   for (std::size_t i = 0; i < state_.frames_.size(); ++i)
     moves(state_.frames_[i], state_.frameCoordinate(i));
-  // And what the anchor's errors move: the camera, as seen from its landmarks.
-  const PoseByAnchor by_anchor =
-      poseByAnchor(entry.camera_loaded - state_.anchors_[entry.anchor].position_map);
-  Eigen::Matrix<double, 4, WindowState::kAnchor> M;
-  M << by_anchor.topRows<3>(), by_anchor.row(5);
-  const Eigen::MatrixXd MP =
-      M * P.middleRows<WindowState::kAnchor>(state_.anchorCoordinate(entry.anchor));
-  const Eigen::Matrix4d all =
-      entry.covariance +
-      MP.middleCols<WindowState::kAnchor>(state_.anchorCoordinate(entry.anchor)) * M.transpose();
-  const Eigen::MatrixXd shared = J * MP;
+  const Eigen::MatrixXd DP = D * P;
+  const Eigen::Matrix4d all = revisit.entry.covariance + DP * D.transpose();
+  const Eigen::MatrixXd shared = J * DP;
   P += shared + shared.transpose();
   P += J * all * J.transpose();
 }
 
 void MapEntrance::enter(const MapEntry& entry, const LoadedAnchors& loaded) {
-  move(entry);
+  Revisit revisit;
+  revisit.entry = entry;
+  move(revisit);
+  const Eigen::Matrix3d R = entry.T_loaded_flight.linear();
+  state_.R_map_odom_ =
+      R * state_.R_map_odom_ * R.transpose();  // of an odometry that is moved likewise
   const auto count = static_cast<int>(loaded.anchors.size());
   state_.covariance_.insert(WindowState::kGlobals, WindowState::kAnchor * count);
   state_.covariance_.all().block(WindowState::kGlobals, WindowState::kGlobals,
                                  WindowState::kAnchor * count, WindowState::kAnchor * count) =
       loaded.covariance;
   state_.anchors_.insert(state_.anchors_.begin(), loaded.anchors.begin(), loaded.anchors.end());
-  share(entry, loaded.anchors.size());
+  share(revisit, cameraBy(loaded.anchors[entry.anchor].id, entry));
+}
+
+// Between the two times nobody knows when the error grew. So what lies between errs as a random
+// walk does whose end is known (a Brownian bridge), and whose size is that of the correction.
+void MapEntrance::loosen(const Revisit& revisit) {
+  struct Between {
+    int coordinate;
+    double share;
+  };
+  std::vector<Between> poses;
+  double extent_m = 0;
+  const auto note = [&](const Clone& pose, int at) {
+    const double share = revisit.shareOf(pose);
+    if (share > 0 && share < 1) poses.push_back({at, share});
+    if (share > 0)
+      extent_m = std::max(extent_m, (pose.position_map - state_.newest().position_map).norm());
+  };
+  for (std::size_t i = 0; i < state_.anchors_.size(); ++i)
+    note(state_.anchors_[i], state_.anchorCoordinate(i));
+  for (std::size_t i = 0; i < state_.frames_.size(); ++i)
+    note(state_.frames_[i], state_.frameCoordinate(i));
+  const Eigen::Isometry3d& T = revisit.entry.T_loaded_flight;
+  const double turn_rad2 = squared(angleOf_rad(T.linear()));
+  const Eigen::Vector3d way_m = T * state_.newest().position_map - state_.newest().position_map;
+  const double way_m2 = way_m.squaredNorm() + turn_rad2 * squared(extent_m);
+  auto P = state_.covariance_.all();
+  for (const Between& a : poses) {
+    for (const Between& b : poses) {
+      const double bridge = std::min(a.share, b.share) * (1 - std::max(a.share, b.share));
+      P.block<3, 3>(a.coordinate, b.coordinate).diagonal().array() += bridge * way_m2;
+      P(a.coordinate + 5, b.coordinate + 5) += bridge * turn_rad2;
+    }
+  }
+}
+
+void MapEntrance::shift(const Revisit& revisit) {
+  loosen(revisit);
+  move(revisit);
+  state_.R_map_odom_ = revisit.entry.T_loaded_flight.linear() * state_.R_map_odom_;
+  share(revisit,
+        cameraBy(revisit.anchor_id, revisit.entry) - cameraBy(state_.newest().id, revisit.entry));
 }
 
 }  // namespace ardrone_vslam

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "window/clone.hpp"
@@ -34,19 +36,39 @@ struct LoadedAnchors {
   Eigen::MatrixXd covariance;  ///< WindowState::kAnchor coordinates each
 };
 
+/// The flight has been found in its own map, elsewhere than it was thought to be.
+struct Revisit {
+  MapEntry entry;               ///< from where it was thought to be; `anchor` is not set
+  std::uint32_t anchor_id = 0;  ///< Clone::id of the anchor whose landmarks most of all say so
+  /// Poses before it stay where they are. Those from `to_ns` on move by all of the entry, and
+  /// between the two by a share that grows evenly.
+  std::int64_t from_ns = std::numeric_limits<std::int64_t>::min();
+  std::int64_t to_ns = std::numeric_limits<std::int64_t>::min();
+
+  /// By which a pose moves, 0 to 1. Landmarks of an earlier flight stay.
+  double shareOf(const Clone& pose) const;
+};
+
 class WindowState;
 
-/// Takes all of a flight's state into the frame of an earlier one's map.
+/// Takes a flight's state into the frame of an earlier one's map, or a part of it to another place
+/// of its own.
 class MapEntrance {
  public:
   explicit MapEntrance(WindowState& state) : state_(state) {}
   /// The flight is moved, and the map's anchors join, ahead of the others. The flight's errors from
   /// now on have those of the anchor that it was found by. O(coordinates^2).
   void enter(const MapEntry& entry, const LoadedAnchors& loaded);
+  /// A part of the flight is moved within its own map. What was known of where it is beside the
+  /// rest is forgotten: it errs with the anchor from now on. O(coordinates^2).
+  /// @pre the state has the revisit's anchor (asserted)
+  void shift(const Revisit& revisit);
 
  private:
-  void move(const MapEntry& entry);
-  void share(const MapEntry& entry, std::size_t loaded);
+  void move(const Revisit& revisit);
+  void loosen(const Revisit& revisit);
+  void share(const Revisit& revisit, const Eigen::MatrixXd& D);
+  Eigen::MatrixXd cameraBy(std::uint32_t id, const MapEntry& entry) const;
 
   WindowState& state_;
 };

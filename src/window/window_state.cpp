@@ -55,4 +55,25 @@ void WindowState::removeAnchor(std::size_t anchor) {
   anchors_.erase(anchors_.begin() + static_cast<std::ptrdiff_t>(anchor));
 }
 
+Eigen::Isometry3d WindowState::T_map_base() const {
+  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();
+  T_map_base.linear() = newest().R_map_rig * R_base_rig_.transpose();
+  T_map_base.translation() = newest().position_map;
+  return T_map_base;
+}
+
+Matrix6d WindowState::baseCovariance() const {
+  const auto P = covariance();
+  const int at = frameCoordinate(frames_.size() - 1);
+  const Eigen::Matrix3d R_map_base = T_map_base().linear();
+  const Eigen::Matrix<double, 6, 3> shared =
+      P.block<6, 3>(at, kExtrinsics) * R_map_base.transpose();
+  Matrix6d covariance = P.block<6, 6>(at, at);
+  covariance.rightCols<3>() -= shared;
+  covariance.bottomRows<3>() -= shared.transpose();
+  covariance.bottomRightCorner<3, 3>() +=
+      R_map_base * P.block<3, 3>(kExtrinsics, kExtrinsics) * R_map_base.transpose();
+  return 0.5 * (covariance + covariance.transpose());  // to the bit, whatever rounding did
+}
+
 }  // namespace ardrone_vslam

@@ -67,6 +67,10 @@ class WindowState {
   const std::vector<Clone>& frames() const { return frames_; }
   /// The present pose.
   const Clone& newest() const { return frames_.back(); }
+  /// newest() without the error of the extrinsics.
+  Eigen::Isometry3d T_map_base() const;
+  /// Of T_map_base(): position [m^2], rotation vector [rad^2], axes of map.
+  Matrix6d baseCovariance() const;
   /// Frames that have left the window, as landmarks belong to them.
   const std::vector<Clone>& anchors() const { return anchors_; }
   /// First coordinate of a frame; of frames().size(): one beyond the last frame.

@@ -37,6 +37,26 @@ inline PointWorld pointRoom(std::uint64_t seed, double wrong_share) {
   return pointRoom(seed, faults);
 }
 
+/// A room with a cupboard before one of its walls: rooms of one seed have the same one.
+inline PointWorld roomWithCupboard(std::uint64_t seed, bool is_other_room) {
+  constexpr int kPoints = 80;
+  ViewFaults faults;
+  faults.wrong_share = 0.1;
+  PointWorld world(seed, faults);
+  RandomSource random(seed, 9);
+  for (int i = 0; i < kPoints; ++i) {
+    const Eigen::Vector3d corner(random.uniform(-0.3, 0.3), random.uniform(-0.6, 0.6),
+                                 random.uniform(0, 2));
+    world.addPoint(corner + Eigen::Vector3d(4.5, 0, 0));
+  }
+  if (is_other_room) {
+    world.transform(Eigen::Isometry3d(Eigen::AngleAxisd(2, Eigen::Vector3d::UnitZ())));
+    world.randomDescriptor();  // what follows is drawn otherwise
+  }
+  world.addRoom({10, 8, 3}, 1200);
+  return world;
+}
+
 /// Of PointWorld's camera where a test gives no other.
 constexpr double kPointFocalLength_px = 570;
 

@@ -284,32 +284,12 @@ TEST(MapFlight, PointsThatLookAlikeElsewhereAreNoPlace) {
   }
 }
 
-/// A room with a cupboard before one of its walls: rooms of one seed have the same one.
-PointWorld roomWithCupboard(std::uint64_t seed, bool is_other_room) {
-  constexpr int kPoints = 80;
-  test::ViewFaults faults;
-  faults.wrong_share = 0.1;
-  PointWorld world(seed, faults);
-  RandomSource random(seed, 9);
-  for (int i = 0; i < kPoints; ++i) {
-    const Eigen::Vector3d corner(random.uniform(-0.3, 0.3), random.uniform(-0.6, 0.6),
-                                 random.uniform(0, 2));
-    world.addPoint(corner + Eigen::Vector3d(4.5, 0, 0));
-  }
-  if (is_other_room) {
-    world.transform(Eigen::Isometry3d(Eigen::AngleAxisd(2, Eigen::Vector3d::UnitZ())));
-    world.randomDescriptor();  // what follows is drawn otherwise
-  }
-  world.addRoom({10, 8, 3}, 1200);
-  return world;
-}
-
 TEST(MapFlight, TheSameCupboardInAnotherRoomIsNoPlace) {
   for (std::uint64_t seed = 1; seed <= kMapSeeds; ++seed) {
-    PointWorld world = roomWithCupboard(seed, false);
+    PointWorld world = test::roomWithCupboard(seed, false);
     const SavedMap map = mapOf(world, seed);
     EXPECT_TRUE(flyAgain(world, anotherFlight(seed), map, seed).found_frame) << seed;
-    PointWorld other = roomWithCupboard(seed, true);
+    PointWorld other = test::roomWithCupboard(seed, true);
     EXPECT_FALSE(flyAgain(other, anotherFlight(seed), map, seed).found_frame) << seed;
   }
 }

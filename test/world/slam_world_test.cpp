@@ -143,7 +143,7 @@ TEST(SlamWorld, FirstImageMapEqualsOdometry) {
   EXPECT_TRUE(slam.T_map_odom().matrix().isIdentity(0));
   const FrameResult first = slam.process(test::film(world, flight)[0], odometry[0]);
   EXPECT_EQ(first.T_map_base.matrix(), odometry[0].T_odom_base.matrix());
-  EXPECT_TRUE(slam.T_map_odom().matrix().isIdentity(0));
+  EXPECT_TRUE(slam.T_map_odom().matrix().isIdentity(1e-14));
   EXPECT_EQ(first.state, SlamState::kBuildingMap);
   EXPECT_EQ(first.stamp_ns, flight[0].stamp_ns);
 }

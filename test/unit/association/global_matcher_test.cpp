@@ -14,8 +14,9 @@ class GlobalMatcherTest : public ::testing::Test {
     builder_.lookFrom({0, 0, 0});
     for (int i = 0; i < 400; ++i) addLandmark(builder_.randomDescriptor());
   }
-  std::uint32_t addLandmark(const Descriptor& descriptor) {
+  std::uint32_t addLandmark(const Descriptor& descriptor, std::int64_t last_seen_ns = 0) {
     Landmark landmark;
+    landmark.last_seen_ns = last_seen_ns;
     landmark.descriptor = descriptor;
     return map_.add(landmark);
   }
@@ -66,6 +67,26 @@ TEST_F(GlobalMatcherTest, TakenFeaturesAreLeftOut) {
   EXPECT_EQ(matches[0].query, 1);
   EXPECT_EQ(matches[0].train, 6);
   EXPECT_TRUE(matchBoth({true, true}).empty());
+}
+
+TEST_F(GlobalMatcherTest, LandmarksSeenSinceThenAreNoCandidates) {
+  const Descriptor seen_again = builder_.randomDescriptor();
+  addLandmark(seen_again, 8);
+  addLandmark(map_.all()[6].descriptor, 8);  // hides its twin from the index alone
+  addFeature(seen_again);
+  addFeature(map_.all()[6].descriptor);
+  addFeature(map_.all()[9].descriptor);
+  GlobalMatcher matcher(config_, index_probes_);
+  const std::vector<bool> none_taken(3, false);
+  const auto exact = matcher.match(builder_.features(), none_taken, map_, MatchMethod::kExact, 8);
+  ASSERT_EQ(exact.size(), 2U);
+  EXPECT_EQ(exact[0].train, 6);
+  EXPECT_EQ(exact[1].train, 9);
+  while (!map_.advanceIndex()) continue;
+  const auto indexed =
+      matcher.match(builder_.features(), none_taken, map_, MatchMethod::kIndexed, 8);
+  ASSERT_EQ(indexed.size(), 1U);
+  EXPECT_EQ(indexed[0].train, 9);
 }
 
 TEST_F(GlobalMatcherTest, AmbiguousAndFarOnesAreNotMatches) {

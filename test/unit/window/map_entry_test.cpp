@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ardrone_vslam/rotation.hpp"
 #include "support/eigenvalues.hpp"
 #include "support/odometry_window.hpp"
@@ -108,6 +110,84 @@ TEST(MapEntry, TheFlightErrsWithTheAnchorThatItWasFoundBy) {
   EXPECT_LT((exact.covariance().block<3, 3>(at, at) - own - entry.covariance.topLeftCorner<3, 3>())
                 .norm(),
             1e-12);
+}
+
+/// The flight with an anchor at its beginning, whose newest frame has been found elsewhere.
+Revisit someRevisit(const WindowState& state, std::int64_t from_ns, std::int64_t to_ns) {
+  Revisit revisit;
+  revisit.entry = someEntry(state);
+  revisit.anchor_id = state.anchors()[0].id;
+  revisit.from_ns = from_ns;
+  revisit.to_ns = to_ns;
+  return revisit;
+}
+
+/// Covariance of the newest pose's position and heading beside what the anchor's error moves them
+/// by, about the place where the camera was.
+Eigen::Matrix4d besideAnchor(const WindowState& state, const Eigen::Vector3d& camera_map) {
+  const int newest = state.frameCoordinate(state.frames().size() - 1);
+  const int anchor = state.anchorCoordinate(0);
+  Eigen::MatrixXd D = Eigen::MatrixXd::Zero(4, state.covariance().rows());
+  const auto add = [&](const Clone& pose, int at, int count, double sign) {
+    const PoseByAnchor J = poseByAnchor(camera_map - pose.position_map);
+    D.block(0, at, 3, count) = sign * J.topLeftCorner(3, count);
+    D.block(3, at, 1, count) = sign * J.block(5, 0, 1, count);
+  };
+  add(state.anchors()[0], anchor, WindowState::kAnchor, -1);
+  add(state.newest(), newest, WindowState::kFrame, 1);
+  return D * state.covariance() * D.transpose();
+}
+
+TEST(MapEntry, WhatCameSinceItWasLostMovesAlike) {
+  OdometryWindow window = flight();
+  const WindowState before = window;
+  const std::int64_t lost_ns = before.frames()[2].stamp_ns;
+  const Revisit revisit = someRevisit(window, lost_ns, lost_ns);
+  MapEntrance(window).shift(revisit);
+  const Eigen::Matrix3d R = revisit.entry.T_loaded_flight.linear();
+  EXPECT_EQ(window.anchors()[0].position_map, before.anchors()[0].position_map);
+  for (std::size_t i = 0; i < window.frames().size(); ++i) {
+    const Eigen::Vector3d was = before.frames()[i].position_map;
+    const Eigen::Vector3d is = i < 2 ? was : revisit.entry.T_loaded_flight * was;
+    EXPECT_LT((window.frames()[i].position_map - is).norm(), 1e-12) << i;
+  }
+  EXPECT_LT((window.newest().R_map_rig - R * before.newest().R_map_rig).norm(), 1e-12);
+  EXPECT_LT((window.R_map_odom() - R * before.R_map_odom()).norm(), 1e-12);
+
+  const Eigen::MatrixXd P = window.covariance();
+  EXPECT_LT((P - P.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_GT(test::leastEigenvalue(P), -1e-12);
+  // What was before is known as before; the newest is known as well as the revisit says.
+  const int others = window.frameCoordinate(2) - window.anchorCoordinate(0);
+  const int first = window.anchorCoordinate(0);
+  EXPECT_LT((P.block(first, first, others, others) -
+             Eigen::MatrixXd(before.covariance()).block(first, first, others, others))
+                .norm(),
+            1e-12);
+  EXPECT_LT((besideAnchor(window, revisit.entry.camera_loaded) - revisit.entry.covariance).norm(),
+            1e-12);
+}
+
+TEST(MapEntry, ALoopIsSpreadOverTheTimeSinceThePlaceWasSeen) {
+  OdometryWindow window = flight();
+  const WindowState before = window;
+  const Revisit revisit =
+      someRevisit(window, before.frames()[1].stamp_ns, before.newest().stamp_ns);
+  MapEntrance(window).shift(revisit);
+  for (std::size_t i = 0; i < window.frames().size(); ++i) {
+    const Eigen::Vector3d was = before.frames()[i].position_map;
+    const double share = i < 1 ? 0 : static_cast<double>(i - 1) / (kFrames - 3);
+    const Eigen::Vector3d whole = revisit.entry.T_loaded_flight * was - was;
+    EXPECT_LT((window.frames()[i].position_map - was - share * whole).norm(), 1e-12) << i;
+  }
+  EXPECT_GT(test::leastEigenvalue(window.covariance()), -1e-12);
+  EXPECT_LT((besideAnchor(window, revisit.entry.camera_loaded) - revisit.entry.covariance).norm(),
+            1e-12);
+  // Between the two it is known less well: about as the whole is moved.
+  const double whole_m = (window.newest().position_map - before.newest().position_map).norm();
+  const int between = window.frameCoordinate(2);
+  EXPECT_GT(std::sqrt(window.covariance()(between, between)), 0.1 * whole_m);
+  EXPECT_LT(std::sqrt(window.covariance()(between, between)), whole_m);
 }
 
 /// What the derivative says is what a pose does that keeps its place among the anchor's landmarks.
