@@ -84,6 +84,9 @@ struct FrameResult {
   /// By so much the odometry's position jumped since the last frame; 0: it moved. The MSCKF
   /// does not take it for motion.
   double odometry_step_m = 0;
+  /// MSCKF: so far from where it was thought to be the camera has been found in the flight's own
+  /// map; 0: it is where it was thought to be, as far as is known.
+  double revisit_m = 0;
   /// Of base, by the landmarks alone (6.4): shown beside the fused one; nothing when there were too
   /// few.
   std::optional<Eigen::Vector3d> landmark_position_map;
@@ -111,6 +114,9 @@ bool isFinite(const FrameResult& result);
 
 /// A sentence for users: why the pose is only the odometry's, and what helps.
 const char* explain(SlamState state);
+
+/// A sentence for users, of FrameResult::revisit_m.
+std::string explainRevisit(double revisit_m);
 
 /// A sentence for users. @param odometry  its subject, such as "the odometry on /odom"
 std::string explainStep(const std::string& odometry, double step_m);

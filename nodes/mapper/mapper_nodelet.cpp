@@ -173,6 +173,7 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   odometry.height_m = heights_->at(odometry);
   const FrameResult& result = slam_->process(*frame.features, odometry, matcher_->odometries());
   odometry_->watch().seeStep(result.odometry_step_m);
+  if (result.revisit_m > 0) warnings_.limited(explainRevisit(result.revisit_m));
   // Of a fault of the set-up its report has warned.
   if (result.state == SlamState::kDistrusted && slam_->setup().fault().empty())
     warnings_.limited(explain(result.state));

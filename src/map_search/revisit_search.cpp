@@ -2,6 +2,7 @@
 #include "map_search/revisit_search.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 namespace ardrone_vslam {
 namespace {
@@ -23,6 +24,16 @@ bool isHere(const PlaceSight& sight) {
 }
 
 }  // namespace
+
+std::string explainRevisit(double revisit_m) {
+  std::ostringstream text;
+  text.precision(2);
+  text << "found in its map " << revisit_m
+       << " m from where it was thought to be, and moved there: the drone was carried while its "
+          "camera "
+          "was covered, or the odometry errs by far more than it claims";
+  return text.str();
+}
 
 void RevisitSearch::beginAnew(std::int64_t stamp_ns) {
   located_ns_ = lost_ns_ = stamp_ns;

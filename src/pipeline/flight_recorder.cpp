@@ -158,7 +158,8 @@ void FlightRecorder::useCamera(const Eigen::Isometry3d& T_base_cam) {
 void FlightRecorder::see(const ImageFeatures& features, const OdometryState& odometry,
                          const FrameResult& result, const std::vector<Landmark>& landmarks) {
   State& s = *state_;
-  if (s.steps.isNewStart(odometry) || result.state == SlamState::kSearchingMap) {
+  if (s.steps.isNewStart(odometry) || result.state == SlamState::kSearchingMap ||
+      result.revisit_m > 0) {
     s.record = {};
     s.record.is_whole = false;
   }

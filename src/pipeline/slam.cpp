@@ -112,7 +112,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   s.view.reset(features, camera.T_map_cam, s.hasFlatRays());
   s.seen_by = {features.width_px, features.height_px, features.focal_length_px};
   enter(Stage::kAssociate);
-  const bool is_found = s.searchMap(features, camera);
+  const double revisit_m = s.searchMap(features, camera);
   enter(Stage::kLocalise);
   moveTo(std::move(camera), s.view);
   s.matches.clear();
@@ -122,7 +122,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
     if (estimator.wantsLandmarks()) s.associator.matchLandmarks(s.view, s.map, s.matches);
     enter(Stage::kLocalise);
     correction = estimator.correct(s.matches, s.view, s.map);
-    if (is_found && correction.state == SlamState::kLocalised)
+    if (revisit_m > 0 && correction.state == SlamState::kLocalised)
       correction.state = SlamState::kRelocated;
     enter(Stage::kMap);
     changes = estimator.updateMap(s.matches, s.view, s.map);
@@ -134,6 +134,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   s.result.stamp_ns = odometry.stamp_ns;
   s.result.T_odom_base = odometry.T_odom_base;
   if (step) s.result.odometry_step_m = step->jump_odom_m.norm();
+  s.result.revisit_m = revisit_m;
   const double lost_m = s.step_watch.frozenWay_m() + kDoubt * estimate.doubtful_way_m;
   if (lost_m > 0) widenPlace(s.result, lost_m);
   noteFeatures(features, s.result);

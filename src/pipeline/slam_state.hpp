@@ -56,22 +56,24 @@ struct Slam::State {
     return next;
   }
   /// Where the flight is in a loaded map, or elsewhere in its own; once that is known, the frame
-  /// goes on there. @return whether it does
-  bool searchMap(const ImageFeatures& features, CameraPose& camera) {
-    if (config.estimator != EstimatorKind::kMsckf || !isFinite(estimator->estimate())) return false;
+  /// goes on there. @return FrameResult::revisit_m
+  double searchMap(const ImageFeatures& features, CameraPose& camera) {
+    if (config.estimator != EstimatorKind::kMsckf || !isFinite(estimator->estimate())) return 0;
+    double revisit_m = 0;
     if (search) {
       auto entry = search->see(features, camera.T_map_cam, T_base_cam);
-      if (!entry) return false;
+      if (!entry) return 0;
       estimator->enterMap(std::move(*entry), search->takeMap(), view, map);
       search.reset();
     } else {
       const auto revisit = revisits.see(features, result.state, camera.T_map_cam, map);
-      if (!revisit) return false;
+      if (!revisit) return 0;
+      revisit_m = (revisit->entry.camera_loaded - camera.T_map_cam.translation()).norm();
       estimator->shift(*revisit, view, map);
     }
     camera = estimator->camera();
     view.reset(features, camera.T_map_cam, hasFlatRays());
-    return true;
+    return revisit_m;
   }
 };
 

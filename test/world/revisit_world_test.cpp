@@ -64,14 +64,15 @@ std::vector<OdometryState> odometryOf(const Flight& flight, const Carry& carry) 
 /// What the flight knew, image by image, since the camera was uncovered.
 struct Carried {
   std::vector<double> errors_m;
-  std::vector<double> nees;  // 3 is honest
-  std::vector<SlamState> states;
+  std::vector<double> nees;        // 3 is honest
+  std::vector<double> revisits_m;  // FrameResult::revisit_m
   std::vector<Landmark> landmarks;
 
   /// Images until the pose is where the drone is; as many as there are if it never was.
   std::size_t imagesUntilFound() const {
-    return static_cast<std::size_t>(std::find(states.begin(), states.end(), SlamState::kRelocated) -
-                                    states.begin());
+    const auto found = std::find_if(revisits_m.begin(), revisits_m.end(),
+                                    [](double revisit_m) { return revisit_m > 0; });
+    return static_cast<std::size_t>(found - revisits_m.begin());
   }
   double meanNeesFrom(std::size_t image) const {
     const auto from = nees.begin() + static_cast<std::ptrdiff_t>(image);
@@ -102,7 +103,7 @@ Carried fly(PointWorld& world, const Carry& carry, PointWorld& there) {
         result.T_map_base.translation() - flight[i].T_map_base.translation();
     carried.errors_m.push_back(error.norm());
     carried.nees.push_back(error.dot(result.covariance.topLeftCorner<3, 3>().inverse() * error));
-    carried.states.push_back(result.state);
+    carried.revisits_m.push_back(result.revisit_m);
   }
   carried.landmarks = slam.landmarks();
   return carried;
@@ -133,6 +134,7 @@ TEST(Revisit, ADroneThatWasCarriedIsFoundAtOnce) {
         ASSERT_GT(carried.errors_m[0], 2);
         const std::size_t found = carried.imagesUntilFound();
         ASSERT_LT(found, 40U) << to_frame << ", " << sees_turn << ", seed " << seed;
+        EXPECT_NEAR(carried.revisits_m[found], carried.errors_m[0], 0.5);
         images.push_back(static_cast<double>(found));
         nees.push_back(carried.meanNeesFrom(found));
         EXPECT_LT(carried.worstFrom_m(found), 0.4) << to_frame << ", seed " << seed;  // 0.26
@@ -158,8 +160,6 @@ TEST(Revisit, WhatWasMappedMeanwhileComesAlong) {
     const std::int64_t uncovered_ns =
         test::stampOf(static_cast<int>(carry.uncovered()), kCarriedRate_hz);
     EXPECT_LT(medianOff_m(carried.landmarks, world, uncovered_ns), 0.25) << seed;  // 0.11 to 0.18
-    std::printf("%zu %.3f %.3f\n", found, carried.worstFrom_m(found),
-                medianOff_m(carried.landmarks, world, uncovered_ns));
   }
 }
 
@@ -205,7 +205,7 @@ TEST(Revisit, ALoopBeyondAllWindowsIsClosed) {
       return (run.results[i].T_map_base.translation() - flight[i].T_map_base.translation()).norm();
     };
     std::size_t found = kKnownAgain;
-    while (found < flight.size() && run.results[found].state != SlamState::kRelocated) ++found;
+    while (found < flight.size() && run.results[found].revisit_m == 0) ++found;
     ASSERT_LT(found, kKnownAgain + 50) << seed;
     EXPECT_GT(error_m(found - 1), 0.9) << seed;
     EXPECT_LT(error_m(found), 0.2) << seed;
@@ -214,7 +214,6 @@ TEST(Revisit, ALoopBeyondAllWindowsIsClosed) {
     // What it flies through then was mapped with the wrong heading: 1.2 m without the loop's
     // spread.
     EXPECT_LT(worst_m, 0.8) << seed;
-    std::printf("%zu %.2f %.2f %.2f\n", found, error_m(found - 1), error_m(found), worst_m);
   }
 }
 

@@ -127,10 +127,9 @@ bool isBag(const std::string& name) {
   return std::filesystem::path(name).extension() == ".bag";
 }
 
-double largestStep_m(const RunResult& run) {
+double largestWay_m(const RunResult& run, double FrameResult::*way_m) {
   double largest_m = 0;
-  for (const RunFrame& frame : run.frames)
-    largest_m = std::max(largest_m, frame.result.odometry_step_m);
+  for (const RunFrame& frame : run.frames) largest_m = std::max(largest_m, frame.result.*way_m);
   return largest_m;
 }
 
@@ -188,8 +187,10 @@ void warnOfOdometry(const std::string& name, const RunResult& run, RunVerdict& v
                        ": the odometry stood still for seconds while the images moved on; check "
                        "what publishes it");
   }
-  const double step_m = largestStep_m(run);
+  const double step_m = largestWay_m(run, &FrameResult::odometry_step_m);
   if (step_m > 0) warnings.push_back(name + ": " + explainStep("the odometry", step_m));
+  const double revisit_m = largestWay_m(run, &FrameResult::revisit_m);
+  if (revisit_m > 0) warnings.push_back(name + ": " + explainRevisit(revisit_m));
   for (std::size_t i = 0; i < kOdometryFaultCount; ++i) {
     const auto fault = static_cast<OdometryFault>(i);
     if (run.odometry_faults[i] == 0 || !isWorthWarning(fault)) continue;

@@ -222,6 +222,8 @@ Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunL
   summary["odometry_steps"] =
       std::count_if(run.frames.begin(), run.frames.end(),
                     [](const RunFrame& f) { return f.result.odometry_step_m > 0; });
+  summary["revisits"] = std::count_if(run.frames.begin(), run.frames.end(),
+                                      [](const RunFrame& f) { return f.result.revisit_m > 0; });
   summary["odometry_froze"] = run.odometry_froze;
   summary["frames_distrusted"] = countDistrusted(run);
   for (std::size_t i = 0; i < kOdometryFaultCount; ++i)

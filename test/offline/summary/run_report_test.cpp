@@ -313,6 +313,16 @@ TEST(RunReport, OdometryThatIsTooFastForMetresIsAWarning) {
     EXPECT_NE(verdict.warnings[0].find(part), std::string::npos) << part;
 }
 
+TEST(RunReport, ADroneThatWasCarriedIsCountedAndAWarning) {
+  RunResult run = someRun();
+  run.frames[2].result.revisit_m = 3.5;
+  const RunEvaluation evaluation = evaluate(run, straightTruth());
+  EXPECT_EQ(summaryOf(run, evaluation, {"s", "drone", 1, "msckf"})["revisits"], 1);
+  const RunVerdict verdict = judgeRun("flight", run, evaluation, false);
+  ASSERT_EQ(verdict.warnings.size(), 1U);
+  EXPECT_NE(verdict.warnings[0].find("3.5 m from where it was thought to be"), std::string::npos);
+}
+
 TEST(RunReport, OdometryThatStepsOrFreezesIsCountedAndAWarning) {
   RunResult run = someRun();
   run.frames[1].result.odometry_step_m = 0.7;

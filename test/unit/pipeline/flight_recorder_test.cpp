@@ -206,6 +206,13 @@ TEST(FlightRecorder, AFlightThatBeginsAnewIsNotWhole) {
   flight.seeKeyframe(200);
   EXPECT_FALSE(flight.record().is_whole);
   EXPECT_TRUE(flight.record().keyframes.empty());
+  Flight carried;
+  carried.seeKeyframe(1);
+  carried.result.revisit_m = 3;
+  carried.seeKeyframe(100);
+  carried.result.revisit_m = 0;
+  carried.seeKeyframe(200);
+  EXPECT_FALSE(carried.record().is_whole) << "its odometry does not say how it came there";
   Flight searching;
   searching.result.state = SlamState::kSearchingMap;
   searching.seeKeyframe(1);
