@@ -11,8 +11,9 @@ void Estimator::enterMap(MapEntry&& /*entry*/, SavedMap&& /*loaded*/, const Fram
   assert(false && "this estimator keeps no anchors");
 }
 
-void Estimator::shift(const Revisit& /*revisit*/, const FrameView& /*view*/, LandmarkMap& /*map*/) {
+bool Estimator::shift(const Revisit& /*revisit*/, const FrameView& /*view*/, LandmarkMap& /*map*/) {
   assert(false && "this estimator keeps no anchors");
+  return false;
 }
 
 SavedMap Estimator::save(const LandmarkMap& /*map*/) const {

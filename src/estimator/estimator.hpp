@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -44,6 +45,8 @@ struct Estimate {
 struct Correction {
   SlamState state = SlamState::kBuildingMap;  ///< what the pose rests on
   std::optional<PositionFix> by_landmarks;    ///< base by the landmarks alone, without prediction
+  /// MSCKF: of the landmarks that the pose agrees with, enough for a fix were made by then.
+  std::optional<std::int64_t> known_since_ns;
 };
 
 /// What updateMap() did to the map, and to what the pose rests on.
@@ -91,7 +94,8 @@ class Estimator {
   virtual void enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameView& view,
                         LandmarkMap& map);
   /// The flight is elsewhere in its own map; as enterMap(). Landmarks made meanwhile go along.
-  virtual void shift(const Revisit& revisit, const FrameView& view, LandmarkMap& map);
+  /// @return false: now it cannot be done
+  virtual bool shift(const Revisit& revisit, const FrameView& view, LandmarkMap& map);
   /// The map as it is, for a file: anchors, and the landmarks that belong to them.
   /// @pre as enterMap()
   virtual SavedMap save(const LandmarkMap& map) const;

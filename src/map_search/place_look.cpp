@@ -41,20 +41,20 @@ Eigen::Matrix4d covarianceOf(const ObservationConsensus& consensus, double sigma
   return information.inverse();
 }
 
-/// What most of them belong to, and when they were seen last, the median.
+/// What most of them belong to, and when those were seen last, the median.
 void noteOrigin(const std::vector<MapObservation>& observations, const LandmarkMap& map,
                 PlaceSight& sight) {
-  std::map<std::uint32_t, int> seen_of_anchor;
-  std::vector<std::int64_t> seen_ns;
+  std::map<std::uint32_t, std::vector<std::int64_t>> seen_ns_of_anchor;
   for (const MapObservation& s : observations) {
     const Landmark& landmark = map.all()[s.index];
-    ++seen_of_anchor[landmark.anchor_id];
-    seen_ns.push_back(landmark.last_seen_ns);
+    seen_ns_of_anchor[landmark.anchor_id].push_back(landmark.last_seen_ns);
   }
-  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
-  sight.anchor_id = std::max_element(seen_of_anchor.begin(), seen_of_anchor.end(), fewer)->first;
+  const auto fewer = [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); };
+  auto& [anchor_id, seen_ns] =
+      *std::max_element(seen_ns_of_anchor.begin(), seen_ns_of_anchor.end(), fewer);
   const auto middle = seen_ns.begin() + static_cast<std::ptrdiff_t>(seen_ns.size() / 2);
   std::nth_element(seen_ns.begin(), middle, seen_ns.end());
+  sight.anchor_id = anchor_id;
   sight.last_seen_ns = *middle;
 }
 

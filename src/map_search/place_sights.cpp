@@ -34,6 +34,16 @@ constexpr Demands kAtOnce{11, 4, 0.75, 0.75, 0};
 constexpr Demands kInTheLongRun{32, 20, 0.01, 0.5, 0.2};
 constexpr std::size_t kRemembered = kInTheLongRun.of_latest;
 
+bool agree(const PlaceSight& earlier, const PlaceSight& newest) {
+  const Eigen::Isometry3d difference =
+      newest.entry.T_loaded_flight * earlier.entry.T_loaded_flight.inverse();
+  const Eigen::Vector3d position = earlier.entry.T_loaded_flight * newest.camera_flight;
+  const double off_m = (difference * position - position).norm();
+  const double displacement_m = (newest.camera_flight - earlier.camera_flight).norm();
+  return off_m < kAgreeDistance * newest.distance_m + kAgreeDrift * displacement_m &&
+         std::abs(headingOf(difference.linear())) < kAgreeHeading_rad;
+}
+
 bool meet(const Demands& demands, const std::vector<std::optional<PlaceSight>>& looks) {
   const std::optional<PlaceSight>& newest = looks.back();
   if (!newest || newest->cover < demands.mean_cover) return false;
@@ -60,16 +70,6 @@ bool meet(const Demands& demands, const std::vector<std::optional<PlaceSight>>& 
 
 double headingOf(const Eigen::Matrix3d& R) {
   return portable::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1));
-}
-
-bool agree(const PlaceSight& earlier, const PlaceSight& newest) {
-  const Eigen::Isometry3d difference =
-      newest.entry.T_loaded_flight * earlier.entry.T_loaded_flight.inverse();
-  const Eigen::Vector3d position = earlier.entry.T_loaded_flight * newest.camera_flight;
-  const double off_m = (difference * position - position).norm();
-  const double displacement_m = (newest.camera_flight - earlier.camera_flight).norm();
-  return off_m < kAgreeDistance * newest.distance_m + kAgreeDrift * displacement_m &&
-         std::abs(headingOf(difference.linear())) < kAgreeHeading_rad;
 }
 
 bool PlaceSights::add(const std::optional<PlaceSight>& sight, bool is_here) {

@@ -23,9 +23,6 @@ struct PlaceSight {
   double cover = 0;  ///< how much of the image is recognised there, see ImageCover
 };
 
-/// Whether they say the same place.
-bool agree(const PlaceSight& earlier, const PlaceSight& newest);
-
 /// Whether images apart in time agree on the place, and know enough of it. What only looks like a
 /// place is recognised in a part of the image, and not for long as the camera goes on.
 class PlaceSights {

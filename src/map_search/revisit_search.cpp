@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_search/revisit_search.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <sstream>
+
+#include "ardrone_vslam/frame_result.hpp"
+#include "linear/scalars.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -10,18 +15,21 @@ namespace {
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kBetweenLooks_ns = kSecond_ns;
 constexpr std::int64_t kBetweenSights_ns = kSecond_ns / 5;  // as long as MapSearch waits
-// Landmarks that were seen so lately are of this visit: they show where the camera is thought to
-// be, right or wrong.
-constexpr std::int64_t kThisVisit_ns = 5 * kSecond_ns;
+// Landmarks that are younger are of this visit: they show where the camera is thought to be, right
+// or wrong.
+constexpr std::int64_t kEarlierVisit_ns = 20 * kSecond_ns;
+// Nor are those looked for that were seen so lately.
+constexpr std::int64_t kOutOfView_ns = 5 * kSecond_ns;
+// Where it was put down wrong landmarks may agree for some images.
+constexpr std::int64_t kSure_ns = 3 * kSecond_ns;
 // Of an image: as many as tell a place, but no more, as it is looked for all along.
 constexpr std::size_t kMostFeatures = 250;
-
-/// Where the camera is thought to be already.
-bool isHere(const PlaceSight& sight) {
-  PlaceSight here;
-  here.camera_flight = sight.camera_flight;
-  return agree(here, sight);
-}
+// What a sight errs by beside its covariance: the map is bent.
+constexpr double kBent = 0.02;  // of the landmarks' distance, and of the heading [rad]
+constexpr double kSigmas = 3;   // of a sight that says another place
+// A camera that was not covered has seen its way: no odometry errs by more.
+constexpr double kMostDrift = 0.3;  // of the way
+constexpr double kMostTurn_rad = M_PI / 3;
 
 }  // namespace
 
@@ -29,44 +37,67 @@ std::string explainRevisit(double revisit_m) {
   std::ostringstream text;
   text.precision(2);
   text << "found in its map " << revisit_m
-       << " m from where it was thought to be, and moved there: the drone was carried while its "
-          "camera "
-          "was covered, or the odometry errs by far more than it claims";
+       << " m from where it was thought to be, or turned, and moved there: the drone was carried "
+          "while its camera was covered, or the odometry errs by far more than it claims";
   return text.str();
 }
 
 void RevisitSearch::beginAnew(std::int64_t stamp_ns) {
-  located_ns_ = lost_ns_ = stamp_ns;
+  located_ns_ = stamp_ns;
   next_look_ns_ = stamp_ns + kBetweenLooks_ns;
-  fewest_tracks_ = std::numeric_limits<std::size_t>::max();
+  covered_from_ns_ = covered_to_ns_ = 0;
+  way_m_ = 0;
   sights_.clear();
 }
 
-std::optional<Revisit> RevisitSearch::see(const ImageFeatures& features, SlamState before,
+void RevisitSearch::follow(const ImageFeatures& features, const Eigen::Vector3d& camera_map) {
+  if (last_camera_map_) way_m_ += (camera_map - *last_camera_map_).norm();
+  last_camera_map_ = camera_map;
+  const std::int64_t now_ns = features.stamp_ns;
+  const std::int64_t visit_ns = wasCovered() ? covered_from_ns_ : now_ns - kEarlierVisit_ns;
+  const bool is_first = located_ns_ == 0;  // it has no tracks
+  const bool is_known = known_since_ns_ && *known_since_ns_ < visit_ns;
+  if (!is_known || known_from_ns_ == 0) known_from_ns_ = is_known ? now_ns : 0;
+  const bool is_sure = is_known && (!wasCovered() || now_ns - known_from_ns_ > kSure_ns);
+  if (is_first || is_sure) beginAnew(now_ns);
+  if (is_first || is_another_camera_ || static_cast<int>(features.tracked()) >= kFewestFeatures)
+    return;
+  if (!wasCovered()) covered_from_ns_ = now_ns;
+  covered_to_ns_ = now_ns;
+}
+
+bool RevisitSearch::isElsewhere(const PlaceSight& sight) const {
+  const double turn_rad = headingOf(sight.entry.T_loaded_flight.linear());
+  Eigen::Vector4d off;
+  off << sight.entry.camera_loaded - sight.camera_flight, turn_rad;
+  Eigen::Matrix4d covariance = sight.entry.covariance;
+  covariance.diagonal().head<3>().array() += squared(kBent * sight.distance_m);
+  covariance(3, 3) += squared(kBent);
+  if (off.dot(covariance.inverse() * off) < squared(kSigmas)) return false;
+  return wasCovered() ||
+         (off.head<3>().norm() < kMostDrift * way_m_ && std::abs(turn_rad) < kMostTurn_rad);
+}
+
+std::optional<Revisit> RevisitSearch::see(const ImageFeatures& features, bool is_trusted,
                                           const Eigen::Isometry3d& T_map_cam, LandmarkMap& map) {
   const std::int64_t now_ns = features.stamp_ns;
-  const bool is_located = before == SlamState::kLocalised || before == SlamState::kRelocated;
-  if (is_located || located_ns_ == 0) {  // the first image has no tracks
-    beginAnew(now_ns);
-  } else if (features.tracked() <= fewest_tracks_) {
-    fewest_tracks_ = features.tracked();
-    lost_ns_ = now_ns;
-  }
-  if (now_ns < next_look_ns_ || before == SlamState::kDistrusted ||
-      static_cast<int>(features.size()) < kFewestFeatures)
+  follow(features, T_map_cam.translation());
+  is_another_camera_ = false;
+  if (now_ns < next_look_ns_ || !is_trusted || static_cast<int>(features.size()) < kFewestFeatures)
     return std::nullopt;
 
-  const LookLimits limits{wasCovered() ? lost_ns_ : now_ns - kThisVisit_ns, kMostFeatures};
+  const LookLimits limits{wasCovered() ? covered_from_ns_ : now_ns - kOutOfView_ns, kMostFeatures};
   std::optional<PlaceSight> sight = look_.at(features, T_map_cam, map, limits);
   next_look_ns_ = now_ns + (sight ? kBetweenSights_ns : kBetweenLooks_ns);
-  if (sight && isHere(*sight)) sight.reset();
+  if (sight && !isElsewhere(*sight)) sight.reset();
   if (!sights_.add(sight)) return std::nullopt;
   Revisit revisit;
   revisit.entry = sight->entry;
   revisit.anchor_id = sight->anchor_id;
-  revisit.from_ns = wasCovered() ? lost_ns_ : std::max(located_ns_, sight->last_seen_ns);
-  revisit.to_ns = wasCovered() ? lost_ns_ : now_ns;
+  revisit.from_ns = wasCovered() ? covered_from_ns_ : std::max(located_ns_, sight->last_seen_ns);
+  revisit.to_ns = wasCovered() ? covered_to_ns_ : now_ns;
   beginAnew(now_ns);
+  last_camera_map_ = sight->entry.camera_loaded;
   return revisit;
 }
 

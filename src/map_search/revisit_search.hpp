@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "ardrone_vslam/features.hpp"
-#include "ardrone_vslam/frame_result.hpp"
 #include "ardrone_vslam/slam_config.hpp"
 #include "map/landmark_map.hpp"
 #include "map_search/place_look.hpp"
@@ -23,24 +22,35 @@ class RevisitSearch {
  public:
   explicit RevisitSearch(const SlamConfig& config) : look_(config) {}
 
+  /// The image seen last agreed with landmarks that were made then or earlier; nothing: with none.
+  void know(std::optional<std::int64_t> since_ns) { known_since_ns_ = since_ns; }
+  /// The next image is another camera's: that it has no tracks says nothing.
+  void changeCamera() { is_another_camera_ = true; }
   /// An image, before its landmarks are looked for. Costs a PlaceLook once a second at most, five
   /// times a second while one sight follows another.
-  /// @param before  what the image before made of the pose
+  /// @param is_trusted  the camera, as of the image before
   /// @param T_map_cam  where the camera is thought to be
   /// @return where it is instead, once
-  std::optional<Revisit> see(const ImageFeatures& features, SlamState before,
+  std::optional<Revisit> see(const ImageFeatures& features, bool is_trusted,
                              const Eigen::Isometry3d& T_map_cam, LandmarkMap& map);
 
  private:
+  void follow(const ImageFeatures& features, const Eigen::Vector3d& camera_map);
   void beginAnew(std::int64_t stamp_ns);
-  bool wasCovered() const { return fewest_tracks_ < kFewestFeatures; }
+  bool wasCovered() const { return covered_from_ns_ != 0; }
+  bool isElsewhere(const PlaceSight& sight) const;
 
   PlaceLook look_;
   PlaceSights sights_;
-  std::int64_t located_ns_ = 0;  // the last image with landmarks of an earlier visit
-  // Of the images since, the last one with the fewest tracks: there the pose was lost, if it was.
-  std::size_t fewest_tracks_ = 0;
-  std::int64_t lost_ns_ = 0;
+  std::optional<std::int64_t> known_since_ns_;  // see know()
+  std::int64_t known_from_ns_ = 0;  // for how long landmarks of an earlier visit agree; 0: none do
+  std::optional<Eigen::Vector3d> last_camera_map_;
+  bool is_another_camera_ = false;
+  // Since the last image with landmarks of an earlier visit:
+  std::int64_t located_ns_ = 0;       // when that was
+  double way_m_ = 0;                  // the camera's
+  std::int64_t covered_from_ns_ = 0;  // the first image with hardly a track; 0: there was none
+  std::int64_t covered_to_ns_ = 0;    // the last one
   std::int64_t next_look_ns_ = 0;
 };
 

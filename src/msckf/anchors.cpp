@@ -26,12 +26,14 @@ void Anchors::choose(const WindowState& state, double point_distance_m) {
     if (displacement_m < kSpacing * point_distance_m && rotation_rad < kRotation_deg * M_PI / 180)
       return;
   }
+  if (current_id_ == 0) after_a_break_.insert(newest.id);
   current_id_ = newest.id;
   re_anchoring_.begin(newest);
 }
 
 void Anchors::retire(std::size_t frame, WindowState& state) {
   if (in_use_.erase(state.frames()[frame].id) == 0) {
+    after_a_break_.erase(state.frames()[frame].id);
     state.removeFrame(frame);
     return;
   }
@@ -45,11 +47,14 @@ void Anchors::joinNearest(WindowState& state) {
   double shortest_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < anchors.size(); ++i) {
     const double distance_m = (anchors[i].position_map - anchors[i - 1].position_map).norm();
-    if (distance_m >= shortest_m || anchors[i].is_loaded != anchors[i - 1].is_loaded) continue;
+    if (distance_m >= shortest_m || anchors[i].is_loaded != anchors[i - 1].is_loaded ||
+        after_a_break_.count(anchors[i].id) > 0)
+      continue;
     shortest_m = distance_m;
     nearest = i;
   }
   re_anchoring_.join(anchors[nearest], anchors[nearest - 1].id);
+  after_a_break_.erase(anchors[nearest].id);
   state.removeAnchor(nearest);
 }
 

@@ -22,6 +22,9 @@ class Anchors {
   /// The frame that new points belong to: another one once the camera has gone on from it.
   /// @param point_distance_m  of what is seen from the newest frame; 0: not known
   void choose(const WindowState& state, double point_distance_m);
+  /// Hardly a track leads to the newest frame: what is seen from now on does not share the error of
+  /// what was seen before. The drone may be elsewhere.
+  void breakOff() { current_id_ = 0; }
   /// Clone::id of that frame.
   std::uint32_t current() const { return current_id_; }
   /// Points do belong to it.
@@ -42,8 +45,9 @@ class Anchors {
   void joinNearest(WindowState& state);
 
   MsckfConfig config_;
-  std::uint32_t current_id_ = 0;
-  std::unordered_set<std::uint32_t> in_use_;  // frames of the window that points belong to
+  std::uint32_t current_id_ = 0;                     // 0: none yet, or none since a break
+  std::unordered_set<std::uint32_t> after_a_break_;  // the first ones after one
+  std::unordered_set<std::uint32_t> in_use_;         // frames of the window that points belong to
   ReAnchoring re_anchoring_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "msckf/msckf.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "linear/scalars.hpp"
@@ -42,15 +43,27 @@ void Msckf::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 void Msckf::enterMap(const MapEntry& entry, const LoadedAnchors& loaded) {
   zero_motion_.beginAnew(state_);  // it remembers odometry in the old frame
   MapEntrance(state_).enter(entry, loaded);
-  propagator_.moveOdometry(entry.T_loaded_flight);
-  watchdog_.move(entry.T_loaded_flight, entry.T_loaded_flight);
+  moveOdometry(entry.T_loaded_flight);
   anchors_.useLoaded(loaded.anchors);
 }
 
-void Msckf::shift(const Revisit& revisit) {
+bool Msckf::shift(const Revisit& revisit) {
+  if (isDistrustful()) return false;
   zero_motion_.beginAnew(state_);
-  MapEntrance(state_).shift(revisit);
-  watchdog_.move(revisit.entry.T_loaded_flight, Eigen::Isometry3d::Identity());
+  while (state_.frames().size() > 1 && revisit.shareOf(state_.frames().front()) == 0)
+    dropOldest();  // it stays, and tracks would tie the newest to it
+  if (!indexOf(state_.anchors(), revisit.anchor_id) && !indexOf(state_.frames(), revisit.anchor_id))
+    return false;            // joined to another meanwhile
+  Revisit spread = revisit;  // tracks tie the window's frames to each other: they move alike
+  spread.to_ns = std::max(spread.from_ns, std::min(spread.to_ns, state_.frames().front().stamp_ns));
+  MapEntrance(state_).shift(spread);
+  moveOdometry(revisit.entry.T_loaded_flight);
+  return true;
+}
+
+void Msckf::moveOdometry(const Eigen::Isometry3d& T_new_old) {
+  propagator_.moveOdometry(T_new_old);
+  watchdog_.moveInto(T_new_old);
 }
 
 void Msckf::predict(const OdometryState& odometry, const std::optional<OdometryStep>& step) {
@@ -96,6 +109,7 @@ FixOutcome Msckf::fix(const std::vector<LandmarkObservation>& observations,
 const std::vector<UsedTrack>& Msckf::track(const ImageFeatures& features) {
   track_update_.skip();
   order_.reset(features);
+  if (static_cast<int>(features.tracked()) < kFewestFeatures) anchors_.breakOff();
   useStillness(features);
   height_.apply(state_);
   if (isDistrustful() || !needsKeyframe(features)) return track_update_.used();

@@ -64,8 +64,9 @@ class Msckf {
   /// The flight has been found in a loaded map: all of it moves there, and odometry is given in its
   /// frame from now on.
   void enterMap(const MapEntry& entry, const LoadedAnchors& loaded);
-  /// The newest frame has been found elsewhere in the map: what came with it moves there.
-  void shift(const Revisit& revisit);
+  /// The newest frame has been found elsewhere in the map: what came with it moves there, and
+  /// odometry, too, as with enterMap(). @return false: now it cannot be done
+  bool shift(const Revisit& revisit);
 
   /// The newest frame, the error of the extrinsics included: see WindowState.
   const Clone& newest() const { return state_.newest(); }
@@ -98,6 +99,7 @@ class Msckf {
   CameraMotion motion() const { return zero_motion_.motion(); }
 
  private:
+  void moveOdometry(const Eigen::Isometry3d& T_new_old);
   void watchForContradiction();
   void useStillness(const ImageFeatures& features);
   bool needsKeyframe(const ImageFeatures& features);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "msckf/msckf_estimator.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "association/associator.hpp"
@@ -63,9 +64,11 @@ void MsckfEstimator::enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameVi
     unconfirmed_.addLoaded(map.add(landmark));
 }
 
-void MsckfEstimator::shift(const Revisit& revisit, const FrameView& view, LandmarkMap& map) {
-  filter_.shift(revisit);
+bool MsckfEstimator::shift(const Revisit& revisit, const FrameView& view, LandmarkMap& map) {
+  if (!filter_.shift(revisit)) return false;
+  T_filter_odom_ = revisit.entry.T_loaded_flight * T_filter_odom_;
   applyCorrections(filter_.takeCorrections(view.focalLength_px()), view, map);
+  return true;
 }
 
 SavedMap MsckfEstimator::save(const LandmarkMap& map) const {
@@ -90,7 +93,7 @@ Correction MsckfEstimator::correct(const AssociationResult& matches, const Frame
   const Eigen::Vector3d camera_offset_map =
       filter_.newest().R_map_rig * T_rig_cam_.translation();  // at the predicted attitude
   state_ = correction.state = fix(matches, view, map);
-  judge(matches, map);
+  judge(matches, map, correction);
   correction.by_landmarks =
       locator_.locate(trusted_, view, map, mapper_.angleSigma_rad(view.focalLength_px()));
   if (correction.by_landmarks) correction.by_landmarks->position_map -= camera_offset_map;
@@ -124,15 +127,21 @@ SlamState MsckfEstimator::fix(const AssociationResult& matches, const FrameView&
   return map.size() == 0 ? SlamState::kBuildingMap : SlamState::kTracking;
 }
 
-void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& map) {
+void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& map,
+                           Correction& correction) {
   trusted_.clear();
   std::vector<std::uint32_t> anchors;
+  std::vector<std::int64_t> made_ns;
   anchors.reserve(matches.matches.size());
+  made_ns.reserve(matches.matches.size());
   for (std::size_t i = 0; i < matches.matches.size(); ++i) {
     const Association& match = matches.matches[i];
     const ObservationVerdict verdict = filter_.verdicts()[i];
-    if (verdict == ObservationVerdict::kAgrees)
-      anchors.push_back(map.all()[static_cast<std::size_t>(match.target)].anchor_id);
+    if (verdict == ObservationVerdict::kAgrees) {
+      const Landmark& landmark = map.all()[static_cast<std::size_t>(match.target)];
+      anchors.push_back(landmark.anchor_id);
+      made_ns.push_back(landmark.first_seen_ns);
+    }
     // A corner found beside its landmark still belongs to it, or it would become another landmark;
     // among the matches of a relocation most are simply wrong.
     const bool is_wrong =
@@ -142,6 +151,10 @@ void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& 
   }
   if (static_cast<int>(trusted_.size()) < kFewestFixLandmarks) time_since_fix_.passFrame();
   time_since_fix_.link(anchors);
+  if (static_cast<int>(made_ns.size()) < kFewestFixLandmarks) return;
+  const auto enough = made_ns.begin() + kFewestFixLandmarks - 1;
+  std::nth_element(made_ns.begin(), enough, made_ns.end());
+  correction.known_since_ns = *enough;
 }
 
 MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView& view,

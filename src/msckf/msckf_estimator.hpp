@@ -30,13 +30,13 @@ class MsckfEstimator final : public Estimator {
   bool canChangeCamera() const override;
   void enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameView& view,
                 LandmarkMap& map) override;
-  void shift(const Revisit& revisit, const FrameView& view, LandmarkMap& map) override;
+  bool shift(const Revisit& revisit, const FrameView& view, LandmarkMap& map) override;
   SavedMap save(const LandmarkMap& map) const override;
   void changeCamera(const Eigen::Isometry3d& T_base_cam) override;
 
  private:
   SlamState fix(const AssociationResult& matches, const FrameView& view, const LandmarkMap& map);
-  void judge(const AssociationResult& matches, const LandmarkMap& map);
+  void judge(const AssociationResult& matches, const LandmarkMap& map, Correction& correction);
   void changeLandmarks(const AssociationResult& matches, const std::vector<UsedTrack>& used,
                        const FrameView& view, LandmarkMap& map, MapChanges& changes);
 

@@ -49,10 +49,10 @@ class Watchdog {
     for (Eigen::Isometry3d* T_map_odom : {&calm_T_map_odom_, &confirmed_T_map_odom_})
       T_map_odom->translation() -= T_map_odom->linear() * jump_odom_m;
   }
-  /// What is in map, and the odometry's frame, are moved: what is remembered goes along.
-  void move(const Eigen::Isometry3d& T_map_new_old, const Eigen::Isometry3d& T_odom_new_old) {
+  /// Map and odometry's frame are moved alike: what is remembered goes along.
+  void moveInto(const Eigen::Isometry3d& T_new_old) {
     for (Eigen::Isometry3d* T_map_odom : {&calm_T_map_odom_, &confirmed_T_map_odom_})
-      *T_map_odom = T_map_new_old * *T_map_odom * T_odom_new_old.inverse();
+      *T_map_odom = T_new_old * *T_map_odom * T_new_old.inverse();
   }
   /// The last one remembered: to go back to when trust ends. With a fault of the set-up it is that
   /// of the last time at which the set-up was confirmed; before, map equals odom.

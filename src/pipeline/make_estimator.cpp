@@ -14,7 +14,7 @@ class OdometryEstimator final : public ThesisEstimator {
   bool wantsLandmarks() const override { return false; }
   Correction correct(const AssociationResult& /*matches*/, const FrameView& /*view*/,
                      const LandmarkMap& /*map*/) override {
-    return {SlamState::kOdometryOnly, std::nullopt};
+    return {SlamState::kOdometryOnly, std::nullopt, std::nullopt};
   }
   MapChanges updateMap(const AssociationResult& /*matches*/, FrameView& /*view*/,
                        LandmarkMap& /*map*/) override {

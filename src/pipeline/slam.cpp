@@ -42,6 +42,7 @@ void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   refuse(extrinsicsFault(T_base_cam), "the camera's mounting: ");
   state_->view.changeCamera();
   state_->T_base_cam = T_base_cam;
+  state_->revisits.changeCamera();
   state_->estimator->changeCamera(T_base_cam);
 }
 
@@ -122,6 +123,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
     if (estimator.wantsLandmarks()) s.associator.matchLandmarks(s.view, s.map, s.matches);
     enter(Stage::kLocalise);
     correction = estimator.correct(s.matches, s.view, s.map);
+    s.revisits.know(correction.known_since_ns);
     if (revisit_m > 0 && correction.state == SlamState::kLocalised)
       correction.state = SlamState::kRelocated;
     enter(Stage::kMap);

@@ -66,10 +66,10 @@ struct Slam::State {
       estimator->enterMap(std::move(*entry), search->takeMap(), view, map);
       search.reset();
     } else {
-      const auto revisit = revisits.see(features, result.state, camera.T_map_cam, map);
-      if (!revisit) return 0;
+      const bool is_trusted = result.state != SlamState::kDistrusted;
+      const auto revisit = revisits.see(features, is_trusted, camera.T_map_cam, map);
+      if (!revisit || !estimator->shift(*revisit, view, map)) return 0;
       revisit_m = (revisit->entry.camera_loaded - camera.T_map_cam.translation()).norm();
-      estimator->shift(*revisit, view, map);
     }
     camera = estimator->camera();
     view.reset(features, camera.T_map_cam, hasFlatRays());

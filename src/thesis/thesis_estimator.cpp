@@ -46,7 +46,7 @@ CameraPose ThesisEstimator::camera() {
 Correction ThesisEstimator::correct(const AssociationResult& matches, const FrameView& view,
                                     const LandmarkMap& map) {
   Correction correction;
-  if (is_refused_) return {SlamState::kDistrusted, std::nullopt};
+  if (is_refused_) return {SlamState::kDistrusted, std::nullopt, std::nullopt};
   auto fix =
       locator_.locate(matches.matches, view, map, mapper_.angleSigma_rad(view.focalLength_px()));
   if (!fix) {

@@ -41,6 +41,8 @@ void MapEntrance::move(const Revisit& revisit) {
     turn(R, at + 3);
   };
   state_.floor_map_m_ += T.translation().z();
+  // Of an odometry that is moved likewise.
+  state_.R_map_odom_ = T.linear() * state_.R_map_odom_ * T.linear().transpose();
   turn(T.linear(), WindowState::kAttitude);
   for (std::size_t i = 0; i < state_.anchors_.size(); ++i)
     move(state_.anchors_[i], state_.anchorCoordinate(i));
@@ -92,9 +94,6 @@ void MapEntrance::enter(const MapEntry& entry, const LoadedAnchors& loaded) {
   Revisit revisit;
   revisit.entry = entry;
   move(revisit);
-  const Eigen::Matrix3d R = entry.T_loaded_flight.linear();
-  state_.R_map_odom_ =
-      R * state_.R_map_odom_ * R.transpose();  // of an odometry that is moved likewise
   const auto count = static_cast<int>(loaded.anchors.size());
   state_.covariance_.insert(WindowState::kGlobals, WindowState::kAnchor * count);
   state_.covariance_.all().block(WindowState::kGlobals, WindowState::kGlobals,
@@ -140,7 +139,6 @@ void MapEntrance::loosen(const Revisit& revisit) {
 void MapEntrance::shift(const Revisit& revisit) {
   loosen(revisit);
   move(revisit);
-  state_.R_map_odom_ = revisit.entry.T_loaded_flight.linear() * state_.R_map_odom_;
   share(revisit,
         cameraBy(revisit.anchor_id, revisit.entry) - cameraBy(state_.newest().id, revisit.entry));
 }

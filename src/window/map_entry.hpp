@@ -61,6 +61,7 @@ class MapEntrance {
   void enter(const MapEntry& entry, const LoadedAnchors& loaded);
   /// A part of the flight is moved within its own map. What was known of where it is beside the
   /// rest is forgotten: it errs with the anchor from now on. O(coordinates^2).
+  /// As enter() does, it takes odometry for moved, too.
   /// @pre the state has the revisit's anchor (asserted)
   void shift(const Revisit& revisit);
 

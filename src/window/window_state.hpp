@@ -109,7 +109,7 @@ class WindowState {
  private:
   // Classes of their own, as they have one job each and the state would be too large with them.
   friend class Propagator;   // writes mean and covariance by the odometry
-  friend class MapEntrance;  // moves them into a loaded map
+  friend class MapEntrance;  // moves them within a map, or into one
 
   void inject(const Eigen::VectorXd& error);
   /// What an error of bias and scale, the columns, adds to the coordinates after a correction.
