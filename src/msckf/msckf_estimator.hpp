@@ -5,6 +5,7 @@
 
 #include "estimator/estimator.hpp"
 #include "map/mapper.hpp"
+#include "map/unconfirmed_landmarks.hpp"
 #include "map_update/fixed_map.hpp"
 #include "map_update/time_since_fix.hpp"
 #include "msckf/landmark_upkeep.hpp"

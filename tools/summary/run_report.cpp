@@ -200,8 +200,7 @@ RunEvaluation evaluate(const RunResult& run, const Trajectory& truth) {
 }
 
 Json summaryOf(const RunResult& run, const RunEvaluation& evaluation, const RunLabel& label) {
-  Json summary;
-  summary["sequence"] = label.sequence;
+  Json summary = {{"sequence", label.sequence}};
   summary["frames"] = run.frames.size();
   addFlight(run, evaluation.truth.empty() ? evaluation.odometry : evaluation.truth, summary);
   summary["frames_dropped_slow"] = run.frames_dropped_slow;
