@@ -41,21 +41,29 @@ void Anchors::retire(std::size_t frame, WindowState& state) {
   if (static_cast<int>(state.anchors().size()) > config_.max_anchors) joinNearest(state);
 }
 
-void Anchors::joinNearest(WindowState& state) {
-  const auto& anchors = state.anchors();
-  std::size_t nearest = 1;
+/// Index of the second of the two that follow each other most closely; nothing when none may.
+std::optional<std::size_t> Anchors::nearest(const std::vector<Clone>& anchors,
+                                            bool across_breaks) const {
+  std::optional<std::size_t> nearest;
   double shortest_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < anchors.size(); ++i) {
     const double distance_m = (anchors[i].position_map - anchors[i - 1].position_map).norm();
-    if (distance_m >= shortest_m || anchors[i].is_loaded != anchors[i - 1].is_loaded ||
-        after_a_break_.count(anchors[i].id) > 0)
-      continue;
+    if (distance_m >= shortest_m || anchors[i].is_loaded != anchors[i - 1].is_loaded) continue;
+    if (!across_breaks && after_a_break_.count(anchors[i].id) > 0) continue;
     shortest_m = distance_m;
     nearest = i;
   }
-  re_anchoring_.join(anchors[nearest], anchors[nearest - 1].id);
-  after_a_break_.erase(anchors[nearest].id);
-  state.removeAnchor(nearest);
+  return nearest;
+}
+
+void Anchors::joinNearest(WindowState& state) {
+  const auto& anchors = state.anchors();
+  auto second = nearest(anchors, false);
+  if (!second) second = nearest(anchors, true);
+  const std::size_t joined = second.value_or(1);
+  re_anchoring_.join(anchors[joined], anchors[joined - 1].id);
+  after_a_break_.erase(anchors[joined].id);
+  state.removeAnchor(joined);
 }
 
 std::vector<AnchorCorrection> Anchors::takeCorrections(const WindowState& state,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <unordered_set>
 #include <vector>
 
@@ -42,6 +43,7 @@ class Anchors {
                                                 double focal_length_px);
 
  private:
+  std::optional<std::size_t> nearest(const std::vector<Clone>& anchors, bool across_breaks) const;
   void joinNearest(WindowState& state);
 
   MsckfConfig config_;
