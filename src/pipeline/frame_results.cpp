@@ -90,8 +90,7 @@ const char* explain(SlamState state) {
              "there are no new landmarks";
     case SlamState::kRelocated:
       return "a place seen before was found again after the pose had become uncertain or wrong; "
-             "the "
-             "pose may have jumped there";
+             "the pose may have jumped there";
     case SlamState::kDistrusted:
       return "camera and odometry contradict each other by far more than configured, so the "
              "pose follows the odometry for 10 s, each time twice as long: check calibration and "
