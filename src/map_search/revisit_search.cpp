@@ -50,7 +50,13 @@ void RevisitSearch::beginAnew(std::int64_t stamp_ns) {
   sights_.clear();
 }
 
-void RevisitSearch::follow(const ImageFeatures& features, const Eigen::Vector3d& camera_map) {
+void RevisitSearch::noteShift(std::int64_t stamp_ns, const Revisit& revisit) {
+  beginAnew(stamp_ns);
+  last_camera_map_ = revisit.entry.camera_loaded;
+}
+
+void RevisitSearch::follow(const ImageFeatures& features, const Eigen::Vector3d& camera_map,
+                           bool has_map) {
   if (last_camera_map_) way_m_ += (camera_map - *last_camera_map_).norm();
   last_camera_map_ = camera_map;
   const std::int64_t now_ns = features.stamp_ns;
@@ -60,8 +66,8 @@ void RevisitSearch::follow(const ImageFeatures& features, const Eigen::Vector3d&
   if (!is_known || known_from_ns_ == 0) known_from_ns_ = is_known ? now_ns : 0;
   const bool is_sure = is_known && (!wasCovered() || now_ns - known_from_ns_ > kSure_ns);
   if (is_first || is_sure) beginAnew(now_ns);
-  if (is_first || is_another_camera_ || static_cast<int>(features.tracked()) >= kFewestFeatures)
-    return;
+  const bool has_tracks = static_cast<int>(features.tracked()) >= kFewestFeatures;
+  if (is_first || !has_map || has_tracks || is_another_camera_) return;
   if (!wasCovered()) covered_from_ns_ = now_ns;
   covered_to_ns_ = now_ns;
 }
@@ -74,30 +80,29 @@ bool RevisitSearch::isElsewhere(const PlaceSight& sight) const {
   covariance.diagonal().head<3>().array() += squared(kBent * sight.distance_m);
   covariance(3, 3) += squared(kBent);
   if (off.dot(covariance.inverse() * off) < squared(kSigmas)) return false;
-  return wasCovered() ||
+  return isCarry(sight) ||
          (off.head<3>().norm() < kMostDrift * way_m_ && std::abs(turn_rad) < kMostTurn_rad);
 }
 
 std::optional<Revisit> RevisitSearch::see(const ImageFeatures& features, bool is_trusted,
                                           const Eigen::Isometry3d& T_map_cam, LandmarkMap& map) {
   const std::int64_t now_ns = features.stamp_ns;
-  follow(features, T_map_cam.translation());
+  follow(features, T_map_cam.translation(), static_cast<int>(map.size()) >= kFewestFixLandmarks);
   is_another_camera_ = false;
   if (now_ns < next_look_ns_ || !is_trusted || static_cast<int>(features.size()) < kFewestFeatures)
     return std::nullopt;
 
-  const LookLimits limits{wasCovered() ? covered_from_ns_ : now_ns - kOutOfView_ns, kMostFeatures};
+  const LookLimits limits{std::max(covered_from_ns_, now_ns - kOutOfView_ns), kMostFeatures};
   std::optional<PlaceSight> sight = look_.at(features, T_map_cam, map, limits);
-  next_look_ns_ = now_ns + (sight ? kBetweenSights_ns : kBetweenLooks_ns);
   if (sight && !isElsewhere(*sight)) sight.reset();
+  next_look_ns_ = now_ns + (sight ? kBetweenSights_ns : kBetweenLooks_ns);
   if (!sights_.add(sight)) return std::nullopt;
   Revisit revisit;
   revisit.entry = sight->entry;
   revisit.anchor_id = sight->anchor_id;
-  revisit.from_ns = wasCovered() ? covered_from_ns_ : std::max(located_ns_, sight->last_seen_ns);
-  revisit.to_ns = wasCovered() ? covered_to_ns_ : now_ns;
-  beginAnew(now_ns);
-  last_camera_map_ = sight->entry.camera_loaded;
+  const bool is_carry = isCarry(*sight);
+  revisit.from_ns = is_carry ? covered_from_ns_ : std::max(located_ns_, sight->last_seen_ns);
+  revisit.to_ns = is_carry ? covered_to_ns_ : now_ns;
   return revisit;
 }
 

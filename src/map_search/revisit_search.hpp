@@ -30,14 +30,20 @@ class RevisitSearch {
   /// times a second while one sight follows another.
   /// @param is_trusted  the camera, as of the image before
   /// @param T_map_cam  where the camera is thought to be
-  /// @return where it is instead, once
+  /// @return where it is instead, until that is noted
   std::optional<Revisit> see(const ImageFeatures& features, bool is_trusted,
                              const Eigen::Isometry3d& T_map_cam, LandmarkMap& map);
+  /// At the image of this stamp the flight has been moved there.
+  void noteShift(std::int64_t stamp_ns, const Revisit& revisit);
 
  private:
-  void follow(const ImageFeatures& features, const Eigen::Vector3d& camera_map);
+  void follow(const ImageFeatures& features, const Eigen::Vector3d& camera_map, bool has_map);
   void beginAnew(std::int64_t stamp_ns);
   bool wasCovered() const { return covered_from_ns_ != 0; }
+  /// Of landmarks from before the camera was covered.
+  bool isCarry(const PlaceSight& sight) const {
+    return wasCovered() && sight.last_seen_ns < covered_from_ns_;
+  }
   bool isElsewhere(const PlaceSight& sight) const;
 
   PlaceLook look_;

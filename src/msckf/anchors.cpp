@@ -14,6 +14,8 @@ namespace {
 // much that they would not: after this share of the landmarks' distance, or this rotation.
 constexpr double kSpacing = 0.3;
 constexpr double kRotation_deg = 20;
+// Anchors on both sides of a break may be further from each other than they seem to be.
+constexpr double kUnseenWay_m = 10;
 
 }  // namespace
 
@@ -26,14 +28,18 @@ void Anchors::choose(const WindowState& state, double point_distance_m) {
     if (displacement_m < kSpacing * point_distance_m && rotation_rad < kRotation_deg * M_PI / 180)
       return;
   }
-  if (current_id_ == 0) after_a_break_.insert(newest.id);
+  const bool is_first_in_use =
+      after_a_break_.count(current_id_) == 0 || in_use_.count(current_id_) > 0;
+  if (current_id_ == 0 || !is_first_in_use) after_a_break_.insert(newest.id);
   current_id_ = newest.id;
   re_anchoring_.begin(newest);
 }
 
 void Anchors::retire(std::size_t frame, WindowState& state) {
   if (in_use_.erase(state.frames()[frame].id) == 0) {
-    after_a_break_.erase(state.frames()[frame].id);
+    if (after_a_break_.erase(state.frames()[frame].id) > 0 &&
+        state.frames()[frame].id == current_id_)
+      current_id_ = 0;
     state.removeFrame(frame);
     return;
   }
@@ -41,29 +47,20 @@ void Anchors::retire(std::size_t frame, WindowState& state) {
   if (static_cast<int>(state.anchors().size()) > config_.max_anchors) joinNearest(state);
 }
 
-/// Index of the second of the two that follow each other most closely; nothing when none may.
-std::optional<std::size_t> Anchors::nearest(const std::vector<Clone>& anchors,
-                                            bool across_breaks) const {
-  std::optional<std::size_t> nearest;
+void Anchors::joinNearest(WindowState& state) {
+  const auto& anchors = state.anchors();
+  std::size_t nearest = 1;
   double shortest_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < anchors.size(); ++i) {
-    const double distance_m = (anchors[i].position_map - anchors[i - 1].position_map).norm();
+    double distance_m = (anchors[i].position_map - anchors[i - 1].position_map).norm();
+    if (after_a_break_.count(anchors[i].id) > 0) distance_m += kUnseenWay_m;
     if (distance_m >= shortest_m || anchors[i].is_loaded != anchors[i - 1].is_loaded) continue;
-    if (!across_breaks && after_a_break_.count(anchors[i].id) > 0) continue;
     shortest_m = distance_m;
     nearest = i;
   }
-  return nearest;
-}
-
-void Anchors::joinNearest(WindowState& state) {
-  const auto& anchors = state.anchors();
-  auto second = nearest(anchors, false);
-  if (!second) second = nearest(anchors, true);
-  const std::size_t joined = second.value_or(1);
-  re_anchoring_.join(anchors[joined], anchors[joined - 1].id);
-  after_a_break_.erase(anchors[joined].id);
-  state.removeAnchor(joined);
+  re_anchoring_.join(anchors[nearest], anchors[nearest - 1].id);
+  after_a_break_.erase(anchors[nearest].id);
+  state.removeAnchor(nearest);
 }
 
 std::vector<AnchorCorrection> Anchors::takeCorrections(const WindowState& state,

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "ardrone_vslam/msckf_config.hpp"
@@ -24,8 +24,13 @@ class Anchors {
   /// @param point_distance_m  of what is seen from the newest frame; 0: not known
   void choose(const WindowState& state, double point_distance_m);
   /// Hardly a track leads to the newest frame: what is seen from now on does not share the error of
-  /// what was seen before. The drone may be elsewhere.
-  void breakOff() { current_id_ = 0; }
+  /// what was seen before, as the drone may be elsewhere. Of another camera's first frame it says
+  /// nothing.
+  void breakOff() {
+    if (!std::exchange(is_another_camera_, false)) current_id_ = 0;
+  }
+  /// The next frame is another camera's.
+  void changeCamera() { is_another_camera_ = true; }
   /// Clone::id of that frame.
   std::uint32_t current() const { return current_id_; }
   /// Points do belong to it.
@@ -43,13 +48,13 @@ class Anchors {
                                                 double focal_length_px);
 
  private:
-  std::optional<std::size_t> nearest(const std::vector<Clone>& anchors, bool across_breaks) const;
   void joinNearest(WindowState& state);
 
   MsckfConfig config_;
   std::uint32_t current_id_ = 0;                     // 0: none yet, or none since a break
   std::unordered_set<std::uint32_t> after_a_break_;  // the first ones after one
   std::unordered_set<std::uint32_t> in_use_;         // frames of the window that points belong to
+  bool is_another_camera_ = false;
   ReAnchoring re_anchoring_;
 };
 

@@ -35,6 +35,7 @@ void Msckf::start(const OdometryState& odometry) {
 
 void Msckf::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   track_update_.changeCamera(T_rig_cam_.translation());
+  anchors_.changeCamera();
   T_rig_cam_ = T_base_cam;
   tracks_.changeCamera(T_rig_cam_.linear());
   zero_motion_.beginAnew(state_);
@@ -109,11 +110,14 @@ FixOutcome Msckf::fix(const std::vector<LandmarkObservation>& observations,
 const std::vector<UsedTrack>& Msckf::track(const ImageFeatures& features) {
   track_update_.skip();
   order_.reset(features);
-  if (static_cast<int>(features.tracked()) < kFewestFeatures) anchors_.breakOff();
   useStillness(features);
   height_.apply(state_);
-  if (isDistrustful() || !needsKeyframe(features)) return track_update_.used();
+  if (!isDistrustful() && needsKeyframe(features)) useTracks(features);
+  if (static_cast<int>(features.tracked()) < kFewestFeatures) anchors_.breakOff();
+  return track_update_.used();
+}
 
+void Msckf::useTracks(const ImageFeatures& features) {
   zero_motion_.noteKeyframe(newest().id);
   tracks_.add(newest().id, features, order_);
   anchors_.choose(state_, track_update_.pointDistance_m());
@@ -123,7 +127,6 @@ const std::vector<UsedTrack>& Msckf::track(const ImageFeatures& features) {
                       features.focal_length_px, anchors_.current(), tracks_, state_);
   if (!track_update_.used().empty() && !config_.localise_only) anchors_.use();
   if (is_full) dropOldest();
-  return track_update_.used();
 }
 
 void Msckf::useStillness(const ImageFeatures& features) {

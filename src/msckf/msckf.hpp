@@ -102,6 +102,7 @@ class Msckf {
   void moveOdometry(const Eigen::Isometry3d& T_new_old);
   void watchForContradiction();
   void useStillness(const ImageFeatures& features);
+  void useTracks(const ImageFeatures& features);
   bool needsKeyframe(const ImageFeatures& features);
   void dropOldest();
 

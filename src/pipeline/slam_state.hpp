@@ -69,6 +69,7 @@ struct Slam::State {
       const bool is_trusted = result.state != SlamState::kDistrusted;
       const auto revisit = revisits.see(features, is_trusted, camera.T_map_cam, map);
       if (!revisit || !estimator->shift(*revisit, view, map)) return 0;
+      revisits.noteShift(features.stamp_ns, *revisit);
       revisit_m = (revisit->entry.camera_loaded - camera.T_map_cam.translation()).norm();
     }
     camera = estimator->camera();

@@ -61,6 +61,8 @@ Eigen::MatrixXd MapEntrance::cameraBy(std::uint32_t id, const MapEntry& entry) c
   const int count = anchor ? WindowState::kAnchor : WindowState::kFrame;
   D.block(0, at, 3, count) = by_pose.topLeftCorner(3, count);
   D.block(3, at, 1, count) = by_pose.block(5, 0, 1, count);
+  // With the odometry's scale all distances of this flight err.
+  if (!pose.is_loaded) D.block<3, 1>(0, WindowState::kScale) = by_pose.topRightCorner<3, 1>();
   return D;
 }
 

@@ -162,7 +162,7 @@ TEST(Revisit, ADroneThatWasCarriedIsFoundAtOnce) {
 
 TEST(Revisit, WhatWasMappedMeanwhileComesAlong) {
   for (const std::size_t to_and_fro : {0U, 200U}) {
-    for (const std::size_t covered : {1U, 5U, 30U}) {
+    for (const std::size_t covered : {0U, 1U, 5U, 30U}) {
       for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         SCOPED_TRACE(testing::Message() << "covered for " << covered << ", to and fro for "
                                         << to_and_fro << ", seed " << seed);

@@ -132,6 +132,7 @@ Eigen::Matrix4d besideAnchor(const WindowState& state, const Eigen::Vector3d& ca
     const PoseByAnchor J = poseByAnchor(camera_map - pose.position_map);
     D.block(0, at, 3, count) = sign * J.topLeftCorner(3, count);
     D.block(3, at, 1, count) = sign * J.block(5, 0, 1, count);
+    D.block<3, 1>(0, WindowState::kScale) += sign * J.topRightCorner<3, 1>();
   };
   add(state.anchors()[0], anchor, WindowState::kAnchor, -1);
   add(state.newest(), newest, WindowState::kFrame, 1);
