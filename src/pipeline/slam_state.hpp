@@ -58,9 +58,11 @@ struct Slam::State {
   /// Where the flight is in a loaded map, or elsewhere in its own; once that is known, the frame
   /// goes on there. @return FrameResult::revisit_m
   double searchMap(const ImageFeatures& features, CameraPose& camera) {
-    if (config.estimator != EstimatorKind::kMsckf || !isFinite(estimator->estimate())) return 0;
+    if (config.estimator != EstimatorKind::kMsckf || !camera.T_map_cam.matrix().allFinite())
+      return 0;
     double revisit_m = 0;
     if (search) {
+      if (!isFinite(estimator->estimate())) return 0;
       auto entry = search->see(features, camera.T_map_cam, T_base_cam);
       if (!entry) return 0;
       estimator->enterMap(std::move(*entry), search->takeMap(), view, map);
