@@ -28,9 +28,9 @@ void Anchors::choose(const WindowState& state, double point_distance_m) {
     if (displacement_m < kSpacing * point_distance_m && rotation_rad < kRotation_deg * M_PI / 180)
       return;
   }
-  const bool is_first_in_use =
-      after_a_break_.count(current_id_) == 0 || in_use_.count(current_id_) > 0;
-  if (current_id_ == 0 || !is_first_in_use) after_a_break_.insert(newest.id);
+  // The first one after a break that no landmark belongs to hands that on.
+  const bool hands_on = after_a_break_.count(current_id_) > 0 && in_use_.count(current_id_) == 0;
+  if (current_id_ == 0 || hands_on) after_a_break_.insert(newest.id);
   current_id_ = newest.id;
   re_anchoring_.begin(newest);
 }
