@@ -70,6 +70,12 @@ def draw_heights(rows):
     return figure
 
 
+def in_map(run):
+    """The fused path from where the place in a loaded map is known: before, the deviation is 1 km."""
+    searching = run.frames.get("sigma_m", np.zeros(0)) >= 1000
+    return run.fused.at(~np.isin(run.fused.stamps_ns, run.frames["stamp_ns"][searching])) if searching.any() else run.fused
+
+
 def draw_maps(rows):
     """Landmarks, coloured by their deviation, under the path."""
     runs = [row for row in runs_of(rows) if row.run.landmarks and len(row.run.landmarks.get("x_m", ()))]
@@ -85,7 +91,7 @@ def draw_maps(rows):
                             vmin=0, vmax=max(np.percentile(deviation, 95), 1e-6), rasterized=True)
         figure.colorbar(shown, ax=one, label="landmark deviation [m]", shrink=0.8)
         paths = [(row.run.truth, TRUTH, "--", "truth"), (row.run.odometry, "#d62728", "-", "odometry"),
-                 (row.run.fused, "#1f77b4", "-", "fused")]
+                 (in_map(row.run), "#1f77b4", "-", "fused")]
         drawn = [path for path in paths if path[0] is not None]
         for path, colour, style, label in drawn:
             one.plot(path.positions_m[:, 0], path.positions_m[:, 1], style, color=colour, linewidth=1.2, label=label)

@@ -6,6 +6,8 @@ import os
 import subprocess
 import unittest
 
+from ardrone_vslam_evaluation.plot_paths import in_map
+from ardrone_vslam_evaluation.run_folder import read_run
 from paths import TestWithFolder
 
 MAP_TOOL, REPLAY, MAKE_WORLD = (os.environ["ARDRONE_VSLAM_" + name] for name in ("MAP_TOOL", "REPLAY", "MAKE_WORLD"))
@@ -115,6 +117,10 @@ class MapTool(TestWithFolder):
         with open(os.path.join(self.path("third"), "summary.json")) as file:
             summary = json.load(file)
         self.assertLess(summary["map_found_s"], 5)
+        run = read_run(self.path("third"))
+        drawn = in_map(run)
+        self.assertAlmostEqual((drawn.stamps_ns[0] - run.fused.stamps_ns[0]) * 1e-9, summary["map_found_s"], places=6)
+        self.assertEqual(drawn.stamps_ns[-1], run.fused.stamps_ns[-1])
 
     def test_another_place_is_not_merged(self):
         self.make(MAKE_WORLD, "corridor", "--seconds", 10, "--rate", 10, "--out", self.path("corridor"), "--seed", 1)
