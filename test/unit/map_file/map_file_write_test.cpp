@@ -7,10 +7,13 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <random>
 
 #include "support/file_size_limit.hpp"
 #include "support/read_file.hpp"
+#include "support/small_disk.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/map_file/map_files.hpp"
 
@@ -107,6 +110,77 @@ TEST_F(MapFileWriteTest, TheOldMapOrTheNewOneIsThereAfterAKill) {
   EXPECT_GT(parts_left, 0) << "no save was killed while it wrote";
   writeMap(path_, map);
   EXPECT_EQ(filesInFolder(), 1U) << "what a killed save leaves goes with the next one";
+}
+
+class MapFileFullDiskTest : public MapFileWriteTest {
+ protected:
+  static constexpr int kSaves = 200;
+
+  /// On a disk that has room for some of the new map, most of the time. Every third writer is
+  /// killed. @return whether the old or the new map was there each time
+  bool saveOften() {
+    std::mt19937 random(1);
+    SavedMap map = smallMap();
+    map.landmarks.resize(2000, map.landmarks[0]);  // 320,000 bytes
+    writeMap(path_, map);
+    std::int64_t before_ns = map.stamp_ns;
+    for (int i = 0; i < kSaves; ++i) {
+      std::ofstream(folder_.file("other")) << std::string(300'000 + random() % 450'000, 'x');
+      ++map.stamp_ns;
+      const int status = save(map, i % 3 == 0 ? static_cast<int>(random() % 3000) : -1);
+      fs::remove(folder_.file("other"));
+      const std::int64_t found_ns = readMap(path_).stamp_ns;
+      if (!isAsItShould(status, found_ns == before_ns, found_ns == map.stamp_ns)) return false;
+      before_ns = found_ns;
+    }
+    std::printf("of %d saves %d found the disk full, %d were killed, %d wrote the map\n", kSaves,
+                full_, killed_, written_);
+    std::fflush(stdout);
+    return full_ > kSaves / 5 && killed_ > kSaves / 20 && written_ > kSaves / 10;
+  }
+
+ private:
+  /// In a process of its own. @return its status
+  int save(const SavedMap& map, int killed_after_us) const {
+    const pid_t writer = ::fork();
+    if (writer == 0) {
+      const std::string fault = writeFault(map);
+      if (fault.empty()) ::_exit(0);
+      ::_exit(fault.find("No space left on device; make room") != std::string::npos ? 1 : 2);
+    }
+    if (killed_after_us >= 0) {
+      ::usleep(static_cast<useconds_t>(killed_after_us));
+      ::kill(writer, SIGKILL);
+    }
+    int status = -1;
+    ::waitpid(writer, &status, 0);
+    return status;
+  }
+
+  bool isAsItShould(int status, bool is_old, bool is_new) {
+    if (WIFSIGNALED(status)) {
+      ++killed_;
+      return is_old || is_new;
+    }
+    if (WEXITSTATUS(status) == 0) {
+      ++written_;
+      return is_new;
+    }
+    ++full_;
+    return WEXITSTATUS(status) == 1 && is_old && filesInFolder() == 1;
+  }
+
+  int full_ = 0;
+  int killed_ = 0;
+  int written_ = 0;
+};
+
+TEST_F(MapFileFullDiskTest, TheOldMapOrTheNewOneIsThere) {
+  constexpr int kDisk_bytes = 1 << 20;
+  const int exit_code =
+      onSmallDisk(folder_.path(), kDisk_bytes, [this] { return saveOften() ? 0 : 1; });
+  if (exit_code == kNoDisk) GTEST_SKIP() << "this system lets nobody mount a disk";
+  EXPECT_EQ(exit_code, 0);
 }
 
 TEST_F(MapFileWriteTest, WhatCannotBeAMapsFileIsToldBefore) {
