@@ -22,6 +22,10 @@ std::uint64_t hashOf(int id) {
   return x ^ (x >> 31);
 }
 
+std::uint32_t keyOf(int id) {
+  return static_cast<std::uint32_t>(id);
+}
+
 std::size_t listsFor(std::size_t entries) {
   std::size_t lists = 1;
   while (lists * kLongestMean < entries) lists *= 2;
@@ -39,7 +43,7 @@ bool DescriptorIndex::isSizeOutOfRange(std::size_t entries) const {
 
 void DescriptorIndex::append(int list, int id, const Descriptor& descriptor) {
   DescriptorList& to = lists_[static_cast<std::size_t>(list)];
-  place_of_id_[id] = {list, static_cast<int>(to.ids.size())};
+  place_of_id_.set(keyOf(id), {list, static_cast<int>(to.ids.size())});
   to.ids.push_back(id);
   to.descriptors.push_back(descriptor);
 }
@@ -61,16 +65,16 @@ void DescriptorIndex::insert(const std::vector<IndexEntry>& entries) {
 }
 
 void DescriptorIndex::remove(int id) {
-  const auto entry = place_of_id_.find(id);
-  if (entry == place_of_id_.end()) return;
-  const Place hole = entry->second;
-  place_of_id_.erase(entry);
+  const Place* entry = place_of_id_.find(keyOf(id));
+  if (entry == nullptr) return;
+  const Place hole = *entry;
+  place_of_id_.erase(keyOf(id));
   DescriptorList& list = lists_[static_cast<std::size_t>(hole.list)];
   const auto position = static_cast<std::size_t>(hole.position);
   if (position + 1 != list.ids.size()) {
     list.ids[position] = list.ids.back();
     list.descriptors[position] = list.descriptors.back();
-    place_of_id_[list.ids[position]].position = hole.position;
+    place_of_id_.set(keyOf(list.ids[position]), hole);
   }
   list.ids.pop_back();
   list.descriptors.pop_back();
@@ -105,7 +109,7 @@ void DescriptorIndex::layOut(const std::vector<Descriptor>& centres) {
 void DescriptorIndex::rebuild() {
   std::vector<int> ids;
   ids.reserve(size());
-  for (const auto& entry : place_of_id_) ids.push_back(entry.first);
+  for (const DescriptorList& list : lists_) ids.insert(ids.end(), list.ids.begin(), list.ids.end());
   std::vector<Descriptor> centres;
   for (const int id : centresOf(ids)) centres.push_back(*find(id));
   centres.resize(listsFor(size()));  // of an empty index: one list about any centre
@@ -121,10 +125,10 @@ void DescriptorIndex::rebuild() {
 }
 
 const Descriptor* DescriptorIndex::find(int id) const {
-  const auto entry = place_of_id_.find(id);
-  if (entry == place_of_id_.end()) return nullptr;
-  const DescriptorList& list = lists_[static_cast<std::size_t>(entry->second.list)];
-  return &list.descriptors[static_cast<std::size_t>(entry->second.position)];
+  const Place* entry = place_of_id_.find(keyOf(id));
+  if (entry == nullptr) return nullptr;
+  const DescriptorList& list = lists_[static_cast<std::size_t>(entry->list)];
+  return &list.descriptors[static_cast<std::size_t>(entry->position)];
 }
 
 }  // namespace ardrone_vslam

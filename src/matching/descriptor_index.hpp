@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <unordered_map>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
+#include "matching/id_table.hpp"
 #include "matching/list_search.hpp"
 
 namespace ardrone_vslam {
@@ -80,7 +80,7 @@ class DescriptorIndex {
 
   std::vector<Descriptor> centres_;
   std::vector<DescriptorList> lists_;
-  std::unordered_map<int, Place> place_of_id_;
+  IdTable<Place> place_of_id_;
   bool is_rebuilt_by_itself_ = true;
   ListSearch search_;
 };
