@@ -11,58 +11,20 @@
 
 #include "ardrone_vslam/landmark.hpp"
 #include "association/associator.hpp"
-#include "landmarks/simulated_street.hpp"
 #include "map/landmark_map.hpp"
 #include "program/tool_main.hpp"
 #include "run/offline_run.hpp"
 #include "sequences/sequence.hpp"
 #include "simulation/random_source.hpp"
+#include "street_scene.hpp"
 #include "trajectory/metrics.hpp"
 
 namespace {
 
 using namespace ardrone_vslam;
 
-constexpr double kStep_m = 0.8;  // a car at 10 Hz
-constexpr int kWarmUp = 60;      // frames until window and anchors are full
+constexpr int kWarmUp = 60;  // frames until window and anchors are full
 constexpr int kMeasured = 120;
-
-struct Scene {
-  Trajectory path;
-  std::vector<TrackedFrame> frames;
-};
-
-/// Straight on between landmarks, so that each image has about so many features.
-Scene streetWith(int features) {
-  Scene scene;
-  std::vector<StampedPose> poses;
-  for (int i = 0; i < kWarmUp + kMeasured; ++i) {
-    StampedPose pose;
-    pose.stamp_ns = 100'000'000LL * (i + 1);
-    pose.T_frame_body.translation() << kStep_m * i, 0, 0;
-    poses.push_back(pose);
-  }
-  scene.path = Trajectory(std::move(poses));
-  ViewFaults faults;
-  faults.pixel_noise_px = 0.8;
-  faults.wrong_share = 0.03;
-  StreetConfig street;
-  double seen_of_10000 = 0;
-  for (const int landmarks : {10000, 0}) {
-    street.landmarks = landmarks > 0 ? landmarks : static_cast<int>(1e4 * features / seen_of_10000);
-    FrameTrackerConfig tracks;
-    tracks.search_radius_px = 120;
-    PointWorld world(1, faults, streetCamera(), tracks);
-    addStreet(world, scene.path, street, 1);
-    scene.frames.clear();
-    for (const StampedPose& pose : scene.path.poses()) {
-      TrackedFrame& frame = scene.frames.emplace_back();
-      frame.features = world.look(pose.T_frame_body * forwardCamera(), pose.stamp_ns);
-    }
-    seen_of_10000 = static_cast<double>(scene.frames[kWarmUp].features.size());
-  }
-  return scene;
-}
 
 SlamConfig configOf(EstimatorKind estimator) {
   SlamConfig config;
@@ -72,18 +34,6 @@ SlamConfig configOf(EstimatorKind estimator) {
   config.msckf.odometry.walk_m_per_sqrt_m = 0.005;
   config.msckf.odometry.walk_m_per_sqrt_s = 0.001;
   return config;
-}
-
-/// The odometry's states at the frames: the truth.
-std::vector<OdometryState> truthOf(const Trajectory& path) {
-  std::vector<OdometryState> states;
-  for (const StampedPose& pose : path.poses()) {
-    OdometryState state;
-    state.stamp_ns = pose.stamp_ns;
-    state.T_odom_base = pose.T_frame_body;
-    states.push_back(state);
-  }
-  return states;
 }
 
 struct Cost {
@@ -214,12 +164,12 @@ int run(const std::string& path, bool quick) {
   out << "series,features,landmarks,in_view,tracks,associate_ms,localise_ms,map_ms\n";
   using Counts = std::vector<int>;
   for (const int features : quick ? Counts{50} : Counts{50, 100, 200, 400, 600, 1000, 1500, 2000}) {
-    const Scene scene = streetWith(features);
+    const Scene scene = streetWith(features, kWarmUp + kMeasured);
     write(out, "thesis", costOf(scene, EstimatorKind::kThesis));
     write(out, "msckf", costOf(scene, EstimatorKind::kMsckf));
     std::cerr << features << " features\n";
   }
-  const Scene scene = streetWith(quick ? 50 : 600);
+  const Scene scene = streetWith(quick ? 50 : 600, kWarmUp + kMeasured);
   for (const int landmarks :
        quick ? Counts{1000} : Counts{1000, 3000, 10000, 30000, 100000, 300000, 1000000}) {
     write(out, "map", costOfMap(scene, landmarks));

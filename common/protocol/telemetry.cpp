@@ -31,7 +31,7 @@ std::uint8_t* putLandmark(std::uint8_t* to, const Landmark& landmark) {
 
 }  // namespace
 
-std::size_t Telemetry::write(const ImageFeatures& features, const std::vector<Landmark>& map,
+std::size_t Telemetry::write(const ImageFeatures& features, const Landmarks& map,
                              std::array<std::uint8_t, kBytes>& datagram) {
   const std::size_t feature_count = std::min(features.size(), kMostFeatures);
   const std::size_t room =
@@ -43,7 +43,7 @@ std::size_t Telemetry::write(const ImageFeatures& features, const std::vector<La
     to = putPixel(to, features.pixel_px[of].y());
     to = vslam_put(to, std::min<std::uint16_t>(features.age_frames[of], 255), 1);
   }
-  const std::vector<Landmark>& landmarks = map;
+  const Landmarks& landmarks = map;
   std::size_t sent = 0;
   // Those just seen get at most half of the room, so that the round goes on.
   if (seen_cursor_ >= landmarks.size()) seen_cursor_ = 0;

@@ -22,7 +22,7 @@ class Telemetry {
   static constexpr std::size_t kLandmarkBytes = 20;
 
   /// @return bytes of the datagram
-  std::size_t write(const ImageFeatures& features, const std::vector<Landmark>& map,
+  std::size_t write(const ImageFeatures& features, const Landmarks& map,
                     std::array<std::uint8_t, kBytes>& datagram);
 
  private:

@@ -98,8 +98,8 @@ void TelemetryReader::forgetOld(std::uint32_t round) {
   }
 }
 
-std::vector<Landmark> TelemetryReader::landmarks() const {
-  std::vector<Landmark> all;
+Landmarks TelemetryReader::landmarks() const {
+  Landmarks all;
   all.reserve(landmarks_.size());
   for (const auto& [id, received] : landmarks_) all.push_back(received.landmark);
   return all;

@@ -30,7 +30,7 @@ class TelemetryReader {
   /// Pixels, to a sixteenth, and ages, at most 255; the other arrays are empty.
   const ImageFeatures& features() const { return features_; }
   /// By ascending id: id, position and deviation; the rest is not sent.
-  std::vector<Landmark> landmarks() const;
+  Landmarks landmarks() const;
   std::size_t size() const { return landmarks_.size(); }
   /// In the drone's map, when the datagram was sent.
   std::uint32_t landmarksOnDrone() const { return on_drone_; }

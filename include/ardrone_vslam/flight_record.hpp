@@ -13,6 +13,7 @@
 #include "ardrone_vslam/frame_result.hpp"
 #include "ardrone_vslam/landmark.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/shared_blocks.hpp"
 #include "ardrone_vslam/slam_config.hpp"
 
 namespace ardrone_vslam {
@@ -58,7 +59,7 @@ struct Keyframe {
 struct FlightRecord {
   /// What the filter believed, the odometry's noise as learned at last.
   MsckfConfig config;
-  std::vector<Keyframe> keyframes;  ///< oldest first
+  SharedBlocks<Keyframe, 16> keyframes;  ///< oldest first
   /// False, and then nothing else is here: the flight began anew on its way, or was looked for in a
   /// map, or found elsewhere in its own, or the camera's mounting is not taken as exact.
   bool is_whole = true;
@@ -77,7 +78,7 @@ class FlightRecorder {
   /// A frame that Slam::process() has answered, and the landmarks after it. O(landmarks)
   /// at keyframes.
   void see(const ImageFeatures& features, const OdometryState& odometry, const FrameResult& result,
-           const std::vector<Landmark>& landmarks);
+           const Landmarks& landmarks);
   /// Up to the last frame.
   const FlightRecord& record() const;
   /// The same without a copy. There is nothing more to see then.

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "ardrone_vslam/features.hpp"
+#include "ardrone_vslam/shared_blocks.hpp"
 
 namespace ardrone_vslam {
 
@@ -24,7 +25,6 @@ struct Landmark {
   double seen_distance_m = 0;   ///< from the camera that saw it last; 0: not known
   double sigma_m = 0;           ///< sigma_l (5.19, 5.34)
   double depth_sigma_m = 0;     ///< along the ray of its last triangulation
-  Ray first_ray;                ///< of the first view, by which it was triangulated
   double parallax_rad = 0;      ///< between the first view and the one of its last triangulation
   double position_variance_m2 = 0;  ///< of the base position, per axis, when the landmark was made
                                     ///< (common drift, docs/thesis_estimator.md)
@@ -39,5 +39,8 @@ struct Landmark {
   std::int64_t first_seen_ns = 0;  ///< stamp of the image that made it
   std::int64_t last_seen_ns = 0;   ///< stamp of the last image it was matched in
 };
+
+/// Those of a map.
+using Landmarks = SharedBlocks<Landmark, 256>;
 
 }  // namespace ardrone_vslam

@@ -42,6 +42,27 @@ struct SavedMap {
   FlightRecord flight;                ///< that made it; without keyframes: not kept
 };
 
+/// Leaves these anchors, in this order, and what belongs to them.
+/// @param anchors  indices into `map.anchors`, none twice
+void keepAnchors(SavedMap& map, const std::vector<std::size_t>& anchors);
+/// Leaves the anchors that landmarks belong to.
+void keepUsedAnchors(SavedMap& map);
+
+/// A flight's map as it was after one frame. It shares the landmarks and keyframes with the flight:
+/// to take it costs the flight little, however large its map is, and another thread makes of it
+/// what goes into a file.
+struct MapSnapshot {
+  SavedMap all_but_landmarks;             ///< anchors without landmarks are there, too
+  std::vector<std::uint32_t> anchor_ids;  ///< Landmark::anchor_id of each
+  Landmarks landmarks;                    ///< those of other anchors are not saved
+
+  MapSnapshot() = default;
+  /// Of a map as a file has it. O(landmarks).
+  explicit MapSnapshot(SavedMap map);
+  /// For a file. O(landmarks). Uses up what it does not share.
+  SavedMap map() &&;
+};
+
 /// Where in a map somebody says that base is: a click in a picture of it.
 struct PlaceHint {
   Eigen::Vector2d position_map_m = Eigen::Vector2d::Zero();  ///< x and y; the height is not told

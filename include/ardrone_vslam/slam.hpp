@@ -66,12 +66,13 @@ class Slam {
   /// Whether save() has the flight's map: not while the flight is looked for in a loaded one.
   bool hasWholeMap() const;
   /// The map for a file, up to the last frame. While the flight is looked for in a loaded one it is
-  /// what was made meanwhile; while in its own, that one.
+  /// what was made meanwhile; while in its own, that one. O(anchors^2 + landmarks / 256), but
+  /// O(landmarks) while looking or with `localise_only`.
   /// @throws std::invalid_argument with the faultOfMaps
-  SavedMap save() const;
+  MapSnapshot save() const;
 
   /// The map, up to the last frame.
-  const std::vector<Landmark>& landmarks() const;
+  const Landmarks& landmarks() const;
   /// Another cap of the map, from the next frame on. @throws ConfigError
   void limitMap(const LandmarkMapConfig& config);
   /// Takes the memory for max_landmarks, and for what one image adds before some go.

@@ -94,7 +94,7 @@ void toStatus(const TimeOffset& estimate, double used_s, Status& status);
 bool isWell(std::uint8_t state);
 
 /// Landmarks as a cloud: x y z [m], deviation [m], times_seen, id.
-sensor_msgs::PointCloud2 toCloud(const std::vector<Landmark>& landmarks,
-                                 const std::string& map_frame, std::int64_t stamp_ns);
+sensor_msgs::PointCloud2 toCloud(const Landmarks& landmarks, const std::string& map_frame,
+                                 std::int64_t stamp_ns);
 
 }  // namespace ardrone_vslam

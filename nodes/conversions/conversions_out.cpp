@@ -119,8 +119,8 @@ PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isome
   return message;
 }
 
-sensor_msgs::PointCloud2 toCloud(const std::vector<Landmark>& landmarks,
-                                 const std::string& map_frame, std::int64_t stamp_ns) {
+sensor_msgs::PointCloud2 toCloud(const Landmarks& landmarks, const std::string& map_frame,
+                                 std::int64_t stamp_ns) {
   using sensor_msgs::PointField;
   sensor_msgs::PointCloud2 cloud;
   cloud.header = headerOf(stamp_ns, map_frame);

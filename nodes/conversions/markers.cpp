@@ -89,8 +89,7 @@ double clampedSigma_m(double sigma_m) {
 
 }  // namespace
 
-double drawnScale(const std::vector<Landmark>& landmarks, const Eigen::Vector3d& base_map,
-                  double before) {
+double drawnScale(const Landmarks& landmarks, const Eigen::Vector3d& base_map, double before) {
   constexpr std::size_t kSamples = 200;
   std::vector<double> distances_m;
   for (std::size_t i = 0; i < landmarks.size(); i += 1 + landmarks.size() / kSamples)
@@ -110,7 +109,7 @@ std_msgs::ColorRGBA colourOfSigma(double sigma_m) {
 }
 
 MarkerArray toStateMarkers(const Status& status, const Eigen::Vector3d& base_map,
-                           const std::vector<Landmark>& landmarks) {
+                           const Landmarks& landmarks) {
   const double scale = drawnScale(landmarks, base_map);
   Marker text = markerOf(status.header, "state", Marker::TEXT_VIEW_FACING);
   text.text = textOf(status);
@@ -140,8 +139,7 @@ MarkerArray toStateMarkers(const Status& status, const Eigen::Vector3d& base_map
   return array;
 }
 
-MarkerArray LandmarkMarkers::changes(const std::vector<Landmark>& landmarks,
-                                     const std_msgs::Header& header,
+MarkerArray LandmarkMarkers::changes(const Landmarks& landmarks, const std_msgs::Header& header,
                                      const Eigen::Vector3d& base_map) {
   const double scale = drawnScale(landmarks, base_map, scale_);
   if (scale != scale_) forget();
@@ -161,8 +159,9 @@ MarkerArray LandmarkMarkers::changes(const std::vector<Landmark>& landmarks,
   if (count > 0) blocks_[once_more_++ % count].clear();
   for (std::size_t i = 0; i < std::min(count, kMostBlocks); ++i, ++next_) {
     if (next_ >= count) next_ = 0;
-    const Landmark* begin = landmarks.data() + next_ * kBlock;
-    const Landmark* end = landmarks.data() + std::min(landmarks.size(), (next_ + 1) * kBlock);
+    const auto from = static_cast<std::ptrdiff_t>(next_ * kBlock);
+    const auto begin = landmarks.begin() + from;
+    const auto end = std::min(landmarks.end(), begin + kBlock);
     if (isDrawn(blocks_[next_], begin, end)) continue;
     Marker marker = draw(blocks_[next_], begin, end);
     marker.header = header;
@@ -171,8 +170,8 @@ MarkerArray LandmarkMarkers::changes(const std::vector<Landmark>& landmarks,
   return array;
 }
 
-bool LandmarkMarkers::isDrawn(const Block& block, const Landmark* begin,
-                              const Landmark* end) const {
+bool LandmarkMarkers::isDrawn(const Block& block, Landmarks::const_iterator begin,
+                              Landmarks::const_iterator end) const {
   const auto is_drawn = [this](const Landmark& landmark, const Drawn& drawn) {
     const double sigma = clampedSigma_m(landmark.sigma_m) / drawn.sigma_m;
     return landmark.id == drawn.id &&
@@ -183,11 +182,12 @@ bool LandmarkMarkers::isDrawn(const Block& block, const Landmark* begin,
   return std::equal(begin, end, block.begin(), block.end(), is_drawn);
 }
 
-Marker LandmarkMarkers::draw(Block& block, const Landmark* begin, const Landmark* end) const {
+Marker LandmarkMarkers::draw(Block& block, Landmarks::const_iterator begin,
+                             Landmarks::const_iterator end) const {
   Marker marker = markerOf({}, "landmarks", Marker::POINTS);
   marker.scale.x = marker.scale.y = scale_ * kSide_m;
   block.clear();
-  for (const Landmark* landmark = begin; landmark != end; ++landmark) {
+  for (auto landmark = begin; landmark != end; ++landmark) {
     block.push_back(
         {landmark->id, landmark->position_map.cast<float>(), clampedSigma_m(landmark->sigma_m)});
     marker.points.push_back(toPoint(landmark->position_map));

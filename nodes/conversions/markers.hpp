@@ -18,8 +18,7 @@ namespace ardrone_vslam {
 /// is as legible.
 /// @param before  kept while it does nearly as well
 /// @return 1 without landmarks
-double drawnScale(const std::vector<Landmark>& landmarks, const Eigen::Vector3d& base_map,
-                  double before = 0);
+double drawnScale(const Landmarks& landmarks, const Eigen::Vector3d& base_map, double before = 0);
 
 /// From white (sigma at most 1 cm) over light blue to blue (at least 1 m).
 std_msgs::ColorRGBA colourOfSigma(double sigma_m);
@@ -28,7 +27,7 @@ std_msgs::ColorRGBA colourOfSigma(double sigma_m);
 /// this one has shown again, and lines to them from base.
 visualization_msgs::MarkerArray toStateMarkers(const Status& status,
                                                const Eigen::Vector3d& base_map,
-                                               const std::vector<Landmark>& landmarks);
+                                               const Landmarks& landmarks);
 
 /// The map as markers of 256 landmarks each, of which only those are sent that look otherwise.
 class LandmarkMarkers {
@@ -41,7 +40,7 @@ class LandmarkMarkers {
   /// @return the blocks, of the next kMostBlocks, in which a landmark is another one, has moved by
   /// half a marker's side or changed its colour; DELETE for those that are gone; and one more, as
   /// rviz forgets when it is reset
-  visualization_msgs::MarkerArray changes(const std::vector<Landmark>& landmarks,
+  visualization_msgs::MarkerArray changes(const Landmarks& landmarks,
                                           const std_msgs::Header& header,
                                           const Eigen::Vector3d& base_map);
   /// All are sent anew.
@@ -57,8 +56,10 @@ class LandmarkMarkers {
   };
   using Block = std::vector<Drawn>;
 
-  bool isDrawn(const Block& block, const Landmark* begin, const Landmark* end) const;
-  visualization_msgs::Marker draw(Block& block, const Landmark* begin, const Landmark* end) const;
+  bool isDrawn(const Block& block, Landmarks::const_iterator begin,
+               Landmarks::const_iterator end) const;
+  visualization_msgs::Marker draw(Block& block, Landmarks::const_iterator begin,
+                                  Landmarks::const_iterator end) const;
 
   std::vector<Block> blocks_;
   std::size_t next_ = 0;

@@ -44,12 +44,12 @@ std::string LiveSlam::mapFault(const CameraIdentity& camera) const {
   return loaded_ && !slam_ ? differenceOf(*loaded_, camera) : "";
 }
 
-SavedMap LiveSlam::save() const {
+MapSnapshot LiveSlam::save() const {
   if (slam_ && !slam_->hasWholeMap())
     throw MapFileError(std::string("nothing is saved: ") + explain(SlamState::kSearchingMap));
-  SavedMap map = slam_ ? slam_->save() : SavedMap{};
+  MapSnapshot map = slam_ ? slam_->save() : MapSnapshot();
   if (map.landmarks.empty()) throw MapFileError("there is no landmark to save: fly first");
-  map.flight = recorder_->record();
+  map.all_but_landmarks.flight = recorder_->record();
   return map;
 }
 

@@ -38,7 +38,7 @@ class LiveSlam {
   /// What tells this camera from the loaded map's; empty when nothing does, and without such a map.
   std::string mapFault(const CameraIdentity& camera) const;
   /// The map for a file. @throws MapFileError when there is none, or none of the loaded map's frame
-  SavedMap save() const;
+  MapSnapshot save() const;
   /// @throws std::exception when there is no map to look in
   void lookNear(const PlaceHint& hint);
   /// Of the map in use and of later ones.

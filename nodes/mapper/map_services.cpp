@@ -112,15 +112,15 @@ void MapServices::onInitialPose(const InitialPose& pose) {
   }
 }
 
-SavedMap MapServices::mapOfMapper() {
+MapSnapshot MapServices::mapOfMapper() {
   // The task may outlive this call, when it has given up.
-  const auto map = std::make_shared<SavedMap>();
+  const auto map = std::make_shared<MapSnapshot>();
   inMapperThread([this, map] { *map = calls_.save(); });
   return std::move(*map);
 }
 
 void MapServices::onTimer(double every_s) {
-  SavedMap map;
+  MapSnapshot map;
   try {
     map = mapOfMapper();
   } catch (const std::exception& e) {
@@ -128,15 +128,16 @@ void MapServices::onTimer(double every_s) {
     return;
   }
   try {
-    keep(map);
+    keep(std::move(map));
     timer_.setPeriod(ros::WallDuration(every_s));
   } catch (const std::exception& e) {
     ROS_WARN_STREAM_THROTTLE(kSayEvery_s, "save_map: " << e.what());
   }
 }
 
-void MapServices::keep(const SavedMap& map) {
-  if (map.stamp_ns == kept_ns_) return;
+void MapServices::keep(MapSnapshot map) {
+  const std::int64_t stamp_ns = map.all_but_landmarks.stamp_ns;
+  if (stamp_ns == kept_ns_) return;
   const std::filesystem::path path(kept_);
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
@@ -146,14 +147,14 @@ void MapServices::keep(const SavedMap& map) {
     if (std::filesystem::exists(path, error)) std::filesystem::remove(before, error);
     std::filesystem::create_hard_link(path, before, error);
   }
-  writeMap(kept_, map);
-  kept_ns_ = map.stamp_ns;
+  writeMap(kept_, std::move(map).map());
+  kept_ns_ = stamp_ns;
 }
 
 bool MapServices::onSave(MapFile::Request& request, MapFile::Response& response) {
   try {
     const std::string path = pathOf(request.name);
-    const std::size_t landmarks = writeMap(path, mapOfMapper());
+    const std::size_t landmarks = writeMap(path, mapOfMapper().map());
     response.message = std::to_string(landmarks) + " landmarks written to " + path;
     response.success = 1;
   } catch (const std::exception& e) {

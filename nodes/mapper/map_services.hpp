@@ -29,7 +29,7 @@ class MapServices {
   using InitialPose = geometry_msgs::PoseWithCovarianceStamped;
   /// Called in the mapper's thread.
   struct Calls {
-    std::function<SavedMap()> save;  ///< @throws MapFileError when there is nothing to save
+    std::function<MapSnapshot()> save;  ///< @throws MapFileError when there is nothing to save
     std::function<void(std::shared_ptr<const SavedMap>)> use;  ///< nothing: an empty map
     std::function<void(const InitialPose&)> look_near;  ///< @throws std::exception with the reason
   };
@@ -59,8 +59,8 @@ class MapServices {
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void onInitialPose(const InitialPose& pose);
   void onTimer(double every_s);
-  void keep(const SavedMap& map);
-  SavedMap mapOfMapper();
+  void keep(MapSnapshot map);
+  MapSnapshot mapOfMapper();
   void inMapperThread(const std::function<void()>& work);
 
   Calls calls_;

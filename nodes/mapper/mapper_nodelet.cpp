@@ -110,7 +110,7 @@ void MapperNodelet::start() {
     if (slam_->hasMap()) outputs_->publishMap(slam_->slam().landmarks(), odometry_->frames().map);
   });
   timers_.every(nh, MapperOutputs::kStatePeriod_s, [this] {
-    static const std::vector<Landmark> kNone;
+    static const Landmarks kNone;
     outputs_->publishState(status_->latest(), slam_->hasMap() ? slam_->slam().landmarks() : kNone);
   });
   heights_->subscribe(nh);

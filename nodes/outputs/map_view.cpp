@@ -13,7 +13,7 @@ MapView::MapView(ros::NodeHandle& nh)
           [this](const ros::SingleSubscriberPublisher&) { markers_.forget(); })) {}
 
 void MapView::publishState(const Status& status, const Eigen::Vector3d& base_map,
-                           const std::vector<Landmark>& landmarks) {
+                           const Landmarks& landmarks) {
   if (state_.getNumSubscribers() == 0 || status.header.stamp == shown_ ||
       status.header.frame_id.empty())
     return;
@@ -21,8 +21,8 @@ void MapView::publishState(const Status& status, const Eigen::Vector3d& base_map
   state_.publish(toStateMarkers(status, base_map, landmarks));
 }
 
-void MapView::publishLandmarks(const std::vector<Landmark>& landmarks,
-                               const std_msgs::Header& header, const Eigen::Vector3d& base_map) {
+void MapView::publishLandmarks(const Landmarks& landmarks, const std_msgs::Header& header,
+                               const Eigen::Vector3d& base_map) {
   if (landmarks_.getNumSubscribers() == 0) return;
   const MarkerArray changes = markers_.changes(landmarks, header, base_map);
   if (!changes.markers.empty()) landmarks_.publish(changes);

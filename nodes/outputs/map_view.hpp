@@ -18,9 +18,9 @@ class MapView {
 
   /// toStateMarkers(), of a status that is new.
   void publishState(const Status& status, const Eigen::Vector3d& base_map,
-                    const std::vector<Landmark>& landmarks);
+                    const Landmarks& landmarks);
   /// LandmarkMarkers::changes(); all after somebody has begun to look.
-  void publishLandmarks(const std::vector<Landmark>& landmarks, const std_msgs::Header& header,
+  void publishLandmarks(const Landmarks& landmarks, const std_msgs::Header& header,
                         const Eigen::Vector3d& base_map);
 
  private:

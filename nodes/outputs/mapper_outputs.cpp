@@ -44,8 +44,7 @@ void MapperOutputs::publishTf(std::int64_t stamp_ns, const Eigen::Isometry3d& T_
   broadcaster_.sendTransform(transform);
 }
 
-void MapperOutputs::publishMap(const std::vector<Landmark>& landmarks,
-                               const std::string& map_frame) {
+void MapperOutputs::publishMap(const Landmarks& landmarks, const std::string& map_frame) {
   if (path_.isDue(newest_ns_)) path_.publisher.publish(toPath(fused_poses_));
   if (odometry_path_.isDue(newest_ns_)) odometry_path_.publisher.publish(toPath(odometry_poses_));
   if (cloud_.isDue(newest_ns_)) cloud_.publisher.publish(toCloud(landmarks, map_frame, newest_ns_));
@@ -55,7 +54,7 @@ void MapperOutputs::publishMap(const std::vector<Landmark>& landmarks,
   view_.publishLandmarks(landmarks, header, base_map());
 }
 
-void MapperOutputs::publishState(const Status& status, const std::vector<Landmark>& landmarks) {
+void MapperOutputs::publishState(const Status& status, const Landmarks& landmarks) {
   view_.publishState(status, base_map(), landmarks);
 }
 

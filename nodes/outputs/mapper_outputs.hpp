@@ -35,9 +35,9 @@ class MapperOutputs {
 
   /// Paths, cloud and markers: large, so only to those who look, and only when there is something
   /// new. Called at a bounded rate.
-  void publishMap(const std::vector<Landmark>& landmarks, const std::string& map_frame);
+  void publishMap(const Landmarks& landmarks, const std::string& map_frame);
   /// @param status  as published last
-  void publishState(const Status& status, const std::vector<Landmark>& landmarks);
+  void publishState(const Status& status, const Landmarks& landmarks);
 
   /// The map began anew: empties the paths.
   void clear();

@@ -92,7 +92,7 @@ void AnswerOutput::saySetup(const SetupMonitor& setup) {
   say(fault.empty() ? "camera and odometry agree again" : fault);
 }
 
-void AnswerOutput::sendTelemetry(const ImageFeatures& features, const std::vector<Landmark>& map,
+void AnswerOutput::sendTelemetry(const ImageFeatures& features, const Landmarks& map,
                                  std::int64_t now_ns) {
   if (!telemetry_socket_.isOpen() || now_ns - telemetry_sent_ns_ < telemetry_period_ns_) return;
   telemetry_sent_ns_ = now_ns;

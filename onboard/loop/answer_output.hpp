@@ -31,8 +31,7 @@ class AnswerOutput {
   /// offset was found.
   void saySetup(const SetupMonitor& setup);
   /// At most telemetry_hz.
-  void sendTelemetry(const ImageFeatures& features, const std::vector<Landmark>& map,
-                     std::int64_t now_ns);
+  void sendTelemetry(const ImageFeatures& features, const Landmarks& map, std::int64_t now_ns);
 
  private:
   void send(VslamPose& pose, const Counters& counters);

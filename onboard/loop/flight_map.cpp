@@ -24,7 +24,7 @@ void say(const std::string& path, const std::string& sentence) {
 
 /// The flight's map with what it can be refined with. Nothing more can be recorded then.
 SavedMap mapOf(const Slam& slam, std::optional<FlightRecorder>& recorder) {
-  SavedMap map = slam.save();
+  SavedMap map = slam.save().map();
   if (recorder) map.flight = recorder->take();
   return map;
 }
@@ -85,7 +85,7 @@ void FlightMap::begin(const SlamConfig& config, const Eigen::Isometry3d& T_base_
 }
 
 void FlightMap::see(const ImageFeatures& features, const OdometryState& odometry,
-                    const FrameResult& result, const std::vector<Landmark>& landmarks) {
+                    const FrameResult& result, const Landmarks& landmarks) {
   if (!recorder_) return;
   try {
     recorder_->see(features, odometry, result, landmarks);

@@ -38,7 +38,7 @@ class FlightMap {
   void begin(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam);
   /// A frame that the flight's Slam has answered, and its landmarks then.
   void see(const ImageFeatures& features, const OdometryState& odometry, const FrameResult& result,
-           const std::vector<Landmark>& landmarks);
+           const Landmarks& landmarks);
   /// The flight's map begins anew, empty: what was loaded is not loaded again, and stays in the
   /// file, as does what was saved in flight.
   void giveUp();

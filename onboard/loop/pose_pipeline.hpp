@@ -51,7 +51,7 @@ class PosePipeline {
   const FrameResult& result() const { return *result_; }
   const ImageFeatures& features() const { return features_; }
   const SetupMonitor& setup() const { return setup_; }
-  const std::vector<Landmark>& landmarks() const { return slam_->landmarks(); }
+  const Landmarks& landmarks() const { return slam_->landmarks(); }
   int restarts() const { return restarts_; }
   /// Between two frames. @copydetails FlightMap::saveInFlight()
   void saveInFlight(std::int64_t now_ns) { map_.saveInFlight(*slam_, now_ns); }

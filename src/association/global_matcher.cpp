@@ -53,7 +53,7 @@ void GlobalMatcher::matchByIndex(LandmarkMap& map, std::int64_t unseen_since_ns)
     const Landmark* landmark = map.find(static_cast<std::uint32_t>(best.index));
     if (landmark->last_seen_ns >= unseen_since_ns) continue;
     if (config_.cross_check && !isNearestTo(landmark->descriptor, q)) continue;
-    const auto index = static_cast<int>(landmark - map.all().data());
+    const auto index = static_cast<int>(map.indexOf(landmark->id));
     matches_.push_back({static_cast<int>(q), index, best.distance_bits, best.second_distance_bits});
   }
 }

@@ -16,7 +16,7 @@ bool Estimator::shift(const Revisit& /*revisit*/, const FrameView& /*view*/, Lan
   return false;
 }
 
-SavedMap Estimator::save(const LandmarkMap& /*map*/) const {
+MapSnapshot Estimator::save(const LandmarkMap& /*map*/) const {
   assert(false && "this estimator keeps no anchors");
   return {};
 }

@@ -96,9 +96,8 @@ class Estimator {
   /// The flight is elsewhere in its own map; as enterMap(). Landmarks made meanwhile go along.
   /// @return false: now it cannot be done
   virtual bool shift(const Revisit& revisit, const FrameView& view, LandmarkMap& map);
-  /// The map as it is, for a file: anchors, and the landmarks that belong to them.
-  /// @pre as enterMap()
-  virtual SavedMap save(const LandmarkMap& map) const;
+  /// The map as it is, for a file, but for its camera. @pre as enterMap()
+  virtual MapSnapshot save(const LandmarkMap& map) const;
   /// The next frame is another camera's, on the same base.
   virtual void changeCamera(const Eigen::Isometry3d& T_base_cam) = 0;
 };

@@ -25,23 +25,25 @@ void LandmarkMap::reserve() {
 
 std::uint32_t LandmarkMap::add(const Landmark& landmark) {
   const std::uint32_t id = ids_.take(index_of_id_);
-  index_of_id_.emplace(id, landmarks_.size());
+  index_of_id_.set(id, static_cast<std::uint32_t>(landmarks_.size()));
   landmarks_.push_back(landmark);
-  landmarks_.back().id = id;
+  landmarks_.change(landmarks_.size() - 1).id = id;
   stale_.push_back(0);
   markStale(landmarks_.size() - 1);
   return id;
 }
 
 void LandmarkMap::remove(std::uint32_t id) {
-  const auto entry = index_of_id_.find(id);
-  if (entry == index_of_id_.end()) return;
-  const std::size_t hole = entry->second;
-  index_of_id_.erase(entry);
+  const std::uint32_t* entry = index_of_id_.find(id);
+  if (entry == nullptr) return;
+  const std::size_t hole = *entry;
+  index_of_id_.erase(id);
+  first_ray_of_id_.erase(id);
   if (index_is_laid_out_) index_.remove(static_cast<int>(id));
   if (hole + 1 != landmarks_.size()) {
-    landmarks_[hole] = landmarks_.back();
-    index_of_id_[landmarks_[hole].id] = hole;
+    Landmark& place = landmarks_.change(hole);
+    place = landmarks_.back();
+    index_of_id_.set(place.id, static_cast<std::uint32_t>(hole));
     stale_[hole] = static_cast<std::uint8_t>(stale_.back() & kStaleIndex);
     markStale(hole);
   }
@@ -51,12 +53,12 @@ void LandmarkMap::remove(std::uint32_t id) {
 
 Landmark& LandmarkMap::at(std::size_t index) {
   markStale(index);
-  return landmarks_[index];
+  return landmarks_.change(index);
 }
 
 Landmark& LandmarkMap::atPlace(std::size_t index) {
   markStaleForColumns(index);
-  return landmarks_[index];
+  return landmarks_.change(index);
 }
 
 void LandmarkMap::markStale(std::size_t index) {
@@ -116,12 +118,12 @@ void LandmarkMap::layOutIndex() {
 bool LandmarkMap::advanceIndex() {
   if (!index_is_laid_out_ || !index_.isRightSizeFor(landmarks_.size())) layOutIndex();
   for (int step = 0; step < kIndexStep && !stale_for_index_.empty(); ++step) {
-    const auto entry = index_of_id_.find(stale_for_index_.back());
+    const std::uint32_t* entry = index_of_id_.find(stale_for_index_.back());
     stale_for_index_.pop_back();
-    if (entry == index_of_id_.end()) continue;
-    std::uint8_t& stale = stale_[entry->second];
+    if (entry == nullptr) continue;
+    std::uint8_t& stale = stale_[*entry];
     stale = static_cast<std::uint8_t>(stale & ~kStaleIndex);
-    enter(landmarks_[entry->second]);
+    enter(landmarks_[*entry]);
   }
   return stale_for_index_.empty();
 }
@@ -154,8 +156,8 @@ int LandmarkMap::enforceCap() {
 }
 
 const Landmark* LandmarkMap::find(std::uint32_t id) const {
-  const auto entry = index_of_id_.find(id);
-  return entry == index_of_id_.end() ? nullptr : &landmarks_[entry->second];
+  const std::uint32_t* entry = index_of_id_.find(id);
+  return entry == nullptr ? nullptr : &landmarks_[*entry];
 }
 
 }  // namespace ardrone_vslam

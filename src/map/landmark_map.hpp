@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "ardrone_vslam/landmark.hpp"
@@ -12,6 +11,7 @@
 #include "map/landmark_ids.hpp"
 #include "map/triangulation.hpp"
 #include "matching/descriptor_index.hpp"
+#include "matching/id_table.hpp"
 
 namespace ardrone_vslam {
 
@@ -31,7 +31,7 @@ class LandmarkMap {
   int enforceCap();
 
   /// All landmarks, dense; order changes only by remove (the last one takes the place).
-  const std::vector<Landmark>& all() const { return landmarks_; }
+  const Landmarks& all() const { return landmarks_; }
   /// Number of landmarks.
   std::size_t size() const { return landmarks_.size(); }
   /// Takes the memory for the cap, and for those that one image adds before some go, now, so
@@ -44,10 +44,16 @@ class LandmarkMap {
   /// For changes that leave the descriptor as it is.
   Landmark& atPlace(std::size_t index);
   /// One more view in which the landmark should have been seen and was not. @return times_missed
-  int addMiss(std::size_t index) { return ++landmarks_[index].times_missed; }
+  int addMiss(std::size_t index) { return ++landmarks_.change(index).times_missed; }
   /// One more image that speaks against the landmark. @return times_failed
-  int addFailure(std::size_t index) { return ++landmarks_[index].times_failed; }
-  /// @return nullptr when there is none of this id
+  int addFailure(std::size_t index) { return ++landmarks_.change(index).times_failed; }
+  /// Its place in all(). @pre there is one of this id
+  std::size_t indexOf(std::uint32_t id) const { return index_of_id_.at(id); }
+  /// Keeps the ray by which a landmark was first seen; without it, a landmark takes none.
+  void setFirstRay(std::uint32_t id, const Ray& ray) { first_ray_of_id_.set(id, ray); }
+  /// @return nullptr when none is kept
+  const Ray* firstRay(std::uint32_t id) const { return first_ray_of_id_.find(id); }
+  /// @return nullptr when there is no landmark of this id
   const Landmark* find(std::uint32_t id) const;
 
   /// All landmarks as arrays for the projection near a camera, up to date; entry i belongs to
@@ -78,8 +84,9 @@ class LandmarkMap {
   void enter(const Landmark& landmark);
 
   LandmarkMapConfig config_;
-  std::vector<Landmark> landmarks_;
-  std::unordered_map<std::uint32_t, std::size_t> index_of_id_;
+  Landmarks landmarks_;
+  IdTable<std::uint32_t> index_of_id_;  // into landmarks_
+  IdTable<Ray> first_ray_of_id_;
   LandmarkIds ids_;
 
   LandmarkColumns columns_;

@@ -46,7 +46,7 @@ double worthOf(const Landmark& landmark, std::int64_t now_ns) {
 
 }  // namespace
 
-std::vector<std::uint32_t> leastWorth(const std::vector<Landmark>& landmarks, std::size_t count) {
+std::vector<std::uint32_t> leastWorth(const Landmarks& landmarks, std::size_t count) {
   std::int64_t now_ns = 0;
   for (const Landmark& landmark : landmarks) now_ns = std::max(now_ns, landmark.last_seen_ns);
   std::vector<Candidate> candidates;

@@ -14,6 +14,6 @@ namespace ardrone_vslam {
 /// its distance. Of those in one cell of space, a tenth to a fifth of the distance wide, the n-th
 /// best counts an n-th of that. So no place is lost whole, and a new one finds room.
 /// @return `count` ids (or all), the least worth first. O(n log n)
-std::vector<std::uint32_t> leastWorth(const std::vector<Landmark>& landmarks, std::size_t count);
+std::vector<std::uint32_t> leastWorth(const Landmarks& landmarks, std::size_t count);
 
 }  // namespace ardrone_vslam

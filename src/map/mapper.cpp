@@ -34,7 +34,8 @@ void Mapper::refine(const FrameView& view, const std::vector<Association>& match
     const auto feature = static_cast<std::size_t>(match.feature);
     Landmark& landmark = map.at(static_cast<std::size_t>(match.target));
     const Ray ray = view.ray(feature);
-    widenBaseline(view, feature, landmark);
+    const Ray* first_ray = map.firstRay(landmark.id);
+    if (first_ray != nullptr) widenBaseline(view, feature, *first_ray, landmark);
     const double depth = (landmark.position_map - ray.origin_map).dot(ray.direction_map);  // (5.20)
     const Eigen::Vector3d measured = ray.origin_map + depth * ray.direction_map;           // (5.21)
     const double sigma_p =
@@ -48,14 +49,15 @@ void Mapper::refine(const FrameView& view, const std::vector<Association>& match
   }
 }
 
-void Mapper::widenBaseline(const FrameView& view, std::size_t feature, Landmark& landmark) const {
+void Mapper::widenBaseline(const FrameView& view, std::size_t feature, const Ray& first_ray,
+                           Landmark& landmark) const {
   // A track that goes on is hardly ever a mismatch, a landmark found by its descriptor may be one.
   if (landmark.track_id != view.features().track_id[feature]) return;
   // A wrong feature may still lie within the landmark's threshold, and would count for good, as the
   // parallax only grows. Of the first view's epipolar plane it seldom lies within three sigmas.
-  const auto offset = epipolarOffset(landmark.first_ray, view.ray(feature));
+  const auto offset = epipolarOffset(first_ray, view.ray(feature));
   if (!offset || offset->across > 3 * angleSigma_rad(view.focalLength_px())) return;
-  const auto point = triangulate(landmark.first_ray, view.ray(feature));
+  const auto point = triangulate(first_ray, view.ray(feature));
   if (!point || point->parallax_rad < config_.baseline_growth * landmark.parallax_rad) return;
   // After a long way round the drift between the two views would turn the map: then the wider
   // baseline gives no better depth.
@@ -129,12 +131,11 @@ int Mapper::triangulateMatches(const FrameView& view, const std::vector<Associat
     landmark.position_variance_m2 = view.positionVariance_m2();
     landmark.sigma_m = measurementSigma_m(sigma_p, point->depth_m, sigma_a);  // (5.19)
     landmark.depth_sigma_m = depthSigma_m(landmark.sigma_m, point->parallax_rad);
-    landmark.first_ray = first.ray;
     landmark.parallax_rad = point->parallax_rad;
     landmark.first_seen_ns = first.stamp_ns;
     landmark.times_seen = 1;
     rememberObservation(view, feature, landmark);
-    landmarks.add(landmark);
+    landmarks.setFirstRay(landmarks.add(landmark), first.ray);
     ++made;
   }
   return made;

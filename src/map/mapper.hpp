@@ -58,7 +58,8 @@ class Mapper {
  private:
   /// Depth comes from parallax, which grows while a track goes on; the scalar update across the ray
   /// hardly mends it.
-  void widenBaseline(const FrameView& view, std::size_t feature, Landmark& landmark) const;
+  void widenBaseline(const FrameView& view, std::size_t feature, const Ray& first_ray,
+                     Landmark& landmark) const;
 
   MapperConfig config_;
 };

@@ -23,14 +23,14 @@ FixedMap::FixedMap(SavedMap& map, MapEntry& entry) {
   map_.anchor_covariance.swap(map.anchor_covariance);
 }
 
-SavedMap FixedMap::mapWith(std::vector<Landmark> landmarks, std::int64_t stamp_ns) const {
+MapSnapshot FixedMap::snapshotWith(Landmarks landmarks, std::int64_t stamp_ns) const {
   assert(landmarks.size() == anchors_.size());
-  SavedMap map = map_;
-  map.stamp_ns = stamp_ns;
-  map.landmarks = std::move(landmarks);
-  const std::size_t count = std::min(anchors_.size(), map.landmarks.size());
-  for (std::size_t i = 0; i < count; ++i) map.landmarks[i].anchor_id = anchors_[i];
-  return map;
+  const std::size_t count = std::min(anchors_.size(), landmarks.size());
+  for (std::size_t i = 0; i < count; ++i) landmarks.change(i).anchor_id = anchors_[i];
+  MapSnapshot snapshot(map_);
+  snapshot.all_but_landmarks.stamp_ns = stamp_ns;
+  snapshot.landmarks = std::move(landmarks);
+  return snapshot;
 }
 
 void FixedMap::addErrors(Estimate& estimate) const {

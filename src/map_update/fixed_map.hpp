@@ -22,7 +22,7 @@ class FixedMap {
   FixedMap(SavedMap& map, MapEntry& entry);
 
   /// As it was loaded. @param landmarks  all of them, as the flight has them, in their order
-  SavedMap mapWith(std::vector<Landmark> landmarks, std::int64_t stamp_ns) const;
+  MapSnapshot snapshotWith(Landmarks landmarks, std::int64_t stamp_ns) const;
 
   /// The pose errs as the map does there, which is as its nearest anchor does, beside what it errs
   /// in the map. The scale is at best that of the map. O(anchors).

@@ -69,7 +69,7 @@ void renew(const UsedTrack& one, const FrameView& view, const MsckfConfig& confi
   better.descriptor = landmark.descriptor;
   better.first_seen_ns = landmark.first_seen_ns;
   better.times_seen += landmark.times_seen;
-  map.atPlace(static_cast<std::size_t>(&landmark - map.all().data())) = better;
+  map.atPlace(map.indexOf(landmark.id)) = better;
 }
 
 void applyCorrections(const std::vector<AnchorCorrection>& corrections, const FrameView& view,

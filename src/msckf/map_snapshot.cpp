@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "msckf/map_snapshot.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -10,41 +12,37 @@ namespace {
 
 static_assert(SavedMap::kAnchor == WindowState::kAnchor, "a file has the filter's coordinates");
 
-/// Poses that landmarks belong to, and how a file's coordinates follow from the filter's.
+/// How a file's coordinates follow from the filter's.
 class Gathering {
  public:
-  Gathering(const WindowState& state, const std::vector<Landmark>& landmarks) : state_(state) {
-    for (const Landmark& landmark : landmarks) place_of_id_.emplace(landmark.anchor_id, 0);
-    for (std::size_t i = 0; i < state.anchors().size(); ++i)
-      take(state.anchors()[i], state.anchorCoordinate(i), true);
-    for (std::size_t i = 0; i < state.frames().size(); ++i)
-      take(state.frames()[i], state.frameCoordinate(i), false);
+  explicit Gathering(const WindowState& state) : state_(state) {}
+
+  void add(const Clone& clone, int coordinate, bool is_anchor) {
+    poses_.push_back({&clone, coordinate, is_anchor});
   }
 
-  SavedMap map() const {
-    SavedMap map;
-    map.stamp_ns = state_.newest().stamp_ns;
-    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(
-        SavedMap::kAnchor * static_cast<Eigen::Index>(poses_.size()), state_.covariance().rows());
+  std::vector<MapAnchor> anchors() const {
+    std::vector<MapAnchor> anchors;
     for (const Pose& pose : poses_) {
-      MapAnchor anchor;
+      MapAnchor& anchor = anchors.emplace_back();
       anchor.T_map_rig.translation() = pose.clone->position_map;
       anchor.T_map_rig.linear() = pose.clone->R_map_rig;
       anchor.stamp_ns = pose.clone->stamp_ns;
-      const auto row = SavedMap::kAnchor * static_cast<Eigen::Index>(map.anchors.size());
-      J.block<6, 6>(row, pose.coordinate).setIdentity();
-      addStretch(pose, J.row(row + WindowState::kFrame));
-      map.anchors.push_back(anchor);
     }
-    const Eigen::MatrixXd P = J * state_.covariance() * J.transpose();
-    map.anchor_covariance = 0.5 * (P + P.transpose());
-    return map;
+    return anchors;
   }
 
-  /// @return 0: it is not among the poses
-  std::uint32_t numberOf(std::uint32_t id) const {
-    const auto place = place_of_id_.find(id);
-    return place == place_of_id_.end() ? 0 : place->second;
+  std::vector<std::uint32_t> ids() const {
+    std::vector<std::uint32_t> ids;
+    for (const Pose& pose : poses_) ids.push_back(pose.clone->id);
+    return ids;
+  }
+
+  /// J P J^T, J being the file's coordinates by the filter's.
+  Eigen::MatrixXd covariance() const {
+    const Eigen::MatrixXd JP = timesJacobian(state_.covariance());
+    const Eigen::MatrixXd P = timesJacobian(JP.transpose());
+    return 0.5 * (P + P.transpose());
   }
 
  private:
@@ -54,42 +52,109 @@ class Gathering {
     bool is_anchor;
   };
 
-  void take(const Clone& clone, int coordinate, bool is_anchor) {
-    const auto place = place_of_id_.find(clone.id);
-    if (place == place_of_id_.end()) return;
-    poses_.push_back({&clone, coordinate, is_anchor});
-    place->second = static_cast<std::uint32_t>(poses_.size());
+  /// J M: most rows of J have a single one.
+  Eigen::MatrixXd timesJacobian(const Eigen::MatrixXd& M) const {
+    Eigen::MatrixXd product(SavedMap::kAnchor * static_cast<Eigen::Index>(poses_.size()), M.cols());
+    Eigen::Index row = 0;
+    for (const Pose& pose : poses_) {
+      product.middleRows<6>(row) = M.middleRows<6>(pose.coordinate);
+      product.row(row + WindowState::kFrame) = stretchOf(pose, M);
+      row += SavedMap::kAnchor;
+    }
+    return product;
   }
 
   /// Of this flight's landmarks all distances err with its scale, and by the bias of their time.
-  void addStretch(const Pose& pose, Eigen::MatrixXd::RowXpr row) const {
-    if (!pose.clone->is_loaded) row(WindowState::kScale) = 1;
+  static Eigen::RowVectorXd stretchOf(const Pose& pose, const Eigen::MatrixXd& M) {
+    Eigen::RowVectorXd stretch = Eigen::RowVectorXd::Zero(M.cols());
+    if (!pose.clone->is_loaded) stretch += M.row(WindowState::kScale);
     if (pose.is_anchor) {
-      row(pose.coordinate + WindowState::kFrame) = 1;
+      stretch += M.row(pose.coordinate + WindowState::kFrame);
     } else {
-      row.segment<3>(WindowState::kBias) = pose.clone->stretch_by_bias_s_m.transpose();
+      stretch += pose.clone->stretch_by_bias_s_m.transpose() * M.middleRows<3>(WindowState::kBias);
     }
+    return stretch;
   }
 
   const WindowState& state_;
   std::vector<Pose> poses_;
-  std::unordered_map<std::uint32_t, std::uint32_t> place_of_id_;  // 1 + index; 0: not there
 };
+
+Eigen::Index coordinateOf(std::size_t anchor) {
+  return SavedMap::kAnchor * static_cast<Eigen::Index>(anchor);
+}
 
 }  // namespace
 
-SavedMap savedMapOf(const WindowState& state, const std::vector<Landmark>& landmarks) {
-  if (state.frames().empty()) return {};  // nothing was seen yet
-  const Gathering gathering(state, landmarks);
-  SavedMap map = gathering.map();
+MapSnapshot snapshotOf(const WindowState& state, const Landmarks& landmarks) {
+  MapSnapshot snapshot;
+  if (state.frames().empty()) return snapshot;  // nothing was seen yet
+  Gathering gathering(state);
+  for (std::size_t i = 0; i < state.anchors().size(); ++i)
+    gathering.add(state.anchors()[i], state.anchorCoordinate(i), true);
+  for (std::size_t i = 0; i < state.frames().size(); ++i)
+    gathering.add(state.frames()[i], state.frameCoordinate(i), false);
+  snapshot.all_but_landmarks.stamp_ns = state.newest().stamp_ns;
+  snapshot.all_but_landmarks.anchors = gathering.anchors();
+  snapshot.all_but_landmarks.anchor_covariance = gathering.covariance();
+  snapshot.anchor_ids = gathering.ids();
+  snapshot.landmarks = landmarks;
+  return snapshot;
+}
+
+MapSnapshot::MapSnapshot(SavedMap map)
+    : all_but_landmarks(std::move(map)),
+      anchor_ids(all_but_landmarks.anchors.size()),
+      landmarks(all_but_landmarks.landmarks) {
+  all_but_landmarks.landmarks = {};
+  std::iota(anchor_ids.begin(), anchor_ids.end(), 1);
+}
+
+SavedMap MapSnapshot::map() && {
+  SavedMap map = std::move(all_but_landmarks);
+  std::unordered_map<std::uint32_t, std::uint32_t> number_of_id;
+  for (const std::uint32_t id : anchor_ids)
+    number_of_id.emplace(id, static_cast<std::uint32_t>(number_of_id.size() + 1));
   map.landmarks.reserve(landmarks.size());
   for (const Landmark& landmark : landmarks) {
-    const std::uint32_t number = gathering.numberOf(landmark.anchor_id);
-    if (number == 0) continue;
+    const auto number = number_of_id.find(landmark.anchor_id);
+    if (number == number_of_id.end()) continue;
     map.landmarks.push_back(landmark);
-    map.landmarks.back().anchor_id = number;
+    map.landmarks.back().anchor_id = number->second;
   }
+  keepUsedAnchors(map);
   return map;
+}
+
+void keepAnchors(SavedMap& map, const std::vector<std::size_t>& anchors) {
+  const std::vector<MapAnchor> all = std::move(map.anchors);
+  const Eigen::MatrixXd P = std::move(map.anchor_covariance);
+  map.anchors.clear();
+  map.anchor_covariance.resize(coordinateOf(anchors.size()), coordinateOf(anchors.size()));
+  std::vector<std::uint32_t> number(all.size(), 0);
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    map.anchors.push_back(all[anchors[i]]);
+    number[anchors[i]] = static_cast<std::uint32_t>(i + 1);
+    for (std::size_t j = 0; j < anchors.size(); ++j)
+      map.anchor_covariance.block<SavedMap::kAnchor, SavedMap::kAnchor>(coordinateOf(i),
+                                                                        coordinateOf(j)) =
+          P.block<SavedMap::kAnchor, SavedMap::kAnchor>(coordinateOf(anchors[i]),
+                                                        coordinateOf(anchors[j]));
+  }
+  for (Landmark& landmark : map.landmarks) landmark.anchor_id = number[landmark.anchor_id - 1];
+  const auto is_gone = [](const Landmark& landmark) { return landmark.anchor_id == 0; };
+  map.landmarks.erase(std::remove_if(map.landmarks.begin(), map.landmarks.end(), is_gone),
+                      map.landmarks.end());
+}
+
+void keepUsedAnchors(SavedMap& map) {
+  std::vector<bool> is_used(map.anchors.size(), false);
+  for (const Landmark& landmark : map.landmarks) is_used[landmark.anchor_id - 1] = true;
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < is_used.size(); ++i) {
+    if (is_used[i]) used.push_back(i);
+  }
+  keepAnchors(map, used);
 }
 
 LoadedAnchors anchorsOf(const SavedMap& map) {

@@ -10,10 +10,9 @@
 /// Between the filter's anchors and those of a map that outlives it.
 namespace ardrone_vslam {
 
-/// The map as it stands: the poses that landmarks belong to, frames of the window included, with
-/// their joint covariance, and the landmarks. Frame and camera are left to who knows them.
-/// O(anchors^2 x coordinates + landmarks).
-SavedMap savedMapOf(const WindowState& state, const std::vector<Landmark>& landmarks);
+/// The map as it stands: anchors and frames of the window with their joint covariance, and the
+/// landmarks. Frame and camera are left to who knows them. O(coordinates^2 + landmarks / 256).
+MapSnapshot snapshotOf(const WindowState& state, const Landmarks& landmarks);
 
 /// The other way round.
 LoadedAnchors anchorsOf(const SavedMap& map);

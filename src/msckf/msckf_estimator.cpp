@@ -71,9 +71,9 @@ bool MsckfEstimator::shift(const Revisit& revisit, const FrameView& view, Landma
   return true;
 }
 
-SavedMap MsckfEstimator::save(const LandmarkMap& map) const {
-  if (fixed_map_) return fixed_map_->mapWith(map.all(), filter_.newest().stamp_ns);
-  return savedMapOf(filter_.state(), map.all());
+MapSnapshot MsckfEstimator::save(const LandmarkMap& map) const {
+  if (fixed_map_) return fixed_map_->snapshotWith(map.all(), filter_.newest().stamp_ns);
+  return snapshotOf(filter_.state(), map.all());
 }
 
 CameraPose MsckfEstimator::camera() {

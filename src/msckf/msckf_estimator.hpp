@@ -32,7 +32,7 @@ class MsckfEstimator final : public Estimator {
   void enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameView& view,
                 LandmarkMap& map) override;
   bool shift(const Revisit& revisit, const FrameView& view, LandmarkMap& map) override;
-  SavedMap save(const LandmarkMap& map) const override;
+  MapSnapshot save(const LandmarkMap& map) const override;
   void changeCamera(const Eigen::Isometry3d& T_base_cam) override;
 
  private:

@@ -102,7 +102,7 @@ struct FlightRecorder::State {
   }
 
   /// From then on it stays as it is: later frames that fit would be far apart.
-  bool isFullWith(const ImageFeatures& features, const std::vector<Landmark>& landmarks) {
+  bool isFullWith(const ImageFeatures& features, const Landmarks& landmarks) {
     const std::size_t most = bytes + sizeof(Keyframe) + features.size() * sizeof(KeyframeView) +
                              landmarks.size() * sizeof(LandmarkTrack);
     is_full = is_full || most > most_bytes;
@@ -115,7 +115,7 @@ struct FlightRecorder::State {
     bytes += sizeof(PassedFrame);
   }
 
-  void addLandmarks(const std::vector<Landmark>& landmarks) {
+  void addLandmarks(const Landmarks& landmarks) {
     const std::int64_t since_ns = record.keyframes.empty() ? 0 : record.keyframes.back().stamp_ns;
     for (const Landmark& landmark : landmarks) {
       if (landmark.last_seen_ns > since_ns)
@@ -156,7 +156,7 @@ void FlightRecorder::useCamera(const Eigen::Isometry3d& T_base_cam) {
 }
 
 void FlightRecorder::see(const ImageFeatures& features, const OdometryState& odometry,
-                         const FrameResult& result, const std::vector<Landmark>& landmarks) {
+                         const FrameResult& result, const Landmarks& landmarks) {
   State& s = *state_;
   if (s.steps.isNewStart(odometry) || result.state == SlamState::kSearchingMap ||
       result.revisit_m > 0) {

@@ -68,13 +68,12 @@ bool Slam::hasWholeMap() const {
   return !isSearching() || state_->search->isOwn();
 }
 
-SavedMap Slam::save() const {
+MapSnapshot Slam::save() const {
   refuse(faultOfMaps(state_->config));
-  if (isSearching() && hasWholeMap()) return state_->search->map();
-  return state_->save();
+  return isSearching() && hasWholeMap() ? MapSnapshot(state_->search->map()) : state_->save();
 }
 
-const std::vector<Landmark>& Slam::landmarks() const {
+const Landmarks& Slam::landmarks() const {
   return state_->map.all();
 }
 

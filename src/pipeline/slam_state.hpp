@@ -41,16 +41,16 @@ struct Slam::State {
   /// The thesis's 2-D mode; the MSCKF's `planar` is a measurement of z.
   bool hasFlatRays() const { return config.planar && config.estimator != EstimatorKind::kMsckf; }
   FrameResult result;
-  SavedMap save() const {
-    SavedMap saved = estimator->save(map);
-    saved.camera = seen_by;
+  MapSnapshot save() const {
+    MapSnapshot saved = estimator->save(map);
+    saved.all_but_landmarks.camera = seen_by;
     return saved;
   }
   /// Another flight in the map so far, if there is one: where the drone is now is not known.
   std::unique_ptr<State> flyAgain() const {
     auto next = std::make_unique<State>(config, T_base_cam);
     const bool is_own = !search || search->isOwn();
-    SavedMap so_far = search ? search->map() : save();
+    SavedMap so_far = search ? search->map() : save().map();
     if (!is_own || so_far.landmarks.size() >= kFewestFixLandmarks)
       next->search = std::make_unique<MapSearch>(std::move(so_far), config, is_own);
     return next;

@@ -56,7 +56,7 @@ TEST(OnboardAllocation, NoneForAnswersAndTelemetry) {
   config.pose_address = "127.0.0.1:" + std::to_string(portOf(controller.get()));
   config.telemetry_address = "127.0.0.1:" + std::to_string(portOf(workstation.get()));
   AnswerOutput output(config);
-  const std::vector<Landmark> landmarks(500);
+  const Landmarks landmarks(std::vector<Landmark>(500));
   const FrameResult result;
   const ImageFeatures features;
   EXPECT_EQ(during([&] {

@@ -45,6 +45,16 @@ def check_mapping_cost(program, folder):
         assert float(row["features"]) > 0 and float(row["landmarks"]) > 0 and float(row["associate_ms"]) > 0, row
 
 
+def check_map_saving(program, folder):
+    page = run(program, "--quick", "--folder", folder)
+    rows = re.findall(r"^\| (\d.*) \|$", page, re.M)
+    assert len(rows) == 1, page
+    landmarks, _, _, frames, *times, file_mb = rows[0].split(" | ")
+    assert int(landmarks) == 3000 and int(frames) > 0 and all(float(time) >= 0 for time in times), page
+    assert 0.1 < float(file_mb) < 3, page
+    assert not any(folder.iterdir()), "the map is left there"
+
+
 def check_lens_correction(program, folder):
     rows = re.findall(r"^\| (\S[^|]*) \| (\S+) \| (\S+) \| (\S+) \| (\S+) \|$", run(program), re.M)
     rows = [row for row in rows if row[0] != "way"]

@@ -37,12 +37,14 @@ SavedMap twoAnchors() {
 /// Keyframes at 50 ns and 150 ns, at x = 0 and 2 by the odometry and as fused; the frame at 100 ns
 /// lies between.
 FlightRecord twoKeyframes() {
+  Keyframe first;
+  Keyframe second;
+  first.stamp_ns = 50;
+  second.stamp_ns = 150;
+  second.T_odom_base = second.T_map_base = turned(0, {2, 0, 0});
+  second.passed = {{100, turned(0, {1, 0, 0})}};
   FlightRecord record;
-  record.keyframes.resize(2);
-  record.keyframes[0].stamp_ns = 50;
-  record.keyframes[1].stamp_ns = 150;
-  record.keyframes[1].T_odom_base = record.keyframes[1].T_map_base = turned(0, {2, 0, 0});
-  record.keyframes[1].passed = {{100, turned(0, {1, 0, 0})}};
+  record.keyframes = {first, second};
   return record;
 }
 

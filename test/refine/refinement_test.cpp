@@ -70,9 +70,10 @@ TEST(Refinement, ManyKeyframesAreSolvedByConjugateGradients) {
 
 TEST(Refinement, WithTooFewViewsItIsRefused) {
   RecordedFlight flight{drifting()};
-  for (Keyframe& keyframe : flight.record.keyframes) keyframe.views.resize(1);
+  auto& keyframes = flight.record.keyframes;
+  for (std::size_t k = 0; k < keyframes.size(); ++k) keyframes.change(k).views.resize(1);
   EXPECT_THROW(refine(flight.record), std::runtime_error);
-  flight.record.keyframes.resize(1);
+  keyframes = {keyframes.front()};
   EXPECT_THROW(refine(flight.record), std::runtime_error);
 }
 

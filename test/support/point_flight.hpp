@@ -116,7 +116,7 @@ PositionError errorOf(const Flight& flight, PositionAt&& position_at) {
 /// What a run of Slam over a flight gave.
 struct FlightRun {
   std::vector<FrameResult> results;
-  std::vector<Landmark> landmarks;
+  Landmarks landmarks;
   PositionError fused;
   PositionError odometry;
 };

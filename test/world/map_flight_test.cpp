@@ -25,7 +25,7 @@ SavedMap mapOf(PointWorld& world, std::uint64_t seed) {
   Slam slam(test::configForDrift(), test::forwardExtrinsics());
   const auto frames = test::film(world, flight);
   for (std::size_t i = 0; i < frames.size(); ++i) slam.process(frames[i], odometry[i]);
-  return slam.save();
+  return slam.save().map();
 }
 
 /// On another circle, the other way round, from anywhere on it.
@@ -88,7 +88,7 @@ Again flyAgain(PointWorld& world, const Flight& flight, const SavedMap& map, std
     again.rmse_m = std::sqrt(squares_m2 / count);
     again.nees /= count;
   }
-  again.map = slam.save();
+  again.map = slam.save().map();
   again.last = slam.process(world.look(flight.back().T_map_base * test::forwardExtrinsics(),
                                        flight.back().stamp_ns + 100'000'000),
                             [&] {
@@ -174,13 +174,43 @@ TEST(MapFlight, LocaliseOnlyFindsItsMapAgainAsItWas) {
   }
   EXPECT_GT(found, 60U);
   EXPECT_GT(sigma_m, 0.02) << "the map's errors still count";
-  const SavedMap after = slam.save();
+  const SavedMap after = slam.save().map();
   ASSERT_EQ(after.landmarks.size(), map.landmarks.size());
   for (std::size_t i = 0; i < map.landmarks.size(); ++i) {
     EXPECT_EQ(after.landmarks[i].position_map, map.landmarks[i].position_map);
     EXPECT_EQ(after.landmarks[i].anchor_id, map.landmarks[i].anchor_id);
   }
   EXPECT_EQ(after.anchor_covariance, map.anchor_covariance);
+}
+
+/// A writer's thread makes the file's map of it while the flight changes its own.
+TEST(MapFlight, ASnapshotStaysWhatItWas) {
+  PointWorld world(1);
+  const Flight flight = test::lapsFlight(200, 2, kMapRate_hz);
+  const auto odometry = test::observe(flight, {}, 1);
+  Slam slam(test::configForDrift(), test::forwardExtrinsics());
+  const auto frames = test::film(world, flight);
+  MapSnapshot snapshot;
+  SavedMap at_once;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    slam.process(frames[i], odometry[i]);
+    if (i != 150) continue;
+    snapshot = slam.save();
+    at_once = slam.save().map();
+  }
+  const SavedMap later = std::move(snapshot).map();
+  ASSERT_EQ(later.landmarks.size(), at_once.landmarks.size());
+  ASSERT_GT(later.landmarks.size(), 100U);
+  EXPECT_EQ(later.anchors.size(), at_once.anchors.size());
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < later.landmarks.size(); ++i) {
+    const Landmark& one = later.landmarks[i];
+    ASSERT_EQ(one.position_map, at_once.landmarks[i].position_map) << i;
+    ASSERT_EQ(one.times_seen, at_once.landmarks[i].times_seen) << i;
+    ASSERT_EQ(one.anchor_id, at_once.landmarks[i].anchor_id) << i;
+    moved += one.times_seen != slam.landmarks()[i].times_seen ? 1 : 0;
+  }
+  EXPECT_GT(moved, 50U) << "the flight went on with the same landmarks";
 }
 
 /// The map of two rooms that are equal in all, this far apart.
@@ -242,7 +272,7 @@ TEST(MapFlight, AHintInFlightBeginsTheSearchAnew) {
   const auto frames = test::film(world, flight);
   Slam slam(test::configForDrift(), test::forwardExtrinsics());
   EXPECT_THROW(slam.lookNear({}), std::invalid_argument) << "there is no map";
-  EXPECT_TRUE(slam.save().landmarks.empty());
+  EXPECT_TRUE(slam.save().map().landmarks.empty());
   std::size_t i = 0;
   for (; i < 250; ++i) slam.process(frames[i], odometry[i]);
   slam.lookNear(clickNear({flight[i]}, 0));
@@ -310,7 +340,7 @@ TEST(MapFlight, AFileKeepsAllThatAFlightNeeds) {
 TEST(MapFlight, TheThesisHasNoMapsToLoad) {
   Slam slam(test::thesisConfig(), test::forwardExtrinsics());
   EXPECT_THROW(slam.load({}), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(slam.save()), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(slam.save().map()), std::invalid_argument);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ struct Carried {
   std::vector<double> errors_m;
   std::vector<double> nees;        // 3 is honest
   std::vector<double> revisits_m;  // FrameResult::revisit_m
-  std::vector<Landmark> landmarks;
+  Landmarks landmarks;
   SavedMap map;
 
   /// Images until the pose is where the drone is; as many as there are if it never was.
@@ -118,12 +118,12 @@ Carried fly(PointWorld& world, const Carry& carry, PointWorld& there,
     carried.revisits_m.push_back(result.revisit_m);
   }
   carried.landmarks = slam.landmarks();
-  carried.map = slam.save();
+  carried.map = slam.save().map();
   return carried;
 }
 
 /// From each landmark to the nearest point of the world, the median.
-double medianOff_m(const std::vector<Landmark>& landmarks, const PointWorld& world,
+double medianOff_m(const Landmarks& landmarks, const PointWorld& world,
                    std::int64_t made_since_ns) {
   std::vector<double> off_m;
   for (const Landmark& landmark : landmarks) {

@@ -40,7 +40,8 @@ SavedMap together(const JointMaps& joint, const std::vector<LandmarkPair>& pairs
   std::stable_sort(oldest_first.begin(), oldest_first.end(), [&map](std::size_t i, std::size_t j) {
     return map.anchors[i].stamp_ns < map.anchors[j].stamp_ns;
   });
-  map = withAnchors(map, oldest_first);
+  map.flight = {};
+  keepAnchors(map, oldest_first);
   for (std::size_t i = 0; i < map.landmarks.size(); ++i)
     map.landmarks[i].id = static_cast<std::uint32_t>(i + 1);
   return map;

@@ -8,44 +8,14 @@
 
 namespace ardrone_vslam {
 
-SavedMap withAnchors(const SavedMap& map, const std::vector<std::size_t>& anchors) {
-  SavedMap part = map;
-  part.anchors.clear();
-  part.landmarks.clear();
-  part.flight = {};
-  part.anchor_covariance.resize(coordinateOf(anchors.size()), coordinateOf(anchors.size()));
-  std::vector<std::uint32_t> number(map.anchors.size(), 0);
-  for (std::size_t i = 0; i < anchors.size(); ++i) {
-    part.anchors.push_back(map.anchors[anchors[i]]);
-    number[anchors[i]] = static_cast<std::uint32_t>(i + 1);
-    for (std::size_t j = 0; j < anchors.size(); ++j) {
-      part.anchor_covariance.block<SavedMap::kAnchor, SavedMap::kAnchor>(coordinateOf(i),
-                                                                         coordinateOf(j)) =
-          map.anchor_covariance.block<SavedMap::kAnchor, SavedMap::kAnchor>(
-              coordinateOf(anchors[i]), coordinateOf(anchors[j]));
-    }
-  }
-  for (const Landmark& landmark : map.landmarks) {
-    const std::uint32_t anchor_id = number[landmark.anchor_id - 1];
-    if (anchor_id == 0) continue;
-    part.landmarks.push_back(landmark);
-    part.landmarks.back().anchor_id = anchor_id;
-  }
-  return part;
-}
-
 SavedMap partOf(const SavedMap& map, const std::function<bool(const Landmark&)>& isKept) {
   SavedMap part = map;
   const auto end =
       std::remove_if(part.landmarks.begin(), part.landmarks.end(), std::not_fn(isKept));
   part.landmarks.erase(end, part.landmarks.end());
-  std::vector<bool> is_used(map.anchors.size(), false);
-  for (const Landmark& landmark : part.landmarks) is_used[landmark.anchor_id - 1] = true;
-  std::vector<std::size_t> used;
-  for (std::size_t i = 0; i < is_used.size(); ++i) {
-    if (is_used[i]) used.push_back(i);
-  }
-  return withAnchors(part, used);
+  part.flight = {};
+  keepUsedAnchors(part);
+  return part;
 }
 
 SavedMap prune(const SavedMap& map, const PruneRules& rules) {

@@ -22,10 +22,6 @@ inline Eigen::Index coordinateOf(std::size_t anchor) {
 /// The landmarks for which `isKept` holds, and the anchors that they belong to.
 SavedMap partOf(const SavedMap& map, const std::function<bool(const Landmark&)>& isKept);
 
-/// The map with these of its anchors, in this order, and their landmarks.
-/// @param anchors  indices into map.anchors, each at most once
-SavedMap withAnchors(const SavedMap& map, const std::vector<std::size_t>& anchors);
-
 /// What must be true of a landmark to stay.
 struct PruneRules {
   int least_seen = 0;                                             ///< times

@@ -74,7 +74,7 @@ RunResult BackEnd::result(bool is_finished, bool is_map_saved) const {
   RunResult run = run_;
   if (is_finished && recorder_) run.record = recorder_->record();
   if (is_map_saved && slam_.hasWholeMap()) {
-    run.map = slam_.save();
+    run.map = slam_.save().map();
     run.map->flight = run.record;
   }
   run.time_offset = setup_.clock().estimate();

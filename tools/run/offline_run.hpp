@@ -43,7 +43,7 @@ struct RefinedRun {
 struct RunResult {
   bool is_finished = false;  ///< false: what there is so far
   std::vector<RunFrame> frames;
-  std::vector<Landmark> landmarks;
+  Landmarks landmarks;
   bool is_in_loaded_map = false;  ///< frames before it was found there are kSearchingMap
   std::optional<SavedMap> map;    ///< when it was asked for, and is not that of another origin
   FlightRecord record;            ///< when it was asked for

@@ -38,7 +38,7 @@ SavedMap mapOf(PointWorld& world, const Flight& flight, const Eigen::Isometry3d&
   Slam slam(test::configForDrift(), test::forwardExtrinsics());
   const auto frames = test::film(world, flight);
   for (std::size_t i = 0; i < frames.size(); ++i) slam.process(frames[i], odometry[i]);
-  return slam.save();
+  return slam.save().map();
 }
 
 Eigen::Isometry3d somewhere(std::uint64_t seed) {

@@ -20,7 +20,7 @@ RunResult runWith(int used_of_40) {
     frame.result.T_odom_base.translation().x() = 0.1 * i;
     run.frames.push_back(frame);
   }
-  run.landmarks.emplace_back();
+  run.landmarks = {Landmark()};
   return run;
 }
 

@@ -48,9 +48,9 @@ RunResult someRun() {
     frame.times_ms = {1, 2, 3, 0, 0, static_cast<double>(i)};
     run.frames.push_back(frame);
   }
-  run.landmarks.resize(2);
-  run.landmarks[0].id = 11;
-  run.landmarks[1].position_map << 1, 2, 3;
+  run.landmarks = {Landmark(), Landmark()};
+  run.landmarks.change(0).id = 11;
+  run.landmarks.change(1).position_map << 1, 2, 3;
   return run;
 }
 
@@ -262,7 +262,7 @@ TEST(RunReport, FramesAndLandmarksThatAreNotFiniteAreCounted) {
   RunResult run = someRun();
   run.frames[1].result.T_map_base.translation().x() = 1e300;
   run.frames[2].result.T_odom_base.translation().y() = -1e300;
-  run.landmarks[0].position_map.z() = std::numeric_limits<double>::quiet_NaN();
+  run.landmarks.change(0).position_map.z() = std::numeric_limits<double>::quiet_NaN();
   const RunEvaluation evaluation = evaluate(run, straightTruth());
   const Json summary = summaryOf(run, evaluation, {"s", "drone", 1, "thesis"});
   EXPECT_EQ(summary["frames_error_not_finite"], 2);

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "support/heap_in_use.hpp"
 #include "support/point_world.hpp"
 
 namespace ardrone_vslam {
@@ -162,6 +163,41 @@ TEST(LandmarkMapIndex, ItsBacklogIsBoundedWhileNobodyNeedsIt) {
   for (const Landmark& present : map.all())
     ASSERT_EQ(*map.index().find(static_cast<int>(present.id)), present.descriptor);
   EXPECT_EQ(map.index().size(), map.size());
+}
+
+/// Room to grow included, which is most just after something has grown.
+TEST(LandmarkMapIndex, ALandmarkTakesLittleMemory) {
+  test::PointWorld maker(1);
+  Landmark landmark;
+  landmark.view_direction_map = Eigen::Vector3d::UnitX();
+  landmark.seen_distance_m = 5;
+  const std::size_t before_bytes = test::heapInUse_bytes();
+  if (before_bytes == 0) GTEST_SKIP() << "this C library does not tell what it has given out";
+  LandmarkMap map{LandmarkMapConfig{}};
+  const auto bytesEach = [&] {
+    return static_cast<double>(test::heapInUse_bytes() - before_bytes) /
+           static_cast<double>(map.size());
+  };
+  double most_bytes = 0;
+  double most_indexed_bytes = 0;
+  for (const std::size_t count : {5000U, 8000U, 8500U, 12'000U, 16'500U, 24'000U, 33'000U}) {
+    while (map.size() < count) {
+      landmark.descriptor = maker.randomDescriptor();
+      landmark.position_map.setConstant(0.001 * static_cast<double>(map.size()));
+      map.add(landmark);
+      if (map.size() % 100 == 0) map.columns(Eigen::Vector3d::Zero());
+    }
+    std::printf("%zu %.0f\n", count, bytesEach());
+    if (count < 24'000U) {
+      most_bytes = std::max(most_bytes, bytesEach());
+      continue;
+    }
+    while (!map.advanceIndex()) continue;
+    std::printf("%zu %.0f indexed\n", count, bytesEach());
+    most_indexed_bytes = std::max(most_indexed_bytes, bytesEach());
+  }
+  EXPECT_LT(most_bytes, 500);
+  EXPECT_LT(most_indexed_bytes, 700);
 }
 
 }  // namespace

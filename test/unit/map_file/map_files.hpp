@@ -61,9 +61,8 @@ inline FlightRecord smallFlight() {
   FlightRecord flight;
   flight.config.odometry.scale_sigma = 0.0625;
   flight.config.track_sigma_px = 0.5;
-  flight.keyframes.resize(2);
-  Keyframe& first = flight.keyframes[0];
-  Keyframe& second = flight.keyframes[1];
+  Keyframe first;
+  Keyframe second;
   first.stamp_ns = 900'000'000'000;
   second.stamp_ns = 950'000'000'000;
   first.focal_length_px = second.focal_length_px = 500;
@@ -83,6 +82,7 @@ inline FlightRecord smallFlight() {
   second.views = {view};
   second.landmarks = {{7, 20}, {8, 99}};  // number 2 in the file, and one that is not in it
   second.passed = {{925'000'000'000, second.T_odom_base}};
+  flight.keyframes = {first, second};
   return flight;
 }
 

@@ -37,7 +37,7 @@ TEST(FixedMap, IsExactForTheFilterAndSavedAsItWas) {
   ASSERT_EQ(map.landmarks.size(), 2U);
   for (const Landmark& landmark : map.landmarks) EXPECT_EQ(landmark.anchor_id, 1U);
 
-  const SavedMap saved = fixed.mapWith(map.landmarks, 7);
+  const SavedMap saved = fixed.snapshotWith(map.landmarks, 7).map();
   const SavedMap before = mapOfTwoAnchors();
   EXPECT_EQ(saved.stamp_ns, 7);
   ASSERT_EQ(saved.anchors.size(), 2U);
