@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ardrone_vslam/msckf_config.hpp"
+#include "map_update/blind_stretch.hpp"
 #include "map_update/innovation_consistency.hpp"
 #include "map_update/map_fix.hpp"
 #include "window/propagator.hpp"
@@ -62,6 +63,8 @@ class MapUpdate {
   std::optional<double> comparedNis() const;
   /// What was learned of the fixes is forgotten.
   void reset() { consistency_ = {}; }
+  /// The camera may have been carried, until then or elsewhere.
+  BlindStretch& blindStretch() { return blind_; }
 
  private:
   /// Of one frame: what the steps below have in common.
@@ -76,6 +79,8 @@ class MapUpdate {
   FixOutcome fixByFew(const std::vector<MapObservation>& observations, Frame& frame);
   FixOutcome fixByMost(const std::vector<MapObservation>& observations, Frame& frame);
   FixOutcome update(const ObservationConsensus& consensus, double gate_sigmas, Frame& frame);
+  FixOutcome judgeAcrossBlind(const MapFix& fix, WindowState& state);
+  bool isFromBeforeBlind(const ObservationConsensus& consensus, const WindowState& state) const;
   void judge(const std::vector<MapObservation>& observations,
              const ObservationConsensus& consensus);
 
@@ -84,6 +89,7 @@ class MapUpdate {
   std::vector<ObservationVerdict> verdicts_;
   FixOutcome outcome_ = FixOutcome::kNone;  // of the newest frame
   bool was_compared_ = false;               // at the newest frame
+  BlindStretch blind_;
 };
 
 }  // namespace ardrone_vslam

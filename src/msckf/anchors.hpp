@@ -26,8 +26,10 @@ class Anchors {
   /// Hardly a track leads to the newest frame: what is seen from now on does not share the error of
   /// what was seen before, as the drone may be elsewhere. Of another camera's first frame it says
   /// nothing.
-  void breakOff() {
-    if (!std::exchange(is_another_camera_, false)) current_id_ = 0;
+  bool breakOff() {
+    if (std::exchange(is_another_camera_, false)) return false;
+    current_id_ = 0;
+    return true;
   }
   /// The next frame is another camera's.
   void changeCamera() { is_another_camera_ = true; }

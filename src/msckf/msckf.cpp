@@ -43,6 +43,7 @@ void Msckf::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 
 void Msckf::enterMap(const MapEntry& entry, const LoadedAnchors& loaded) {
   zero_motion_.beginAnew(state_);  // it remembers odometry in the old frame
+  map_update_.blindStretch().forget();
   MapEntrance(state_).enter(entry, loaded);
   moveOdometry(entry.T_loaded_flight);
   anchors_.useLoaded(loaded.anchors);
@@ -57,6 +58,7 @@ bool Msckf::shift(const Revisit& revisit) {
     return false;            // joined to another meanwhile
   Revisit spread = revisit;  // tracks tie the window's frames to each other: they move alike
   spread.to_ns = std::max(spread.from_ns, std::min(spread.to_ns, state_.frames().front().stamp_ns));
+  map_update_.blindStretch().forget();
   MapEntrance(state_).shift(spread);
   moveOdometry(revisit.entry.T_loaded_flight);
   return true;
@@ -113,7 +115,9 @@ const std::vector<UsedTrack>& Msckf::track(const ImageFeatures& features) {
   useStillness(features);
   height_.apply(state_);
   if (!isDistrustful() && needsKeyframe(features)) useTracks(features);
-  if (static_cast<int>(features.tracked()) < kFewestFeatures) anchors_.breakOff();
+  if (static_cast<int>(features.tracked()) < kFewestFeatures && anchors_.breakOff() &&
+      state_.frames().size() > 1)
+    map_update_.blindStretch().note(newest().stamp_ns);
   return track_update_.used();
 }
 

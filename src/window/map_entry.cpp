@@ -145,4 +145,18 @@ void MapEntrance::shift(const Revisit& revisit) {
         cameraBy(revisit.anchor_id, revisit.entry) - cameraBy(state_.newest().id, revisit.entry));
 }
 
+void MapEntrance::doubtSince(std::int64_t since_ns, const Matrix6d& covariance) {
+  std::vector<int> doubtful;
+  for (std::size_t i = 0; i < state_.anchors().size(); ++i) {
+    const Clone& anchor = state_.anchors()[i];
+    if (!anchor.is_loaded && anchor.stamp_ns > since_ns)
+      doubtful.push_back(state_.anchorCoordinate(i));
+  }
+  for (std::size_t i = 0; i < state_.frames().size(); ++i)
+    if (state_.frames()[i].stamp_ns > since_ns) doubtful.push_back(state_.frameCoordinate(i));
+  auto P = state_.covariance_.all();
+  for (const int a : doubtful)
+    for (const int b : doubtful) P.block<6, 6>(a, b) += covariance;
+}
+
 }  // namespace ardrone_vslam
