@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -42,24 +44,28 @@ struct SavedMap {
   FlightRecord flight;                ///< that made it; without keyframes: not kept
 };
 
-/// Leaves these anchors, in this order, and what belongs to them.
-/// @param anchors  indices into `map.anchors`, none twice
+/// Leaves these anchors, in this order, and their landmarks; the flight's record stays.
+/// @param anchors  indices into `map.anchors`, none twice. @pre each landmark has its anchor
 void keepAnchors(SavedMap& map, const std::vector<std::size_t>& anchors);
-/// Leaves the anchors that landmarks belong to.
+/// Leaves the anchors that landmarks belong to. @pre each landmark has its anchor
 void keepUsedAnchors(SavedMap& map);
 
 /// A flight's map as it was after one frame. It shares the landmarks and keyframes with the flight:
 /// to take it costs the flight little, however large its map is, and another thread makes of it
 /// what goes into a file.
 struct MapSnapshot {
-  SavedMap all_but_landmarks;             ///< anchors without landmarks are there, too
-  std::vector<std::uint32_t> anchor_ids;  ///< Landmark::anchor_id of each
-  Landmarks landmarks;                    ///< those of other anchors are not saved
+  SavedMap all_but_landmarks;                          ///< and without the anchors' covariance
+  std::vector<std::uint32_t> anchor_ids;               ///< Landmark::anchor_id of each
+  std::function<Eigen::MatrixXd()> anchor_covariance;  ///< as SavedMap has it
+  Landmarks landmarks;                                 ///< those of other anchors are not saved
+  /// Of each landmark; nothing: Landmark::anchor_id.
+  std::shared_ptr<const std::vector<std::uint32_t>> anchor_of_landmark;
 
   MapSnapshot() = default;
   /// Of a map as a file has it. O(landmarks).
   explicit MapSnapshot(SavedMap map);
-  /// For a file. O(landmarks). Uses up what it does not share.
+  /// For a file; anchors that no landmark belongs to are left out. O(landmarks + anchors^2). Uses
+  /// the snapshot up.
   SavedMap map() &&;
 };
 

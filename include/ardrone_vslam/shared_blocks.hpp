@@ -21,15 +21,19 @@ namespace ardrone_vslam {
 template <class T, std::size_t kBlock>
 class SharedBlocks {
  public:
+  /// @cond  what the library's containers have as well
   class const_iterator;
   using value_type = T;
   using iterator = const_iterator;
 
   SharedBlocks() = default;
   SharedBlocks(std::initializer_list<T> values) { append(values); }
+  /// @endcond
   /// Copies the elements. Not explicit, as one stands for the other.
   SharedBlocks(const std::vector<T>& values) { append(values); }
+  /// Shares the elements.
   SharedBlocks(const SharedBlocks& other) : blocks_(shared(other)), size_(other.size_) {}
+  /// @cond
   SharedBlocks(SharedBlocks&& other) noexcept
       : blocks_(std::move(other.blocks_)), size_(std::exchange(other.size_, 0)) {}
   SharedBlocks& operator=(SharedBlocks other) noexcept {
@@ -45,7 +49,6 @@ class SharedBlocks {
     assert(index < size_);
     return blocks_[index / kBlock].values[index % kBlock];
   }
-  /// @throws std::out_of_range
   const T& at(std::size_t index) const {
     if (index >= size_) throw std::out_of_range("SharedBlocks::at");
     return (*this)[index];
@@ -54,21 +57,26 @@ class SharedBlocks {
   const T& back() const { return (*this)[size_ - 1]; }
   const_iterator begin() const { return {this, 0}; }
   const_iterator end() const { return {this, size_}; }
+  /// @endcond
 
   /// For a change. O(kBlock) the first time after a copy was made, then O(1).
   T& change(std::size_t index) {
     assert(index < size_);
     return own(index / kBlock)[index % kBlock];
   }
+  /// Appends one. O(1), but for what change() says.
   void push_back(T value) {
     reserve(size_ + 1);
     own(size_ / kBlock)[size_ % kBlock] = std::move(value);
     ++size_;
   }
+  /// Drops the last one. O(1)
   void pop_back() {
-    change(size_ - 1) = T();
     --size_;
+    Block& block = blocks_[size_ / kBlock];
+    if (!block.is_shared) block.values[size_ % kBlock] = T();
   }
+  /// Drops all, and the memory.
   void clear() { *this = SharedBlocks(); }
   /// Takes the memory for so many elements.
   void reserve(std::size_t count) {
@@ -107,7 +115,7 @@ class SharedBlocks {
   std::size_t size_ = 0;
 };
 
-/// Random access; valid while the sequence is, also when it grows.
+/// @cond  random access; valid while the sequence is, also when it grows
 template <class T, std::size_t kBlock>
 class SharedBlocks<T, kBlock>::const_iterator {
  public:
@@ -133,6 +141,7 @@ class SharedBlocks<T, kBlock>::const_iterator {
   const_iterator operator++(int) { return std::exchange(*this, *this + 1); }
   const_iterator operator--(int) { return std::exchange(*this, *this - 1); }
   friend const_iterator operator+(const_iterator it, difference_type by) { return it += by; }
+  friend const_iterator operator+(difference_type by, const_iterator it) { return it += by; }
   friend const_iterator operator-(const_iterator it, difference_type by) { return it -= by; }
   friend difference_type operator-(const const_iterator& a, const const_iterator& b) {
     return static_cast<difference_type>(a.index_) - static_cast<difference_type>(b.index_);
@@ -144,10 +153,14 @@ class SharedBlocks<T, kBlock>::const_iterator {
   friend bool operator<(const const_iterator& a, const const_iterator& b) {
     return a.index_ < b.index_;
   }
+  friend bool operator>(const const_iterator& a, const const_iterator& b) { return b < a; }
+  friend bool operator<=(const const_iterator& a, const const_iterator& b) { return !(b < a); }
+  friend bool operator>=(const const_iterator& a, const const_iterator& b) { return !(a < b); }
 
  private:
   const SharedBlocks* all_ = nullptr;
   std::size_t index_ = 0;
 };
+/// @endcond
 
 }  // namespace ardrone_vslam

@@ -36,7 +36,7 @@ class LandmarkMap {
   std::size_t size() const { return landmarks_.size(); }
   /// Takes the memory for the cap, and for those that one image adds before some go, now, so
   /// that nothing is moved while the map grows; without the index, which small maps never need,
-  /// and 24 to 40 bytes of each landmark's id.
+  /// and the thesis's first rays.
   void reserve();
   /// For changes; they must be made before columns() or advanceIndex() is called next.
   /// @param index  into all()

@@ -12,8 +12,10 @@ namespace ardrone_vslam {
 
 FixedMap::FixedMap(SavedMap& map, MapEntry& entry) {
   assert(!map.anchors.empty());
-  anchors_.reserve(map.landmarks.size());
-  for (Landmark& landmark : map.landmarks) anchors_.push_back(std::exchange(landmark.anchor_id, 1));
+  std::vector<std::uint32_t> anchors;
+  anchors.reserve(map.landmarks.size());
+  for (Landmark& landmark : map.landmarks) anchors.push_back(std::exchange(landmark.anchor_id, 1));
+  anchors_ = std::make_shared<const std::vector<std::uint32_t>>(std::move(anchors));
   entry.anchor = 0;
   map_.frame_id = map.frame_id;
   map_.camera = map.camera;
@@ -23,13 +25,12 @@ FixedMap::FixedMap(SavedMap& map, MapEntry& entry) {
   map_.anchor_covariance.swap(map.anchor_covariance);
 }
 
-MapSnapshot FixedMap::snapshotWith(Landmarks landmarks, std::int64_t stamp_ns) const {
-  assert(landmarks.size() == anchors_.size());
-  const std::size_t count = std::min(anchors_.size(), landmarks.size());
-  for (std::size_t i = 0; i < count; ++i) landmarks.change(i).anchor_id = anchors_[i];
+MapSnapshot FixedMap::snapshotWith(const Landmarks& landmarks, std::int64_t stamp_ns) const {
+  assert(landmarks.size() == anchors_->size());
   MapSnapshot snapshot(map_);
   snapshot.all_but_landmarks.stamp_ns = stamp_ns;
-  snapshot.landmarks = std::move(landmarks);
+  snapshot.landmarks = landmarks;
+  snapshot.anchor_of_landmark = anchors_;
   return snapshot;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "ardrone_vslam/saved_map.hpp"
@@ -21,16 +22,17 @@ class FixedMap {
   /// @param entry  its anchor becomes that one
   FixedMap(SavedMap& map, MapEntry& entry);
 
-  /// As it was loaded. @param landmarks  all of them, as the flight has them, in their order
-  MapSnapshot snapshotWith(Landmarks landmarks, std::int64_t stamp_ns) const;
+  /// As it was loaded, but for anchors without landmarks. @param landmarks  all of them, as the
+  /// flight has them, in their order
+  MapSnapshot snapshotWith(const Landmarks& landmarks, std::int64_t stamp_ns) const;
 
   /// The pose errs as the map does there, which is as its nearest anchor does, beside what it errs
   /// in the map. The scale is at best that of the map. O(anchors).
   void addErrors(Estimate& estimate) const;
 
  private:
-  SavedMap map_;                        // without landmarks
-  std::vector<std::uint32_t> anchors_;  // Landmark::anchor_id of each
+  SavedMap map_;                                               // without landmarks
+  std::shared_ptr<const std::vector<std::uint32_t>> anchors_;  // Landmark::anchor_id of each
 };
 
 }  // namespace ardrone_vslam

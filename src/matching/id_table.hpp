@@ -21,17 +21,15 @@ class IdTable {
   std::size_t count(std::uint32_t id) const { return find(id) != nullptr ? 1 : 0; }
   /// @return nullptr when there is none; valid until the table is changed
   const Value* find(std::uint32_t id) const {
-    if (slots_.empty()) return nullptr;
+    if (slots_.empty() || id == kNoId) return nullptr;
     const Slot& slot = slots_[slotOf(id)];
     return slot.id == id ? &slot.value : nullptr;
   }
   /// Enters it, or changes what is there.
   void set(std::uint32_t id, const Value& value) {
     assert(id != kNoId);
-    reserve(size_ + 1);
-    Slot& slot = slots_[slotOf(id)];
-    if (slot.id != id) ++size_;
-    slot = {id, value};
+    if (count(id) == 0) reserve(++size_);
+    slots_[slotOf(id)] = {id, value};
   }
   /// @pre it is there (asserted)
   const Value& at(std::uint32_t id) const {
@@ -41,7 +39,7 @@ class IdTable {
   }
   /// Ids that are not there are ignored.
   void erase(std::uint32_t id) {
-    if (slots_.empty()) return;
+    if (slots_.empty() || id == kNoId) return;
     std::size_t hole = slotOf(id);
     if (slots_[hole].id != id) return;
     for (std::size_t i = next(hole); slots_[i].id != kNoId; i = next(i)) {

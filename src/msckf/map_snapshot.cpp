@@ -15,41 +15,29 @@ static_assert(SavedMap::kAnchor == WindowState::kAnchor, "a file has the filter'
 /// How a file's coordinates follow from the filter's.
 class Gathering {
  public:
-  explicit Gathering(const WindowState& state) : state_(state) {}
+  explicit Gathering(const WindowState& state) : covariance_(state.covariance()) {}
 
-  void add(const Clone& clone, int coordinate, bool is_anchor) {
-    poses_.push_back({&clone, coordinate, is_anchor});
-  }
-
-  std::vector<MapAnchor> anchors() const {
-    std::vector<MapAnchor> anchors;
-    for (const Pose& pose : poses_) {
-      MapAnchor& anchor = anchors.emplace_back();
-      anchor.T_map_rig.translation() = pose.clone->position_map;
-      anchor.T_map_rig.linear() = pose.clone->R_map_rig;
-      anchor.stamp_ns = pose.clone->stamp_ns;
-    }
-    return anchors;
-  }
-
-  std::vector<std::uint32_t> ids() const {
-    std::vector<std::uint32_t> ids;
-    for (const Pose& pose : poses_) ids.push_back(pose.clone->id);
-    return ids;
+  void add(const Clone& clone, int coordinate, bool is_anchor, MapSnapshot& snapshot) {
+    poses_.push_back({coordinate, is_anchor, clone.is_loaded, clone.stretch_by_bias_s_m});
+    MapAnchor& anchor = snapshot.all_but_landmarks.anchors.emplace_back();
+    anchor.T_map_rig.translation() = clone.position_map;
+    anchor.T_map_rig.linear() = clone.R_map_rig;
+    anchor.stamp_ns = clone.stamp_ns;
+    snapshot.anchor_ids.push_back(clone.id);
   }
 
   /// J P J^T, J being the file's coordinates by the filter's.
   Eigen::MatrixXd covariance() const {
-    const Eigen::MatrixXd JP = timesJacobian(state_.covariance());
-    const Eigen::MatrixXd P = timesJacobian(JP.transpose());
+    const Eigen::MatrixXd P = timesJacobian(timesJacobian(covariance_).transpose());
     return 0.5 * (P + P.transpose());
   }
 
  private:
   struct Pose {
-    const Clone* clone;
     int coordinate;
     bool is_anchor;
+    bool is_loaded;
+    Eigen::Vector3d stretch_by_bias_s_m;
   };
 
   /// J M: most rows of J have a single one.
@@ -67,16 +55,16 @@ class Gathering {
   /// Of this flight's landmarks all distances err with its scale, and by the bias of their time.
   static Eigen::RowVectorXd stretchOf(const Pose& pose, const Eigen::MatrixXd& M) {
     Eigen::RowVectorXd stretch = Eigen::RowVectorXd::Zero(M.cols());
-    if (!pose.clone->is_loaded) stretch += M.row(WindowState::kScale);
+    if (!pose.is_loaded) stretch += M.row(WindowState::kScale);
     if (pose.is_anchor) {
       stretch += M.row(pose.coordinate + WindowState::kFrame);
     } else {
-      stretch += pose.clone->stretch_by_bias_s_m.transpose() * M.middleRows<3>(WindowState::kBias);
+      stretch += pose.stretch_by_bias_s_m.transpose() * M.middleRows<3>(WindowState::kBias);
     }
     return stretch;
   }
 
-  const WindowState& state_;
+  Eigen::MatrixXd covariance_;
   std::vector<Pose> poses_;
 };
 
@@ -91,13 +79,11 @@ MapSnapshot snapshotOf(const WindowState& state, const Landmarks& landmarks) {
   if (state.frames().empty()) return snapshot;  // nothing was seen yet
   Gathering gathering(state);
   for (std::size_t i = 0; i < state.anchors().size(); ++i)
-    gathering.add(state.anchors()[i], state.anchorCoordinate(i), true);
+    gathering.add(state.anchors()[i], state.anchorCoordinate(i), true, snapshot);
   for (std::size_t i = 0; i < state.frames().size(); ++i)
-    gathering.add(state.frames()[i], state.frameCoordinate(i), false);
+    gathering.add(state.frames()[i], state.frameCoordinate(i), false, snapshot);
   snapshot.all_but_landmarks.stamp_ns = state.newest().stamp_ns;
-  snapshot.all_but_landmarks.anchors = gathering.anchors();
-  snapshot.all_but_landmarks.anchor_covariance = gathering.covariance();
-  snapshot.anchor_ids = gathering.ids();
+  snapshot.anchor_covariance = [g = std::move(gathering)] { return g.covariance(); };
   snapshot.landmarks = landmarks;
   return snapshot;
 }
@@ -105,6 +91,7 @@ MapSnapshot snapshotOf(const WindowState& state, const Landmarks& landmarks) {
 MapSnapshot::MapSnapshot(SavedMap map)
     : all_but_landmarks(std::move(map)),
       anchor_ids(all_but_landmarks.anchors.size()),
+      anchor_covariance([P = all_but_landmarks.anchor_covariance] { return P; }),
       landmarks(all_but_landmarks.landmarks) {
   all_but_landmarks.landmarks = {};
   std::iota(anchor_ids.begin(), anchor_ids.end(), 1);
@@ -112,16 +99,19 @@ MapSnapshot::MapSnapshot(SavedMap map)
 
 SavedMap MapSnapshot::map() && {
   SavedMap map = std::move(all_but_landmarks);
+  if (anchor_covariance) map.anchor_covariance = anchor_covariance();
   std::unordered_map<std::uint32_t, std::uint32_t> number_of_id;
   for (const std::uint32_t id : anchor_ids)
     number_of_id.emplace(id, static_cast<std::uint32_t>(number_of_id.size() + 1));
   map.landmarks.reserve(landmarks.size());
-  for (const Landmark& landmark : landmarks) {
-    const auto number = number_of_id.find(landmark.anchor_id);
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const auto number =
+        number_of_id.find(anchor_of_landmark ? (*anchor_of_landmark)[i] : landmarks[i].anchor_id);
     if (number == number_of_id.end()) continue;
-    map.landmarks.push_back(landmark);
+    map.landmarks.push_back(landmarks[i]);
     map.landmarks.back().anchor_id = number->second;
   }
+  landmarks.clear();
   keepUsedAnchors(map);
   return map;
 }

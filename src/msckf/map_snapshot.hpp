@@ -11,7 +11,8 @@
 namespace ardrone_vslam {
 
 /// The map as it stands: anchors and frames of the window with their joint covariance, and the
-/// landmarks. Frame and camera are left to who knows them. O(coordinates^2 + landmarks / 256).
+/// landmarks. Frame and camera are left to who knows them. O(coordinates^2 + landmarks / 256),
+/// which is a copy.
 MapSnapshot snapshotOf(const WindowState& state, const Landmarks& landmarks);
 
 /// The other way round.

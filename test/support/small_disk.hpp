@@ -6,6 +6,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <fstream>
 #include <functional>
 #include <string>
@@ -31,9 +34,17 @@ inline bool mountSmallDisk(const std::string& folder, int bytes) {
 }
 
 /// Runs it in a process with a small disk. @return what it returned, kNoDisk, or -1 if it fell over
+/// or threw
 inline int onSmallDisk(const std::string& folder, int bytes, const std::function<int()>& run) {
   const pid_t process = ::fork();
-  if (process == 0) ::_exit(mountSmallDisk(folder, bytes) ? run() : kNoDisk);
+  if (process == 0) {
+    try {
+      ::_exit(mountSmallDisk(folder, bytes) ? run() : kNoDisk);
+    } catch (const std::exception& e) {
+      std::fprintf(stderr, "on the small disk: %s\n", e.what());
+      std::abort();
+    }
+  }
   int status = 0;
   if (::waitpid(process, &status, 0) != process || !WIFEXITED(status)) return -1;
   return WEXITSTATUS(status);

@@ -185,7 +185,7 @@ TEST(MapFlight, LocaliseOnlyFindsItsMapAgainAsItWas) {
 
 /// A writer's thread makes the file's map of it while the flight changes its own.
 TEST(MapFlight, ASnapshotStaysWhatItWas) {
-  PointWorld world(1);
+  PointWorld world = test::pointRoom(1);
   const Flight flight = test::lapsFlight(200, 2, kMapRate_hz);
   const auto odometry = test::observe(flight, {}, 1);
   Slam slam(test::configForDrift(), test::forwardExtrinsics());
@@ -202,6 +202,8 @@ TEST(MapFlight, ASnapshotStaysWhatItWas) {
   ASSERT_EQ(later.landmarks.size(), at_once.landmarks.size());
   ASSERT_GT(later.landmarks.size(), 100U);
   EXPECT_EQ(later.anchors.size(), at_once.anchors.size());
+  EXPECT_EQ(later.anchor_covariance, at_once.anchor_covariance);
+  ASSERT_GE(slam.landmarks().size(), later.landmarks.size());
   std::size_t moved = 0;
   for (std::size_t i = 0; i < later.landmarks.size(); ++i) {
     const Landmark& one = later.landmarks[i];

@@ -12,7 +12,7 @@
 namespace ardrone_vslam::test {
 namespace {
 
-std::vector<std::uint32_t> idsOf(const std::vector<Landmark>& landmarks) {
+std::vector<std::uint32_t> idsOf(const Landmarks& landmarks) {
   std::vector<std::uint32_t> ids;
   ids.reserve(landmarks.size());
   for (const Landmark& landmark : landmarks) ids.push_back(landmark.id);

@@ -91,14 +91,16 @@ TEST(SharedBlocks, IteratorsGoAnywhere) {
   EXPECT_EQ(*(numbers.end() - 1), numbers.back());
 }
 
-/// What is moved away leaves nothing; what is assigned to itself stays.
-TEST(SharedBlocks, CanBeMoved) {
+TEST(SharedBlocks, CanBeMovedAndCleared) {
   Numbers numbers{1, 2, 3};
-  const Numbers other = std::move(numbers);
+  Numbers other = std::move(numbers);
   EXPECT_EQ(valuesOf(other), (std::vector<int>{1, 2, 3}));
-  numbers.clear();
-  numbers.push_back(4);
-  EXPECT_EQ(valuesOf(numbers), (std::vector<int>{4}));
+  const Numbers copy = other;
+  other.clear();
+  EXPECT_TRUE(other.empty());
+  other.push_back(4);
+  EXPECT_EQ(valuesOf(other), (std::vector<int>{4}));
+  EXPECT_EQ(valuesOf(copy), (std::vector<int>{1, 2, 3}));
 }
 
 /// For the thread sanitizer, too.

@@ -160,7 +160,7 @@ class MapFileFullDiskTest : public MapFileWriteTest {
   bool isAsItShould(int status, bool is_old, bool is_new) {
     if (WIFSIGNALED(status)) {
       ++killed_;
-      return is_old || is_new;
+      return WTERMSIG(status) == SIGKILL && (is_old || is_new);
     }
     if (WEXITSTATUS(status) == 0) {
       ++written_;

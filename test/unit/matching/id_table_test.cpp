@@ -58,6 +58,10 @@ TEST(IdTable, IdsThatCountUp) {
   table.clear();
   EXPECT_EQ(table.size(), 0U);
   EXPECT_EQ(table.find(5), nullptr);
+  table.set(5, 1);
+  table.erase(IdTable<int>::kNoId);
+  EXPECT_EQ(table.count(IdTable<int>::kNoId), 0U);
+  EXPECT_EQ(table.size(), 1U);
 }
 
 }  // namespace
