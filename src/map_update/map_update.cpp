@@ -145,19 +145,24 @@ FixOutcome MapUpdate::update(const ObservationConsensus& consensus, double gate_
                              Frame& frame) {
   MapFix fix = fixBy(frame.state, frame.camera_rig, consensus, frame.angle_sigma_rad,
                      config_.fix_independent_landmarks);
-  if (isFromBeforeBlind(consensus, frame.state)) {
-    const FixOutcome known = judgeAcrossBlind(fix, frame.state);
-    if (known == FixOutcome::kRejected) return known;
-    if (known == FixOutcome::kRelocated)
-      return frame.state.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;
+  const AcrossBlind across = isFromBeforeBlind(consensus, frame.state)
+                                 ? judgeAcrossBlind(fix, frame.state)
+                                 : AcrossBlind::kAsUsual;
+  if (across == AcrossBlind::kContradicts) {
+    // RevisitSearch looks for them: they must not count as seen where they are thought to be.
+    for (const MapObservation& s : consensus.observations)
+      verdicts_[s.index] = ObservationVerdict::kDoubtful;
+    return FixOutcome::kRejected;
   }
-  consistency_.learn(fix.whitened());
-  was_compared_ = true;
-  frame.propagator.inflate(consistency_.odometryFactor(), frame.state);
-  if (fix.drift.topLeftCorner<3, 3>().trace() <
-      kDriftShare * fix.covariance.topLeftCorner<3, 3>().trace())
-    return FixOutcome::kNotNeeded;
-  if (!(fix.distance() < kPoseCoordinates * squared(gate_sigmas))) return FixOutcome::kRejected;
+  if (across == AcrossBlind::kAsUsual) {
+    consistency_.learn(fix.whitened());
+    was_compared_ = true;
+    frame.propagator.inflate(consistency_.odometryFactor(), frame.state);
+    if (fix.drift.topLeftCorner<3, 3>().trace() <
+        kDriftShare * fix.covariance.topLeftCorner<3, 3>().trace())
+      return FixOutcome::kNotNeeded;
+    if (!(fix.distance() < kPoseCoordinates * squared(gate_sigmas))) return FixOutcome::kRejected;
+  }
   fix.information.matrix /= consistency_.mapFactor();
   fix.information.vector /= consistency_.mapFactor();
   return frame.state.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;
@@ -173,19 +178,18 @@ bool MapUpdate::isFromBeforeBlind(const ObservationConsensus& consensus,
   return 2 * static_cast<std::size_t>(before) > seen.size();
 }
 
-/// @return kRelocated: the odometry has erred while nothing was seen, as is in the covariance now;
-/// kRejected: not even so much explains it
-FixOutcome MapUpdate::judgeAcrossBlind(const MapFix& fix, WindowState& state) {
+MapUpdate::AcrossBlind MapUpdate::judgeAcrossBlind(const MapFix& fix, WindowState& state) {
   constexpr double kMost = 12.6;  // chi-square of a pose, 95 %
   const double more = kPoseCoordinates * squared(kRelocationGateSigmas) / kMost - 1;
-  const Matrix6d of_blind = more * blind_.driftSince(state);
+  const Matrix6d of_blind = more * blind_.drift(state);
   const Matrix6d S = fix.drift + fix.covariance + of_blind;
   const bool is_explained = fix.offset.dot(S.inverse() * fix.offset) < kMost;
   const std::int64_t until_ns = blind_.until_ns();
-  if (!blind_.judge(state.newest().stamp_ns, is_explained)) return FixOutcome::kRejected;
-  if (!is_explained || fix.distance() < kMost) return FixOutcome::kNone;
+  if (!blind_.judge(state.newest().stamp_ns, is_explained)) return AcrossBlind::kContradicts;
+  if (!is_explained || fix.distance() < kMost) return AcrossBlind::kAsUsual;
   MapEntrance(state).doubtSince(until_ns, of_blind);
-  return FixOutcome::kRelocated;
+  blind_.forget();
+  return AcrossBlind::kWidened;
 }
 
 void MapUpdate::judge(const std::vector<MapObservation>& observations,

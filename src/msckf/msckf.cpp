@@ -115,8 +115,10 @@ const std::vector<UsedTrack>& Msckf::track(const ImageFeatures& features) {
   useStillness(features);
   height_.apply(state_);
   if (!isDistrustful() && needsKeyframe(features)) useTracks(features);
-  if (static_cast<int>(features.tracked()) < kFewestFeatures && anchors_.breakOff() &&
-      state_.frames().size() > 1)
+  // Without a map there is nothing to bend, and a fixed one cannot be.
+  const bool has_map = !state_.anchors().empty() || state_.frames().size() > 1;
+  if (static_cast<int>(features.tracked()) < kFewestFeatures && anchors_.breakOff() && has_map &&
+      !config_.localise_only)
     map_update_.blindStretch().note(newest().stamp_ns);
   return track_update_.used();
 }

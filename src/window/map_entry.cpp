@@ -146,17 +146,19 @@ void MapEntrance::shift(const Revisit& revisit) {
 }
 
 void MapEntrance::doubtSince(std::int64_t since_ns, const Matrix6d& covariance) {
-  std::vector<int> doubtful;
-  for (std::size_t i = 0; i < state_.anchors().size(); ++i) {
-    const Clone& anchor = state_.anchors()[i];
-    if (!anchor.is_loaded && anchor.stamp_ns > since_ns)
-      doubtful.push_back(state_.anchorCoordinate(i));
-  }
+  // By the newest pose's error: rows of the coordinates that it moves.
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(state_.covariance().rows(), 6);
+  J.block<3, 3>(WindowState::kAttitude, 3).setIdentity();
+  const auto moves = [&](const Clone& pose, int coordinate) {
+    if (pose.is_loaded || pose.stamp_ns < since_ns) return;
+    J.block<6, 6>(coordinate, 0).setIdentity();
+    J.block<3, 3>(coordinate, 3) = -skew(pose.position_map - state_.newest().position_map);
+  };
+  for (std::size_t i = 0; i < state_.anchors().size(); ++i)
+    moves(state_.anchors()[i], state_.anchorCoordinate(i));
   for (std::size_t i = 0; i < state_.frames().size(); ++i)
-    if (state_.frames()[i].stamp_ns > since_ns) doubtful.push_back(state_.frameCoordinate(i));
-  auto P = state_.covariance_.all();
-  for (const int a : doubtful)
-    for (const int b : doubtful) P.block<6, 6>(a, b) += covariance;
+    moves(state_.frames()[i], state_.frameCoordinate(i));
+  state_.covariance_.all() += J * covariance * J.transpose();
 }
 
 }  // namespace ardrone_vslam

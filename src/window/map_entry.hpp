@@ -64,8 +64,8 @@ class MapEntrance {
   /// As enter() does, it takes odometry for moved, too.
   /// @pre the state has the revisit's anchor (asserted)
   void shift(const Revisit& revisit);
-  /// The poses since then err by so much more, all alike. O(coordinates).
-  /// @param covariance  position and attitude, axes of map
+  /// From that pose on all err by so much more, as one piece. O(poses^2).
+  /// @param covariance  position of the newest and attitude, axes of map
   void doubtSince(std::int64_t since_ns, const Matrix6d& covariance);
 
  private:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Looks for rendered flights in the maps of others, of the same room and of rooms like it; scripts/map_campaign runs it."""
+"""Looks for rendered flights in the maps of others, of the same room and of rooms like it, and in their own; scripts/map_campaign runs it."""
 import argparse
 import concurrent.futures
 import json
@@ -14,6 +14,7 @@ import numpy as np
 from ardrone_vslam_evaluation.align import best_alignment
 from ardrone_vslam_evaluation.associate import associate
 from ardrone_vslam_evaluation.read_text import read_tum
+from carried import Carried
 
 RATE_HZ = 10
 FLIGHT_S, LAP_S, MAP_S = 10, 22, 40
@@ -133,6 +134,14 @@ def in_rooms_alike(campaign, rooms, starts_in_each, pool):
     return sum(show("flight in all maps", pool.map(try_flight, range(len(starts))), len(starts)), [])
 
 
+def in_own_map(campaign, count, pool):
+    """Carried from one place of a room to another."""
+    starts = starts_of(2 * count, 3)
+    drone = Carried(campaign, ROOM, 1, RATE_HZ)
+    tries = pool.map(lambda i: drone.try_carry(f"carry_{i}", starts[2 * i:2 * i + 2], 500 + i), range(count))
+    return show("carry", tries, count)
+
+
 def show(what, results, count):
     done = []
     for result in results:
@@ -165,7 +174,11 @@ def report(results):
           f"{len(wrong)} of {len(own) + len(others)}")
     for one in wrong:
         print(f"  start {one['start']} in room {one['room']}: in the map of room {one['map']} after {one['found_s']:.1f} s, off by {one['error_m']:.2f} m")
-    return is_well and not wrong and len(right) >= LEAST_FOUND * len(own)
+    found_s = [one["found_s"] for one in results["carried"] if one["found_s"] is not None]
+    errors_m = [one["error_m"] for one in results["carried"]]
+    print(f"\nCarried elsewhere with the camera covered: found {len(found_s)} of {len(errors_m)}; after {np.median(found_s or [math.nan]):.1f} s (median), "
+          f"at most {max(found_s, default=math.nan):.1f} s; at the end off by {np.median(errors_m):.2f} m (median), at most {max(errors_m):.2f} m")
+    return is_well and not wrong and len(right) >= LEAST_FOUND * len(own) and len(found_s) >= LEAST_FOUND * len(errors_m)
 
 
 def main():
@@ -173,6 +186,7 @@ def main():
     parser.add_argument("--starts", type=int, default=50, metavar="N", help="flights in one room's map; default: %(default)s")
     parser.add_argument("--rooms", type=int, default=20, metavar="N", help="that are alike; default: %(default)s")
     parser.add_argument("--starts-in-each", type=int, default=3, metavar="N", help="flights in each of these; default: %(default)s")
+    parser.add_argument("--carries", type=int, default=20, metavar="N", help="flights that are carried elsewhere; default: %(default)s")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="programs at a time; default: %(default)s")
     parser.add_argument("--json", metavar="FILE", help="all tries")
     parser.add_argument("--no-build", action="store_true", help="with what was built before")
@@ -185,7 +199,8 @@ def main():
     campaign = Campaign(arguments.programs, os.path.abspath(arguments.work))
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         results = {"one room": in_one_room(campaign, starts_of(arguments.starts, 1), pool),
-                   "rooms alike": in_rooms_alike(campaign, arguments.rooms, arguments.starts_in_each, pool)}
+                   "rooms alike": in_rooms_alike(campaign, arguments.rooms, arguments.starts_in_each, pool),
+                   "carried": in_own_map(campaign, arguments.carries, pool)}
     if arguments.json:
         with open(arguments.json, "w", encoding="utf-8") as file:
             json.dump(results, file, indent=1)
