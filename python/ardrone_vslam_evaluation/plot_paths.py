@@ -73,7 +73,9 @@ def draw_heights(rows):
 def in_map(run):
     """The fused path from where the place in a loaded map is known: before, the deviation is 1 km."""
     searching = run.frames.get("sigma_m", np.zeros(0)) >= 1000
-    return run.fused.at(~np.isin(run.fused.stamps_ns, run.frames["stamp_ns"][searching])) if searching.any() else run.fused
+    if not searching.any() or searching.all():  # if never, its landmarks are in its own frame, too
+        return run.fused
+    return run.fused.at(~np.isin(run.fused.stamps_ns, run.frames["stamp_ns"][searching]))
 
 
 def draw_maps(rows):

@@ -41,9 +41,8 @@ void LandmarkMap::remove(std::uint32_t id) {
   first_ray_of_id_.erase(id);
   if (index_is_laid_out_) index_.remove(static_cast<int>(id));
   if (hole + 1 != landmarks_.size()) {
-    Landmark& place = landmarks_.change(hole);
-    place = landmarks_.back();
-    index_of_id_.set(place.id, static_cast<std::uint32_t>(hole));
+    landmarks_.change(hole) = Landmark(landmarks_.back());  // a copy, as the change may move it
+    index_of_id_.set(landmarks_[hole].id, static_cast<std::uint32_t>(hole));
     stale_[hole] = static_cast<std::uint8_t>(stale_.back() & kStaleIndex);
     markStale(hole);
   }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "ardrone_vslam/rotation.hpp"
+#include "linear/median.hpp"
 #include "linear/selection.hpp"
 #include "map_update/observation_rays.hpp"
 #include "window/rays.hpp"
@@ -155,6 +156,27 @@ MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_rig,
   const Eigen::MatrixXd P = rowsOf(colsOf(state.covariance(), coordinates.all), coordinates.all);
   fix.drift = J * P * J.transpose();
   return fix;
+}
+
+double attitudeSigma_rad(const std::vector<MapObservation>& observations,
+                         const WindowState& state) {
+  const int newest = state.frameCoordinate(state.frames().size() - 1);
+  std::vector<bool> is_seen(state.anchors().size(), false);
+  for (const MapObservation& s : observations) is_seen[s.anchor] = true;
+  double variance_rad2 = 0;
+  for (std::size_t i = 0; i < is_seen.size(); ++i) {
+    if (!is_seen[i]) continue;
+    const Matrix6d relative = state.relativeCovariance(newest, state.anchorCoordinate(i));
+    variance_rad2 = std::max(variance_rad2, relative.bottomRightCorner<3, 3>().trace() / 3);
+  }
+  return std::sqrt(variance_rad2);
+}
+
+double medianWindow_rad(const std::vector<MapObservation>& observations) {
+  std::vector<double> windows_rad;
+  windows_rad.reserve(observations.size());
+  for (const MapObservation& s : observations) windows_rad.push_back(s.window_rad);
+  return medianOf(windows_rad);
 }
 
 }  // namespace ardrone_vslam

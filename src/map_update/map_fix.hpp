@@ -68,4 +68,10 @@ constexpr int kFewestFixLandmarks = 6;
 MapFix fixBy(const WindowState& state, const Eigen::Vector3d& camera_rig,
              const ObservationConsensus& consensus, double angle_sigma_rad, int independent);
 
+/// How well the newest attitude is known relative to the observed landmarks' anchors, per axis.
+double attitudeSigma_rad(const std::vector<MapObservation>& observations, const WindowState& state);
+
+/// Of the windows that they were looked for in, the median.
+double medianWindow_rad(const std::vector<MapObservation>& observations);
+
 }  // namespace ardrone_vslam

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_update/map_update.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "linear/median.hpp"
 #include "linear/scalars.hpp"
 #include "map_update/relocation.hpp"
-#include "window/map_entry.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -28,28 +25,6 @@ constexpr int kPoseCoordinates = 6;
 // not count again and again.
 constexpr double kDriftShare = 1;
 
-double medianWindow_rad(const std::vector<MapObservation>& observations) {
-  std::vector<double> windows_rad;
-  windows_rad.reserve(observations.size());
-  for (const MapObservation& s : observations) windows_rad.push_back(s.window_rad);
-  return medianOf(windows_rad);
-}
-
-/// How well the newest attitude is known relative to the observed landmarks' anchors, per axis.
-double attitudeSigma_rad(const std::vector<MapObservation>& observations,
-                         const WindowState& state) {
-  const int newest = state.frameCoordinate(state.frames().size() - 1);
-  std::vector<bool> is_seen(state.anchors().size(), false);
-  for (const MapObservation& s : observations) is_seen[s.anchor] = true;
-  double variance_rad2 = 0;
-  for (std::size_t i = 0; i < is_seen.size(); ++i) {
-    if (!is_seen[i]) continue;
-    const Matrix6d relative = state.relativeCovariance(newest, state.anchorCoordinate(i));
-    variance_rad2 = std::max(variance_rad2, relative.bottomRightCorner<3, 3>().trace() / 3);
-  }
-  return std::sqrt(variance_rad2);
-}
-
 }  // namespace
 
 void MapUpdate::beginFrame() {
@@ -62,8 +37,7 @@ FixOutcome MapUpdate::apply(const std::vector<LandmarkObservation>& observations
                             Propagator& propagator, WindowState& state) {
   skip(observations.size());
   Frame frame{camera_rig, config_.track_sigma_px / focal_length_px, propagator, state};
-  outcome_ = fix(observations, frame);
-  return outcome_;
+  return outcome_ = fix(observations, frame);
 }
 
 void MapUpdate::skip(std::size_t observations) {
@@ -76,8 +50,7 @@ bool MapUpdate::isLocated() const {
 }
 
 std::optional<double> MapUpdate::comparedNis() const {
-  if (!was_compared_) return std::nullopt;
-  return nis();
+  return was_compared_ ? std::optional<double>(nis()) : std::nullopt;
 }
 
 FixOutcome MapUpdate::fix(const std::vector<LandmarkObservation>& observations, Frame& frame) {
@@ -145,9 +118,7 @@ FixOutcome MapUpdate::update(const ObservationConsensus& consensus, double gate_
                              Frame& frame) {
   MapFix fix = fixBy(frame.state, frame.camera_rig, consensus, frame.angle_sigma_rad,
                      config_.fix_independent_landmarks);
-  const AcrossBlind across = isFromBeforeBlind(consensus, frame.state)
-                                 ? judgeAcrossBlind(fix, frame.state)
-                                 : AcrossBlind::kAsUsual;
+  const AcrossBlind across = blind_.judge(fix, consensus.observations, frame.state);
   if (across == AcrossBlind::kContradicts) {
     // RevisitSearch looks for them: they must not count as seen where they are thought to be.
     for (const MapObservation& s : consensus.observations)
@@ -166,30 +137,6 @@ FixOutcome MapUpdate::update(const ObservationConsensus& consensus, double gate_
   fix.information.matrix /= consistency_.mapFactor();
   fix.information.vector /= consistency_.mapFactor();
   return frame.state.update(fix.information) ? FixOutcome::kApplied : FixOutcome::kRejected;
-}
-
-/// Whether most of the landmarks are.
-bool MapUpdate::isFromBeforeBlind(const ObservationConsensus& consensus,
-                                  const WindowState& state) const {
-  const auto& seen = consensus.observations;
-  const auto before = std::count_if(seen.begin(), seen.end(), [&](const MapObservation& s) {
-    return blind_.isAfter(state.anchors()[s.anchor]);
-  });
-  return 2 * static_cast<std::size_t>(before) > seen.size();
-}
-
-MapUpdate::AcrossBlind MapUpdate::judgeAcrossBlind(const MapFix& fix, WindowState& state) {
-  constexpr double kMost = 12.6;  // chi-square of a pose, 95 %
-  const double more = kPoseCoordinates * squared(kRelocationGateSigmas) / kMost - 1;
-  const Matrix6d of_blind = more * blind_.drift(state);
-  const Matrix6d S = fix.drift + fix.covariance + of_blind;
-  const bool is_explained = fix.offset.dot(S.inverse() * fix.offset) < kMost;
-  const std::int64_t until_ns = blind_.until_ns();
-  if (!blind_.judge(state.newest().stamp_ns, is_explained)) return AcrossBlind::kContradicts;
-  if (!is_explained || fix.distance() < kMost) return AcrossBlind::kAsUsual;
-  MapEntrance(state).doubtSince(until_ns, of_blind);
-  blind_.forget();
-  return AcrossBlind::kWidened;
 }
 
 void MapUpdate::judge(const std::vector<MapObservation>& observations,

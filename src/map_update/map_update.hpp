@@ -79,13 +79,6 @@ class MapUpdate {
   FixOutcome fixByFew(const std::vector<MapObservation>& observations, Frame& frame);
   FixOutcome fixByMost(const std::vector<MapObservation>& observations, Frame& frame);
   FixOutcome update(const ObservationConsensus& consensus, double gate_sigmas, Frame& frame);
-  enum class AcrossBlind {
-    kAsUsual,  ///< the covariance explains the fix, or the blind stretch is long ago
-    kWidened,  ///< the odometry erred meanwhile by more than it claims: now that is in the state
-    kContradicts,  ///< not even that explains it
-  };
-  AcrossBlind judgeAcrossBlind(const MapFix& fix, WindowState& state);
-  bool isFromBeforeBlind(const ObservationConsensus& consensus, const WindowState& state) const;
   void judge(const std::vector<MapObservation>& observations,
              const ObservationConsensus& consensus);
 

@@ -25,11 +25,9 @@ class Anchors {
   void choose(const WindowState& state, double point_distance_m);
   /// Hardly a track leads to the newest frame: what is seen from now on does not share the error of
   /// what was seen before, as the drone may be elsewhere. Of another camera's first frame it says
-  /// nothing. @return whether the drone may be
-  bool breakOff() {
-    if (std::exchange(is_another_camera_, false)) return false;
-    current_id_ = 0;
-    return true;
+  /// nothing.
+  void breakOff() {
+    if (!std::exchange(is_another_camera_, false)) current_id_ = 0;
   }
   /// The next frame is another camera's.
   void changeCamera() { is_another_camera_ = true; }

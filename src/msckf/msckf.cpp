@@ -43,7 +43,6 @@ void Msckf::changeCamera(const Eigen::Isometry3d& T_base_cam) {
 
 void Msckf::enterMap(const MapEntry& entry, const LoadedAnchors& loaded) {
   zero_motion_.beginAnew(state_);  // it remembers odometry in the old frame
-  map_update_.blindStretch().forget();
   MapEntrance(state_).enter(entry, loaded);
   moveOdometry(entry.T_loaded_flight);
   anchors_.useLoaded(loaded.anchors);
@@ -58,13 +57,13 @@ bool Msckf::shift(const Revisit& revisit) {
     return false;            // joined to another meanwhile
   Revisit spread = revisit;  // tracks tie the window's frames to each other: they move alike
   spread.to_ns = std::max(spread.from_ns, std::min(spread.to_ns, state_.frames().front().stamp_ns));
-  map_update_.blindStretch().forget();
   MapEntrance(state_).shift(spread);
   moveOdometry(revisit.entry.T_loaded_flight);
   return true;
 }
 
 void Msckf::moveOdometry(const Eigen::Isometry3d& T_new_old) {
+  map_update_.blindStretch().forget();
   propagator_.moveOdometry(T_new_old);
   watchdog_.moveInto(T_new_old);
 }
@@ -115,11 +114,11 @@ const std::vector<UsedTrack>& Msckf::track(const ImageFeatures& features) {
   useStillness(features);
   height_.apply(state_);
   if (!isDistrustful() && needsKeyframe(features)) useTracks(features);
-  // Without a map there is nothing to bend, and a fixed one cannot be.
-  const bool has_map = !state_.anchors().empty() || state_.frames().size() > 1;
-  if (static_cast<int>(features.tracked()) < kFewestFeatures && anchors_.breakOff() && has_map &&
-      !config_.localise_only)
-    map_update_.blindStretch().note(newest().stamp_ns);
+  if (static_cast<int>(features.tracked()) < kFewestFeatures) {
+    anchors_.breakOff();
+    if (anchors_.current() == 0 && !state_.anchors().empty() && !config_.localise_only)
+      map_update_.blindStretch().note(newest().stamp_ns);
+  }
   return track_update_.used();
 }
 
