@@ -22,7 +22,7 @@ template <class T, std::size_t kBlock>
 class SharedBlocks {
  public:
   /// @cond  what the library's containers have as well
-  class const_iterator;
+  class const_iterator;  // NOLINT(readability-identifier-naming)
   using value_type = T;
   using iterator = const_iterator;
 
@@ -117,7 +117,7 @@ class SharedBlocks {
 
 /// @cond  random access; valid while the sequence is, also when it grows
 template <class T, std::size_t kBlock>
-class SharedBlocks<T, kBlock>::const_iterator {
+class SharedBlocks<T, kBlock>::const_iterator {  // NOLINT(readability-identifier-naming)
  public:
   using iterator_category = std::random_access_iterator_tag;
   using value_type = T;

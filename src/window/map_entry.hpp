@@ -66,7 +66,7 @@ class MapEntrance {
   void shift(const Revisit& revisit);
   /// From that pose on all err by so much more, as one piece. O(poses^2).
   /// @param covariance  position of the newest and attitude, axes of map
-  void doubtSince(std::int64_t since_ns, const Matrix6d& covariance);
+  void doubtSince(std::int64_t since_ns, const Eigen::Matrix<double, 6, 6>& covariance);
 
  private:
   void move(const Revisit& revisit);
