@@ -43,7 +43,7 @@ TEST(Refinement, NothingComesOfNothing) {
 TEST(Refinement, ExactMeasurementsGiveTheExactFlight) {
   RecordedFlight flight{FlightErrors{}};
   for (std::size_t k = 1; k < flight.record.keyframes.size(); ++k) {
-    Eigen::Isometry3d& T = flight.record.keyframes[k].T_map_base;
+    Eigen::Isometry3d& T = flight.record.keyframes.change(k).T_map_base;
     const auto x = static_cast<double>(k);
     T.translation() += 0.03 * Eigen::Vector3d(std::sin(x), std::cos(2 * x), std::sin(3 * x));
     T.linear() = rotationAboutZ(0.01 * std::sin(5 * x)) * T.linear();
