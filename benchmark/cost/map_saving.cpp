@@ -34,20 +34,10 @@ double since_ms(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-SlamConfig configOf() {
-  SlamConfig config;
-  config.estimator = EstimatorKind::kMsckf;
-  config.mapper.max_depth_m = 200;
-  config.landmark_map.max_landmarks = 10000000;
-  config.msckf.odometry.walk_m_per_sqrt_m = 0.005;
-  config.msckf.odometry.walk_m_per_sqrt_s = 0.001;
-  return config;
-}
-
 /// The street's own map, and landmarks that belong to it, but lie more than a kilometre away.
 SavedMap largeMap(const Scene& scene, std::size_t landmarks) {
   const std::vector<OdometryState> odometry = truthOf(scene.path);
-  Slam slam(configOf(), forwardCamera());
+  Slam slam(streetConfig(EstimatorKind::kMsckf), forwardCamera());
   for (std::size_t i = 0; i < scene.frames.size(); ++i)
     slam.process(scene.frames[i].features, odometry[i]);
   SavedMap map = slam.save().map();
@@ -78,7 +68,7 @@ struct Cost {
 /// Frames come as in flight, 30 a second, so that the writer has as much time beside them.
 Cost costOf(const Scene& scene, const SavedMap& map, const std::string& file) {
   const std::vector<OdometryState> odometry = truthOf(scene.path);
-  Slam slam(configOf(), forwardCamera());
+  Slam slam(streetConfig(EstimatorKind::kMsckf), forwardCamera());
   slam.load(map);
   PlaceHint start;
   slam.lookNear(start);

@@ -26,16 +26,6 @@ using namespace ardrone_vslam;
 constexpr int kWarmUp = 60;  // frames until window and anchors are full
 constexpr int kMeasured = 120;
 
-SlamConfig configOf(EstimatorKind estimator) {
-  SlamConfig config;
-  config.estimator = estimator;
-  config.mapper.max_depth_m = 200;
-  config.landmark_map.max_landmarks = 10000000;
-  config.msckf.odometry.walk_m_per_sqrt_m = 0.005;
-  config.msckf.odometry.walk_m_per_sqrt_s = 0.001;
-  return config;
-}
-
 struct Cost {
   double features = 0;
   double landmarks = 0;
@@ -83,7 +73,7 @@ class StageCpu {
 
 Cost costOf(const Scene& scene, EstimatorKind estimator) {
   const std::vector<OdometryState> odometry = truthOf(scene.path);
-  Slam slam(configOf(estimator), forwardCamera());
+  Slam slam(streetConfig(estimator), forwardCamera());
   RunResult run;
   for (std::size_t i = 0; i < scene.frames.size(); ++i) {
     RunFrame frame;

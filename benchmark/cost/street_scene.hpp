@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ardrone_vslam/odometry_buffer.hpp"
+#include "ardrone_vslam/slam_config.hpp"
 #include "landmarks/simulated_street.hpp"
 #include "run/front_end.hpp"
 
@@ -60,6 +61,17 @@ inline std::vector<OdometryState> truthOf(const Trajectory& path) {
     states.push_back(state);
   }
   return states;
+}
+
+/// As wide as a street, with the odometry of truthOf().
+inline SlamConfig streetConfig(EstimatorKind estimator) {
+  SlamConfig config;
+  config.estimator = estimator;
+  config.mapper.max_depth_m = 200;
+  config.landmark_map.max_landmarks = 10000000;
+  config.msckf.odometry.walk_m_per_sqrt_m = 0.005;
+  config.msckf.odometry.walk_m_per_sqrt_s = 0.001;
+  return config;
 }
 
 }  // namespace ardrone_vslam

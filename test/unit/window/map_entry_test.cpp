@@ -206,5 +206,50 @@ TEST(MapEntry, APoseMovesWithItsAnchor) {
   EXPECT_TRUE((J.topRightCorner<3, 1>()).isApprox(-from_anchor));
 }
 
+/// From the third frame on.
+TEST(MapEntrance, WhatIsDoubtedErrsAsOnePiece) {
+  OdometryWindow window = flight();
+  const WindowState before = window;
+  Matrix6d more = Matrix6d::Zero();
+  more.diagonal() << 0.04, 0.09, 0.01, 1e-4, 2e-4, 4e-4;
+  const std::int64_t since_ns = 3'000'000'000;
+  MapEntrance(window).doubtSince(since_ns, more);
+
+  const auto& frames = window.frames();
+  const int newest = window.frameCoordinate(frames.size() - 1);
+  const auto P = window.covariance();
+  EXPECT_TRUE(P.isApprox(P.transpose(), 1e-12));
+  EXPECT_GT(test::leastEigenvalue(P), -1e-12);
+  EXPECT_LT((P.block<6, 6>(newest, newest) - before.covariance().block<6, 6>(newest, newest) - more)
+                .norm(),
+            1e-12);
+  EXPECT_LT((P.block<3, 3>(WindowState::kAttitude, WindowState::kAttitude) -
+             before.covariance().block<3, 3>(WindowState::kAttitude, WindowState::kAttitude) -
+             more.bottomRightCorner<3, 3>())
+                .norm(),
+            1e-12)
+      << "the odometry goes on with the heading that is doubted";
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const int at = window.frameCoordinate(i);
+    if (frames[i].stamp_ns < since_ns) {
+      EXPECT_EQ((P.block<6, 6>(at, at)), (before.covariance().block<6, 6>(at, at))) << i;
+      continue;
+    }
+    // Turned about the newest one, it moves by its lever.
+    Eigen::Matrix<double, 3, 6> lever;
+    lever << Eigen::Matrix3d::Identity(),
+        -skew(frames[i].position_map - window.newest().position_map);
+    EXPECT_LT((P.block<3, 3>(at, at) - before.covariance().block<3, 3>(at, at) -
+               lever * more * lever.transpose())
+                  .norm(),
+              1e-12)
+        << i;
+    const Matrix6d change =
+        window.relativeCovariance(newest, at) - before.relativeCovariance(newest, at);
+    EXPECT_LT((change.bottomRightCorner<3, 3>().norm()), 1e-12)
+        << "what is known of the turn between them stays, " << i;
+  }
+}
+
 }  // namespace
 }  // namespace ardrone_vslam
