@@ -66,8 +66,8 @@ class Slam {
   /// Whether save() has the flight's map: not while the flight is looked for in a loaded one.
   bool hasWholeMap() const;
   /// The map for a file, up to the last frame. While the flight is looked for in a loaded one it is
-  /// what was made meanwhile; while in its own, that one. O(anchors^2 + landmarks / 256), but
-  /// O(landmarks) while looking or with `localise_only`.
+  /// what was made meanwhile; while in its own, that one: then O(landmarks), else
+  /// O(coordinates^2 + landmarks / 256).
   /// @throws std::invalid_argument with the faultOfMaps
   MapSnapshot save() const;
 

@@ -91,7 +91,7 @@ MapSnapshot snapshotOf(const WindowState& state, const Landmarks& landmarks) {
 MapSnapshot::MapSnapshot(SavedMap map)
     : all_but_landmarks(std::move(map)),
       anchor_ids(all_but_landmarks.anchors.size()),
-      anchor_covariance([P = all_but_landmarks.anchor_covariance] { return P; }),
+      anchor_covariance([P = std::move(all_but_landmarks.anchor_covariance)] { return P; }),
       landmarks(all_but_landmarks.landmarks) {
   all_but_landmarks.landmarks = {};
   std::iota(anchor_ids.begin(), anchor_ids.end(), 1);
