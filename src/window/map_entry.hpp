@@ -64,7 +64,7 @@ class MapEntrance {
   /// As enter() does, it takes odometry for moved, too.
   /// @pre the state has the revisit's anchor (asserted)
   void shift(const Revisit& revisit);
-  /// From that pose on all err by so much more, as one piece. O(poses^2).
+  /// From that pose on all err by so much more, as one piece. O(coordinates^2).
   /// @param covariance  position of the newest and attitude, axes of map
   void doubtSince(std::int64_t since_ns, const Eigen::Matrix<double, 6, 6>& covariance);
 
