@@ -15,7 +15,7 @@
 #include "settings/settings.hpp"
 #include "simulation/odometry_model.hpp"
 #include "support/temporary_folder.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 #include "yaml/calibration.hpp"
 
 namespace ardrone_vslam::fuzz {
@@ -139,7 +139,7 @@ std::vector<Bytes> seeds() {
     bytes.insert(bytes.begin(), kind);
     all.push_back(bytes);
   };
-  const std::string folder = ARDRONE_VSLAM_SOURCE_DIR "/config";
+  const std::string folder = test::packageFile("config");
   std::map<std::string, std::string> files;  // by name: the order of folders is no order
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".yaml") continue;

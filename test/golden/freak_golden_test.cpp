@@ -3,7 +3,7 @@
 
 #include "support/freak_reference.hpp"
 #include "support/generated_image.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
@@ -17,7 +17,7 @@ TEST_P(FreakGolden, EveryBitAndEveryAngleIsThePublishedDescriptors) {
   const TestImage image = generatedImage(320, 240);
   ASSERT_EQ(hashOf(image.bytes), kImageHash)
       << "the test makes another image than the reference was computed for";
-  const auto rows = rowsOf(readFreakRows(ARDRONE_VSLAM_TEST_DATA "/freak/generated_320x240.csv"),
+  const auto rows = rowsOf(readFreakRows(test::dataFile("freak/generated_320x240.csv")),
                            "generated_320x240", mode);
   ASSERT_EQ(rows.size(), row_count);
   for (const InstructionSet set : supportedInstructionSets()) {

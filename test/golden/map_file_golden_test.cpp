@@ -6,14 +6,14 @@
 
 #include "support/read_file.hpp"
 #include "support/temporary_folder.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 #include "unit/map_file/map_files.hpp"
 
 namespace ardrone_vslam::test {
 namespace {
 
-constexpr char kGolden[] = ARDRONE_VSLAM_TEST_DATA "/maps/version_1.vmap";
-constexpr char kGoldenFlight[] = ARDRONE_VSLAM_TEST_DATA "/maps/version_1_flight.vmap";
+const std::string kGolden = test::dataFile("maps/version_1.vmap");
+const std::string kGoldenFlight = test::dataFile("maps/version_1_flight.vmap");
 
 TEST(MapFileGolden, AMapIsWrittenAsTheSameBytesEverywhere) {
   const TemporaryFolder folder;

@@ -15,7 +15,7 @@
 #include "configs/onboard_config.hpp"
 #include "support/contains.hpp"
 #include "support/sequence_folders.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -44,14 +44,14 @@ std::map<std::string, Names> namesOfSections() {
 }
 
 std::string textOf(const std::string& path) {
-  std::ifstream file(std::string(ARDRONE_VSLAM_SOURCE_DIR "/") + path);
+  std::ifstream file(test::packageFile(path));
   EXPECT_TRUE(file) << path;
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// @return its path in the package; empty when there is none
 std::string fileBelow(const std::string& folder, const std::string& name) {
-  const std::filesystem::path root = ARDRONE_VSLAM_SOURCE_DIR;
+  const std::filesystem::path root = test::packageFile("");
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
     if (entry.path().filename() == name)
       return std::filesystem::relative(entry.path(), root).string();

@@ -10,7 +10,7 @@
 #include "bag_recipe.hpp"
 #include "doctor_flights.hpp"
 #include "support/read_file.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -18,8 +18,8 @@ namespace {
 class DoctorTool : public DoctorBag {
  protected:
   int run(const std::string& arguments) const {
-    const std::string command =
-        ARDRONE_VSLAM_DOCTOR " " + arguments + " > " + path("output") + " 2> " + path("errors");
+    const std::string command = test::program("doctor") + " " + arguments + " > " + path("output") +
+                                " 2> " + path("errors");
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
@@ -30,9 +30,9 @@ class DoctorTool : public DoctorBag {
       ASSERT_NE(at, std::string::npos) << line;
       line.replace(at, from.size(), to);
     };
-    replaced("rosrun ardrone_vslam replay", ARDRONE_VSLAM_REPLAY);
+    replaced("rosrun ardrone_vslam replay", test::program("replay"));
     if (line.find("$(rospack") != std::string::npos)
-      replaced("$(rospack find ardrone_vslam)", ARDRONE_VSLAM_SOURCE_DIR);
+      replaced("$(rospack find ardrone_vslam)/", test::packageFile(""));
     replaced("--out driver_run", "--frames 0:20 --out " + path("run"));
     line += " > " + path("output") + " 2> " + path("errors");
     EXPECT_EQ(std::system(line.c_str()), 0) << line << "\n" << errors();
@@ -74,7 +74,7 @@ TEST_F(DoctorTool, ExitCodesTellUsableFromNotAndFromWrongUsage) {
 
 TEST_F(DoctorTool, ConfigTakesAFileAsReplayDoesAndRefusesAWrongOne) {
   laps().write(driverFaultsNamed({"released"}), path());
-  const std::string config = ARDRONE_VSLAM_SOURCE_DIR "/config/ardrone.yaml";
+  const std::string config = test::packageFile("config/ardrone.yaml");
   EXPECT_EQ(run(path() + " --config " + config + " --json " + path("report.json")), 0) << errors();
   EXPECT_NE(output().find("In force: " + config + ", which has mapper/odometry_mode"),
             std::string::npos)
@@ -109,9 +109,9 @@ TEST_F(DoctorTool, ReplayOfATurnedCameraNamesDoctorAndThatOfASoundOneDoesNot) {
   longLaps().write(driverFaultsNamed({"released"}), path());
   rotateCameras(path(), path("turned.bag"), rotationOf(Eigen::Vector3d(0, 0, M_PI)));
   const auto replay = [this](const std::string& name) {
-    const std::string command = ARDRONE_VSLAM_REPLAY " " + path(name) + " --out " + path("run") +
-                                " --config " ARDRONE_VSLAM_SOURCE_DIR "/config/ardrone.yaml > " +
-                                path("output") + " 2> " + path("errors");
+    const std::string command =
+        test::program("replay") + " " + path(name) + " --out " + path("run") + " --config " +
+        test::packageFile("config/ardrone.yaml") + " > " + path("output") + " 2> " + path("errors");
     EXPECT_EQ(std::system(command.c_str()), 0) << errors();
     return errors();
   };
@@ -123,9 +123,8 @@ TEST_F(DoctorTool, ReplayOfATurnedCameraNamesDoctorAndThatOfASoundOneDoesNot) {
 }
 
 TEST_F(DoctorTool, WithoutAMasterLiveSaysSo) {
-  EXPECT_EQ(std::system(("ROS_MASTER_URI=http://localhost:9 " ARDRONE_VSLAM_DOCTOR
-                         " --live --seconds 1 2> " +
-                         path("errors") + " > " + path("output"))
+  EXPECT_EQ(std::system(("ROS_MASTER_URI=http://localhost:9 " + test::program("doctor") +
+                         " --live --seconds 1 2> " + path("errors") + " > " + path("output"))
                             .c_str()) >>
                 8,
             1);
@@ -133,7 +132,7 @@ TEST_F(DoctorTool, WithoutAMasterLiveSaysSo) {
 }
 
 TEST_F(DoctorTool, PrintsTheExampleOfItsPage) {
-  const std::string page = test::readFile(ARDRONE_VSLAM_SOURCE_DIR "/docs/doctor.md");
+  const std::string page = test::readFile(test::packageFile("docs/doctor.md"));
   const auto example = page.find("## Example\n");
   ASSERT_NE(example, std::string::npos);
   const auto between = [&](const std::string& before, const std::string& after) {
@@ -141,10 +140,10 @@ TEST_F(DoctorTool, PrintsTheExampleOfItsPage) {
     return page.substr(begin, page.find(after, begin) - begin);
   };
   const std::string in_folder = "cd " + path("") + " && ";
-  const std::string make_world =
-      in_folder + ARDRONE_VSLAM_MAKE_WORLD " " + between("`make_world ", "`:") + " > output 2>&1";
+  const std::string make_world = in_folder + test::program("make_world") + " " +
+                                 between("`make_world ", "`:") + " > output 2>&1";
   ASSERT_EQ(std::system(make_world.c_str()), 0) << make_world << "\n" << output();
-  const std::string doctor = in_folder + ARDRONE_VSLAM_DOCTOR " FILE.bag > output 2> errors";
+  const std::string doctor = in_folder + test::program("doctor") + " FILE.bag > output 2> errors";
   ASSERT_EQ(std::system(doctor.c_str()), 0) << errors();
   EXPECT_EQ(output(), between("`:\n```\n", "```"));
 }

@@ -17,7 +17,7 @@
 #include "run/offline_run.hpp"
 #include "support/sequence_folders.hpp"
 #include "support/shipped_profiles.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -68,7 +68,7 @@ RunResult fly(const WorldSequence& flown, const BagSequence& bag, const DriverFa
               std::uint64_t seed) {
   const bool is_late = faults.count(DriverFault::kBursts) > 0;
   PipelineConfig config =
-      loadConfig(ARDRONE_VSLAM_SOURCE_DIR "/config/ardrone.yaml",
+      loadConfig(test::packageFile("config/ardrone.yaml"),
                  {"mapper/image_time_offset_s=" + std::to_string(is_late ? -kVideoDelay_s : 0)});
   PointWorld seen = points(flown.world().extent(), seed);
   DriverLink link(!is_late, seed);

@@ -8,7 +8,7 @@
 
 #include "bag_damage.hpp"
 #include "support/read_file.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -24,10 +24,10 @@ class ToolUsage : public testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
   int replay(const std::string& arguments) const {
-    return run(ARDRONE_VSLAM_REPLAY " " + arguments + " --out " + path("run"));
+    return run(test::program("replay") + " " + arguments + " --out " + path("run"));
   }
   int makeBag(const std::string& arguments) const {
-    return run(ARDRONE_VSLAM_MAKE_BAG " " + arguments);
+    return run(test::program("make_bag") + " " + arguments);
   }
   void expectOutput(const std::vector<std::string>& parts) const {
     for (const auto& part : parts) {
@@ -104,9 +104,9 @@ TEST_F(ToolUsage, FaultsOfTheInputAreNoWrongUsage) {
   expectOutput({"replay: ", "missing.bag", "no such file"});
   EXPECT_EQ(makeBag("tum " + path("missing") + " --out " + path("a.bag")), 1);
   expectOutput({"make_bag: ", "missing"});
-  EXPECT_EQ(run(ARDRONE_VSLAM_REPLAY), 2);
-  EXPECT_EQ(run(ARDRONE_VSLAM_REPLAY " --help"), 0);
-  EXPECT_EQ(run(ARDRONE_VSLAM_MAKE_BAG " --version"), 0);
+  EXPECT_EQ(run(test::program("replay")), 2);
+  EXPECT_EQ(run(test::program("replay") + " --help"), 0);
+  EXPECT_EQ(run(test::program("make_bag") + " --version"), 0);
 }
 
 TEST_F(ToolUsage, WhatIsNamedOnTheCommandLineWronglyIsWrongUsage) {
@@ -154,7 +154,7 @@ TEST_F(ToolUsage, TheConfigurationsBaseFrameHolds) {
 
 TEST_F(ToolUsage, ARunLeavesNothingOfTheOneBefore) {
   const std::string flight =
-      ARDRONE_VSLAM_SOURCE_DIR "/bags/laps_20s.bag --frames 0:20 --odometry-profile drone";
+      test::packageFile("bags/laps_20s.bag") + " --frames 0:20 --odometry-profile drone";
   const auto has = [this](const std::string& name) {
     return std::filesystem::exists(path("run/" + name));
   };
@@ -218,13 +218,14 @@ TEST_F(ToolUsage, ABagThatDoesNotFitOnTheDiskLeavesNothing) {
     return run("bash -c \"trap '' XFSZ; ulimit -f 20; " + command + "\"");
   };
   for (const std::string format : {"", " --compression lz4", " --compression bz2"}) {
-    EXPECT_EQ(onFullDisk(ARDRONE_VSLAM_MAKE_BAG " tum " + folder_.path() + " --out " +
+    EXPECT_EQ(onFullDisk(test::program("make_bag") + " tum " + folder_.path() + " --out " +
                          path("full.bag") + format),
               1)
         << format << output();
     expectOutput({"make_bag: ", "full.bag: cannot be written", "free space"});
   }
-  EXPECT_EQ(onFullDisk(ARDRONE_VSLAM_MAKE_WORLD " laps --seconds 1 --out " + path("full.bag")), 1);
+  EXPECT_EQ(onFullDisk(test::program("make_world") + " laps --seconds 1 --out " + path("full.bag")),
+            1);
   expectOutput({"make_world: ", "full.bag: cannot be written"});
   EXPECT_FALSE(std::filesystem::exists(path("full.bag")));
   EXPECT_FALSE(std::filesystem::exists(path("full.bag.part")));
@@ -233,7 +234,7 @@ TEST_F(ToolUsage, ABagThatDoesNotFitOnTheDiskLeavesNothing) {
 TEST_F(ToolUsage, OutputThatCannotBeWrittenIsAFault) {
   for (const std::string argument : {"--help", "--version", "--list-parameters"}) {
     const int status = std::system(
-        (ARDRONE_VSLAM_REPLAY " " + argument + " > /dev/full 2> " + path("output")).c_str());
+        (test::program("replay") + " " + argument + " > /dev/full 2> " + path("output")).c_str());
     EXPECT_EQ(WEXITSTATUS(status), 1) << argument;
     expectOutput({"replay: the output cannot be written"});
   }
@@ -248,7 +249,7 @@ TEST_F(ToolUsage, ReplayOfWhatIsLeftOfABagFails) {
 
 TEST_F(ToolUsage, TheDriversOptionsGoWithADriver) {
   const auto makeWorld = [this](const std::string& arguments) {
-    return run(ARDRONE_VSLAM_MAKE_WORLD " laps --seconds 0.1 --out " + path("d.bag") + " " +
+    return run(test::program("make_world") + " laps --seconds 0.1 --out " + path("d.bag") + " " +
                arguments);
   };
   EXPECT_EQ(makeWorld("--fault bursts"), 2);
@@ -259,7 +260,7 @@ TEST_F(ToolUsage, TheDriversOptionsGoWithADriver) {
   expectOutput({"--range-noise", "altd"});
   EXPECT_EQ(makeWorld("--driver ardrone --tf-prefix a/b"), 2);
   expectOutput({"--tf-prefix: 'a/b'"});
-  EXPECT_EQ(run(ARDRONE_VSLAM_MAKE_WORLD " laps --driver ardrone --out " + path("folder")), 2);
+  EXPECT_EQ(run(test::program("make_world") + " laps --driver ardrone --out " + path("folder")), 2);
   expectOutput({"--driver is for bags only"});
   EXPECT_FALSE(std::filesystem::exists(path("d.bag")));
   EXPECT_EQ(makeWorld("--driver ardrone --fault all --compressed jpeg"), 0);

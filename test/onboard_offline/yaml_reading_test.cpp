@@ -10,14 +10,14 @@
 #include "config_files/config_file.hpp"
 #include "folders/camera_yaml.hpp"
 #include "settings/settings.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 #include "yaml/calibration.hpp"
 #include "yaml/yaml_sections.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
-const std::string kFolder = ARDRONE_VSLAM_SOURCE_DIR "/config";
+const std::string kFolder = test::packageFile("config");
 
 std::vector<std::string> yamlFiles() {
   std::vector<std::string> paths;

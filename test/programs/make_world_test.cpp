@@ -13,7 +13,7 @@
 #include "support/read_file.hpp"
 #include "support/shipped_profiles.hpp"
 #include "support/temporary_folder.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 #include "world/world_sequence.hpp"
 
 namespace ardrone_vslam {
@@ -28,7 +28,7 @@ class MakeWorld : public testing::Test {
   /// Exit code of make_world with these arguments; what it prints goes to the file `output`.
   int run(const std::string& arguments) const {
     const std::string command =
-        std::string(ARDRONE_VSLAM_MAKE_WORLD) + " " + arguments + " > " + path("output") + " 2>&1";
+        test::program("make_world") + " " + arguments + " > " + path("output") + " 2>&1";
     return WEXITSTATUS(std::system(command.c_str()));
   }
 
@@ -203,7 +203,7 @@ TEST_F(MakeWorld, ExitCodesTellUsageFromFaults) {
 TEST_F(MakeWorld, ListsItsFlights) {
   ASSERT_EQ(run("--list"), 0);
   const std::string list = text("output");
-  const std::string docs = test::readFile(ARDRONE_VSLAM_SOURCE_DIR "/docs/make_world.md");
+  const std::string docs = test::readFile(test::packageFile("docs/make_world.md"));
   for (const auto& flight : flights()) {
     EXPECT_NE(list.find(flight.name + " "), std::string::npos) << flight.name;
     EXPECT_NE(list.find(flight.summary), std::string::npos) << flight.name;

@@ -12,7 +12,7 @@
 #include "ardrone_vslam/instruction_set.hpp"
 #include "support/read_file.hpp"
 #include "support/temporary_folder.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -36,7 +36,7 @@ class ReplayDeterminism : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     // Long enough for landmarks of the lap before.
-    ASSERT_EQ(std::system((ARDRONE_VSLAM_MAKE_WORLD " laps --seconds 20 --rate 5 --out " +
+    ASSERT_EQ(std::system((test::program("make_world") + " laps --seconds 20 --rate 5 --out " +
                            folder_->file("flight") + " 2> " + folder_->file("told"))
                               .c_str()),
               0)
@@ -52,9 +52,10 @@ class ReplayDeterminism : public ::testing::Test {
   };
   Run replay(const std::string& options, const std::string& kernels = "") const {
     const std::string out = folder_->file("run");
-    const std::string command = "ARDRONE_VSLAM_KERNELS=" + kernels + " " ARDRONE_VSLAM_REPLAY " " +
-                                folder_->file("flight") + " --out " + out + " --save-map " + out +
-                                "/map.vmap " + options + " > " + folder_->file("told") + " 2>&1";
+    const std::string command = "ARDRONE_VSLAM_KERNELS=" + kernels + " " + test::program("replay") +
+                                " " + folder_->file("flight") + " --out " + out + " --save-map " +
+                                out + "/map.vmap " + options + " > " + folder_->file("told") +
+                                " 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << test::readFile(folder_->file("told"));
     const auto summary = nlohmann::json::parse(test::readFile(out + "/summary.json"));
     return {test::readFile(out + "/fused.tum"), withoutTimes(test::readFile(out + "/frames.csv")),

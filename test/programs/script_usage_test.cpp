@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "support/sequence_folders.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -20,7 +20,7 @@ class ScriptUsage : public testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
   int script(const std::string& command) const {
-    return run(ARDRONE_VSLAM_SOURCE_DIR "/scripts/" + command);
+    return run(test::packageFile("scripts/") + command);
   }
   std::string output() const {
     std::ifstream file(folder_.file("output"));
@@ -96,8 +96,8 @@ TEST_F(ScriptUsage, RecordRunCountsImagesWithoutPoseAndKnowsItsNees) {
       "assert np.isnan(module.nees(error_m, np.zeros((3, 3))))\n"
       "assert np.isnan(module.nees(error_m, np.full((3, 3), np.nan)))\n"
       "assert module.known(np.nan) == '' and module.known(0.5) == 0.5\n");
-  EXPECT_EQ(run("/usr/bin/python3 " + folder_.file("check.py") +
-                " " ARDRONE_VSLAM_SOURCE_DIR "/scripts/record_run"),
+  EXPECT_EQ(run("/usr/bin/python3 " + folder_.file("check.py") + " " +
+                test::packageFile("scripts/record_run")),
             0)
       << output();
 }

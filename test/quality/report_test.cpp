@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/sequence_folders.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -17,11 +17,10 @@ class Report : public testing::Test {
     if (std::system("/usr/bin/python3 -c 'import numpy, matplotlib' 2> /dev/null") != 0) {
       GTEST_SKIP() << "needs the packages python3-numpy and python3-matplotlib";
     }
-    const std::string command = ARDRONE_VSLAM_SOURCE_DIR
-                                "/benchmark/report.py " ARDRONE_VSLAM_TEST_DATA
-                                "/benchmark/measured.json --revision abc --page " +
-                                folder_.file("page.md") + " --json " + folder_.file("rows.json") +
-                                " > " + folder_.file("output") + " 2>&1";
+    const std::string command =
+        test::packageFile("benchmark/report.py") + " " + test::dataFile("benchmark/measured.json") +
+        " --revision abc --page " + folder_.file("page.md") + " --json " +
+        folder_.file("rows.json") + " > " + folder_.file("output") + " 2>&1";
     ASSERT_EQ(std::system(command.c_str()), 0) << text("output");
   }
   std::string text(const std::string& name) const {

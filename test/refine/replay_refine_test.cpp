@@ -8,7 +8,7 @@
 #include "ardrone_vslam/saved_map.hpp"
 #include "support/read_file.hpp"
 #include "support/temporary_folder.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -17,7 +17,7 @@ class ReplayRefine : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
-    ASSERT_EQ(std::system((ARDRONE_VSLAM_MAKE_WORLD " laps --seconds 20 --rate 10 --out " +
+    ASSERT_EQ(std::system((test::program("make_world") + " laps --seconds 20 --rate 10 --out " +
                            folder_->file("flight") + " 2> " + folder_->file("told"))
                               .c_str()),
               0)
@@ -27,7 +27,7 @@ class ReplayRefine : public ::testing::Test {
 
   /// @return exit code
   int replay(const std::string& options) const {
-    return std::system((ARDRONE_VSLAM_REPLAY " " + folder_->file("flight") + " --out " +
+    return std::system((test::program("replay") + " " + folder_->file("flight") + " --out " +
                         folder_->file("run") + " --odometry-profile drone " + options + " > " +
                         folder_->file("told") + " 2>&1")
                            .c_str());

@@ -5,15 +5,14 @@
 #include <string>
 
 #include "simulation/odometry_model.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam::test {
 
 constexpr double kRadPerDeg = M_PI / 180;  // profiles are in degrees
 
 /// The file of the odometry profiles that the package ships.
-inline const std::string kShippedProfiles =
-    ARDRONE_VSLAM_SOURCE_DIR "/config/odometry_profiles.yaml";
+inline const std::string kShippedProfiles = test::packageFile("config/odometry_profiles.yaml");
 
 /// The profile of that name among them.
 inline OdometryProfile shippedProfile(const std::string& name) {

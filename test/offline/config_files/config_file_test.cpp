@@ -17,7 +17,7 @@
 #include "parameters/parameter_table.hpp"
 #include "support/contains.hpp"
 #include "support/sequence_folders.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -238,7 +238,7 @@ TEST(ParameterTable, NamesEveryParameterWithItsDefault) {
 }
 
 TEST(ParameterTable, ThePageIsTheTable) {
-  std::ifstream file(ARDRONE_VSLAM_SOURCE_DIR "/docs/parameters.md");
+  std::ifstream file(test::packageFile("docs/parameters.md"));
   const std::string page((std::istreambuf_iterator<char>(file)), {});
   EXPECT_EQ(page, parameterTable()) << "replay --list-parameters > docs/parameters.md";
 }

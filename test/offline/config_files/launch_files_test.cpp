@@ -11,13 +11,13 @@
 #include "driver/fake_driver_setup.hpp"
 #include "folders/camera_yaml.hpp"
 #include "sequences/drone_cameras.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
 
 std::string launchFile(const std::string& name) {
-  std::ifstream file(ARDRONE_VSLAM_SOURCE_DIR "/launch/" + name);
+  std::ifstream file(test::packageFile("launch/") + name);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -71,7 +71,7 @@ TEST(LaunchFiles, ArdroneSetsParametersThatTheFakeDriverHas) {
 }
 
 TEST(LaunchFiles, DefaultCalibrationsAreThoseOfTheStream) {
-  const std::string folder = ARDRONE_VSLAM_SOURCE_DIR "/config/camera_info/";
+  const std::string folder = test::packageFile("config/camera_info/");
   const CameraIntrinsics front = readCameraYaml(folder + "ardrone_front.yaml");
   const CameraIntrinsics bottom = readCameraYaml(folder + "ardrone_bottom.yaml");
   for (const CameraIntrinsics& camera : {front, bottom}) {

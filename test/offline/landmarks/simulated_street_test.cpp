@@ -13,8 +13,8 @@
 #include "support/real_data.hpp"
 #include "support/sequence_folders.hpp"
 #include "support/shipped_profiles.hpp"
+#include "support/test_paths.hpp"
 #include "support/truth_paths.hpp"
-#include "test_paths.hpp"
 #include "trajectory/metrics.hpp"
 
 namespace ardrone_vslam {
@@ -72,7 +72,7 @@ PipelineConfig streetConfig(const std::vector<std::string>& overrides) {
   std::vector<std::string> all = {"mapper/estimator=msckf",
                                   "mapper/extrinsics_sigma_deg=0"};  // exact mounting
   all.insert(all.end(), overrides.begin(), overrides.end());
-  return loadConfig(std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/kitti.yaml", all);
+  return loadConfig(test::packageFile("config/kitti.yaml"), all);
 }
 
 struct Drive {

@@ -16,7 +16,7 @@
 #include "summary/run_report.hpp"
 #include "support/real_data.hpp"
 #include "support/shipped_profiles.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 #include "trajectory/metrics.hpp"
 #include "world/world_sequence.hpp"
 
@@ -141,7 +141,7 @@ TEST(RealPipeline, KittiWithTheTruthAsOdometry) {
   if (test::realData().empty()) GTEST_SKIP() << "ARDRONE_VSLAM_DATA is not set";
   const auto sequence = select(openFolder(folder), FrameSelection::parse("0:150", false));
   const Outcome outcome =
-      runOn(*sequence, "truth", 0, 1, {}, ARDRONE_VSLAM_SOURCE_DIR "/config/kitti.yaml");
+      runOn(*sequence, "truth", 0, 1, {}, test::packageFile("config/kitti.yaml"));
   // The thesis on KITTI 00: mean 0.158 m, largest 26 m, typically 6 landmark matches a frame.
   EXPECT_LT(outcome.summary["fused_error_mean_m"], 0.008);    // measured: 0.0064
   EXPECT_LT(outcome.summary["fused_error_max_m"], 0.0125);    // measured: 0.0104

@@ -14,7 +14,7 @@
 #include "report/run_verdict.hpp"
 #include "summary/seeds_summary.hpp"
 #include "support/sequence_folders.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -164,7 +164,7 @@ TEST(RunReport, ScaleErrorThatWasDrawnIsRemoved) {
 }
 
 TEST(RunReport, ThePageNamesEveryKeyOfTheSummary) {
-  std::ifstream file(ARDRONE_VSLAM_SOURCE_DIR "/docs/summary_keys.md");
+  std::ifstream file(test::packageFile("docs/summary_keys.md"));
   const std::string page((std::istreambuf_iterator<char>(file)), {});
   ASSERT_FALSE(page.empty());
   const Json summary = summaryFor("drone", straightTruth());

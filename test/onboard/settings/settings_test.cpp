@@ -9,7 +9,7 @@
 #include "onboard/flight_records.hpp"
 #include "protocol/udp.hpp"
 #include "support/temporary_folder.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 #include "yaml/calibration.hpp"
 #include "yaml/yaml_sections.hpp"
 
@@ -89,7 +89,7 @@ std::string settingsFault(const std::vector<std::string>& overrides) {
 }
 
 TEST(SettingsTest, TheDronesOwnConfigurationIsReadWhole) {
-  const std::string folder = ARDRONE_VSLAM_SOURCE_DIR "/config/";
+  const std::string folder = test::packageFile("config/");
   const Settings s = loadSettings(folder + "ardrone_onboard.yaml", {"onboard/cpu_share=0.25"});
   EXPECT_EQ(s.onboard.frames, "/dev/video2");
   EXPECT_EQ(s.onboard.cpu_share, 0.25);
@@ -174,8 +174,7 @@ TEST(SettingsTest, FilesThatAreNoneAreRefused) {
 
 TEST(SettingsTest, ACalibrationThatIsNoneIsRefused) {
   const std::string path = ::testing::TempDir() + "onboard_calibration.yaml";
-  const std::string good =
-      readFile(ARDRONE_VSLAM_SOURCE_DIR "/config/camera_info/ardrone_front.yaml");
+  const std::string good = readFile(test::packageFile("config/camera_info/ardrone_front.yaml"));
   const auto isRefused = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);

@@ -11,7 +11,7 @@
 #include "config_files/config_file.hpp"
 #include "support/read_file.hpp"
 #include "support/temporary_folder.hpp"
-#include "test_paths.hpp"
+#include "support/test_paths.hpp"
 #include "with_ros/params.hpp"
 
 namespace ardrone_vslam {
@@ -64,7 +64,7 @@ TEST(NodeConfig, NoNameIsUsedTwiceInANode) {
 }
 
 TEST(NodeConfig, TheBridgesLaunchFileSetsItsParameters) {
-  const std::string all = test::readFile(ARDRONE_VSLAM_SOURCE_DIR "/launch/onboard_bridge.launch");
+  const std::string all = test::readFile(test::packageFile("launch/onboard_bridge.launch"));
   const std::string node =
       all.substr(std::min(all.find("type=\"onboard_bridge_node\""), all.size()));
   const std::vector<std::string> known = namesOf(OnboardBridgeConfig{});
@@ -79,8 +79,7 @@ TEST(NodeConfig, TheBridgesLaunchFileSetsItsParameters) {
 
 TEST(NodeConfig, ShippedFilesLoad) {
   for (const auto* name : {"kitti.yaml", "wheels_indoor.yaml", "drone.yaml", "ardrone.yaml"}) {
-    EXPECT_NO_THROW(loadConfig(std::string(ARDRONE_VSLAM_SOURCE_DIR) + "/config/" + name, {}))
-        << name;
+    EXPECT_NO_THROW(loadConfig(test::packageFile("config/") + name, {})) << name;
   }
 }
 
