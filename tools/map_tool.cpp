@@ -39,7 +39,7 @@ struct Options {
 
 /// Writes the map, and says what became of the landmarks of before.
 int write(const std::string& path, const SavedMap& map, std::size_t before) {
-  const std::size_t written = writeMap(path, map);
+  const std::size_t written = writeMap(path, map, "map_tool " ARDRONE_VSLAM_VERSION);
   std::printf("%s: %zu landmarks of %zu, %zu anchors\n", path.c_str(), written, before,
               map.anchors.size());
   return 0;

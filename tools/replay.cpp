@@ -54,7 +54,7 @@ struct Options {
   bool report = false;
   int threads = 2;
   ComputerSpeed speed;
-  CLI::Option* budget_option = nullptr;
+  CLI::Option* image_ms_option = nullptr;
   CLI::Option* cpu_factor_option = nullptr;
 #ifdef ARDRONE_VSLAM_WITH_ROS
   BagOptions bag;
@@ -117,15 +117,15 @@ void addOptions(CLI::App& app, Options& o) {
                "tracks are not aligned between pixels, as the thesis has them");
   app.add_flag("--report", o.report,
                "also report.html, a page with tables and plots (docs/evaluate.md)");
-  o.budget_option =
-      app.add_option("--budget-ms", o.speed.budget_ms,
+  o.image_ms_option =
+      app.add_option("--image-ms", o.speed.image_ms,
                      "emulate a computer that needs so long for an image; of those that arrive "
                      "meanwhile the newest waits, the others are dropped. The same each time")
           ->check(numberWithin(0.0, 1e6));
   o.cpu_factor_option =
       app.add_option("--cpu-factor", o.speed.cpu_factor,
                      "emulate one that needs so many times what an image takes here (decoding "
-                     "left out), or what --budget-ms says")
+                     "left out), or what --image-ms says")
           ->check(numberWithin(0.0, 1e6));
   app.add_option("--threads", o.threads,
                  "2: decode ahead, spread the seeds; results do not depend on it")
@@ -163,11 +163,11 @@ std::unique_ptr<Sequence> openInput(const Options& o, const PipelineConfig& conf
 
 /// @return nothing: a computer that has time for all images
 std::optional<ComputerSpeed> speedOf(const Options& o) {
-  if (o.budget_option->count() + o.cpu_factor_option->count() == 0) return {};
-  if (!o.speed.budget_ms && !o.seeds.empty()) {
+  if (o.image_ms_option->count() + o.cpu_factor_option->count() == 0) return {};
+  if (!o.speed.image_ms && !o.seeds.empty()) {
     throw UsageError(
         "--cpu-factor: what an image takes differs from seed to seed, but --seeds share the "
-        "images; give one --seed, or --budget-ms");
+        "images; give one --seed, or --image-ms");
   }
   return o.speed;
 }
@@ -279,8 +279,8 @@ int run(const Options& o) {
   if (!unfinished.hasWritten()) removeEarlierRun(o.out);
   append(reportRuns(*sequence, odometries, results, report), faults);
   if (const auto& map = results.front().map)
-    std::cout << "map of " << writeMap(o.maps.saved, *map) << " landmarks written to "
-              << o.maps.saved << '\n';
+    std::cout << "map of " << writeMap(o.maps.saved, *map, "replay " ARDRONE_VSLAM_VERSION)
+              << " landmarks written to " << o.maps.saved << '\n';
   std::cout << "written to " << o.out << '\n';
   if (o.report) writeRunPage(evaluate_script, o.out);
   for (const std::string& text : faults) tell(text);

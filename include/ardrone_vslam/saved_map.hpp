@@ -42,6 +42,7 @@ struct SavedMap {
   Eigen::MatrixXd anchor_covariance;  ///< of all anchors, kAnchor coordinates each
   std::vector<Landmark> landmarks;    ///< `anchor_id` is 1 + the index into `anchors`
   FlightRecord flight;                ///< that made it; without keyframes: not kept
+  std::string made_by;                ///< of a file: program and version; empty: it does not say
 };
 
 /// Leaves these anchors, in this order, and their landmarks; the flight's record stays.
@@ -86,9 +87,10 @@ class MapFileError : public std::runtime_error {
 /// old map or the new one. The same bytes on every processor. Landmarks with an anchor that is not
 /// there, or with numbers that cannot be (not finite, a negative variance, a view direction of
 /// another length than 1), are left out, and so is a flight that could not be read again.
+/// @param made_by  program and version, at most 255 bytes; empty: the file does not say
 /// @throws MapFileError naming the file and what is wrong
 /// @return landmarks written
-std::size_t writeMap(const std::string& path, const SavedMap& map);
+std::size_t writeMap(const std::string& path, const SavedMap& map, const std::string& made_by = {});
 
 /// @throws MapFileError when writeMap() could not write there, as far as can be told before
 void checkWritable(const std::string& path);

@@ -12,6 +12,7 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr char kMadeBy[] = "mapper " ARDRONE_VSLAM_VERSION;
 constexpr std::chrono::seconds kPatience(10);  // for the mapper's thread
 constexpr double kFirstKept_s = 10;
 constexpr double kSayEvery_s = 60;
@@ -147,14 +148,14 @@ void MapServices::keep(MapSnapshot map) {
     if (std::filesystem::exists(path, error)) std::filesystem::remove(before, error);
     std::filesystem::create_hard_link(path, before, error);
   }
-  writeMap(kept_, std::move(map).map());
+  writeMap(kept_, std::move(map).map(), kMadeBy);
   kept_ns_ = stamp_ns;
 }
 
 bool MapServices::onSave(MapFile::Request& request, MapFile::Response& response) {
   try {
     const std::string path = pathOf(request.name);
-    const std::size_t landmarks = writeMap(path, mapOfMapper().map());
+    const std::size_t landmarks = writeMap(path, mapOfMapper().map(), kMadeBy);
     response.message = std::to_string(landmarks) + " landmarks written to " + path;
     response.success = 1;
   } catch (const std::exception& e) {

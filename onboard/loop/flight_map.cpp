@@ -15,6 +15,7 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr char kMadeBy[] = "vslam_onboard " ARDRONE_VSLAM_VERSION;
 constexpr int kNothingToSave = 2;  // exit code of the child
 constexpr std::size_t kMostOfFlight_bytes = 4'000'000;
 
@@ -40,7 +41,7 @@ int writeInChild(const std::string& path, const Slam& slam,
   try {
     const SavedMap map = mapOf(slam, recorder);
     if (map.landmarks.empty()) return kNothingToSave;
-    writeMap(path, map);
+    writeMap(path, map, kMadeBy);
     return 0;
   } catch (const MapFileError& e) {
     std::fprintf(stderr, "vslam_onboard: in flight: %s\n", e.what());
@@ -139,7 +140,7 @@ std::string FlightMap::saveAtEnd(const Slam& slam) {
   if (is_given_up_) return path + " stays as it was when the flight's map began anew";
   const SavedMap map = mapOf(slam, recorder_);
   if (map.landmarks.empty()) return path + " stays as it was: the flight has no landmark";
-  return std::to_string(writeMap(path, map)) + " landmarks written to " + path;
+  return std::to_string(writeMap(path, map, kMadeBy)) + " landmarks written to " + path;
 }
 
 void FlightMap::waitForChild(int options) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How much accuracy is left when there is time for few images only (replay --budget-ms)."""
+"""How much accuracy is left when there is time for few images only (replay --image-ms)."""
 
 import numpy as np
 

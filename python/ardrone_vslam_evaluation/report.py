@@ -33,7 +33,7 @@ class Figure:
 def all_figures(rows):
     """Those that compare rates only where there are several."""
     rates = Figure("error_against_rate", "Accuracy against images used a second", "A dot is a run, the lines go through the medians. Fewer images "
-                   "than there are: replay --budget-ms or --cpu-factor.", draw_error_against_rate)
+                   "than there are: replay --image-ms or --cpu-factor.", draw_error_against_rate)
     return ([rates] if has_several_rates(rows) else []) + [
         Figure("trajectories", "Trajectories", "From above. The dot is the start.", draw_trajectories),
         Figure("heights", "Heights", "Upwards, from where the frame's origin is.", draw_heights),

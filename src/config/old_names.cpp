@@ -103,6 +103,7 @@ constexpr OldName kTable[] = {
     constant("mapper", "max_feature_age_s"),
     constant("mapper", "min_parallax_deg"),
     constant("mapper", "baseline_growth"),
+    constant("mapper", "max_depth_m", "it is 200 m for every robot"),
     constant("mapper", "map_publish_hz", kRates),
     constant("mapper", "max_path_poses", kRates),
     // Of the thesis's filter.
@@ -179,6 +180,7 @@ constexpr OldName kTable[] = {
     {Kind::kChoice, "estimator", "observer", "odometry", ""},
     {Kind::kSection, "", "observer_fusion", "odometry_fusion", ""},
     {Kind::kOption, "replay", "--observer-profile", "--odometry-profile", ""},
+    {Kind::kOption, "replay", "--budget-ms", "--image-ms", ""},
     {Kind::kOption, "make_world", "--observer-profile", "--odometry-profile", ""},
     {Kind::kOption, "make_bag", "--observer-profile", "--odometry-profile", ""},
     {Kind::kOption, "simulate_landmarks", "--observer-profile", "--odometry-profile", ""},

@@ -26,6 +26,7 @@ SavedMap readUnnamed(const std::string& path, WithFlight with_flight) {
   read(kCameraTag, readCamera);
   read(kAnchorsTag, readAnchors);
   readLandmarks(file, table.find(kLandmarksTag), map);
+  if (table.search(kMadeTag) != nullptr) read(kMadeTag, readMade);
   if (with_flight == WithFlight::kYes && table.search(kFlightTag) != nullptr)
     read(kFlightTag, readFlight);
   return map;

@@ -19,15 +19,17 @@ struct SmallSection {
 struct Layout {
   SmallSection info{kInfoTag, {}};
   SmallSection camera{kCameraTag, {}};
+  SmallSection made{kMadeTag, {}};  // without bytes: none
   std::uint64_t anchors = 0;
   std::uint64_t landmarks = 0;
   std::uint64_t flight = 0;  // none
   static constexpr std::uint64_t kEnd = 8;
 
-  std::uint32_t sections() const { return flight > 0 ? 6 : 5; }
+  bool hasMade() const { return made.payload.size() > 0; }
+  std::uint32_t sections() const { return 5U + (hasMade() ? 1U : 0U) + (flight > 0 ? 1U : 0U); }
   std::uint64_t fileSize() const {
     return kMapHeaderSize + sections() * kSectionFrame + info.payload.size() +
-           camera.payload.size() + anchors + landmarks + flight + kEnd;
+           camera.payload.size() + made.payload.size() + anchors + landmarks + flight + kEnd;
   }
 };
 
@@ -54,8 +56,9 @@ std::vector<std::uint32_t> savableLandmarks(const SavedMap& map) {
   return ids;
 }
 
-Layout layoutOf(const SavedMap& map, std::size_t landmarks) {
+Layout layoutOf(const SavedMap& map, std::size_t landmarks, const std::string& made_by) {
   Layout layout;
+  if (madeFault(made_by).empty()) layout.made.payload.text(made_by);
   writeInfo(map, layout.info.payload);
   writeCamera(map.camera, layout.camera.payload);
   layout.anchors = anchorsSize(map.anchors.size());
@@ -107,13 +110,13 @@ void writeFlightSection(const FlightRecord& flight, const std::vector<std::uint3
 }
 
 /// @throws std::bad_alloc too
-std::size_t writeAll(const std::string& path, const SavedMap& map) {
+std::size_t writeAll(const std::string& path, const SavedMap& map, const std::string& made_by) {
   const std::string fault = mapFault(map);
   if (!fault.empty())
     throw MapFileError(path + ": the map is not written, it could not be read again: " + fault);
   const std::vector<std::uint32_t> landmarks = savableLandmarks(map);
   const std::size_t count = landmarks.size();
-  const Layout layout = layoutOf(map, count);
+  const Layout layout = layoutOf(map, count, made_by);
   if (layout.fileSize() > kMostMapBytes)
     throw MapFileError(path + ": the map is not written, " + std::to_string(count) +
                        " landmarks would make more than 2 GiB; bound the map (max_landmarks)");
@@ -121,6 +124,7 @@ std::size_t writeAll(const std::string& path, const SavedMap& map) {
   file.header(layout.sections());
   writeSmall(layout.info, file);
   writeSmall(layout.camera, file);
+  if (layout.hasMade()) writeSmall(layout.made, file);
   writeAnchorsSection(map, layout.anchors, file);
   writeLandmarksSection(map, count, layout.landmarks, file);
   if (layout.flight > 0) writeFlightSection(map.flight, landmarks, layout.flight, file);
@@ -133,9 +137,9 @@ std::size_t writeAll(const std::string& path, const SavedMap& map) {
 
 }  // namespace
 
-std::size_t writeMap(const std::string& path, const SavedMap& map) {
+std::size_t writeMap(const std::string& path, const SavedMap& map, const std::string& made_by) {
   try {
-    return writeAll(path, map);
+    return writeAll(path, map, made_by);
   } catch (const std::bad_alloc&) {
     throw MapFileError(path + ": there is not enough memory to write the map; bound its anchors " +
                        "(max_anchors)");

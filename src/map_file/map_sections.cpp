@@ -22,6 +22,15 @@ std::string shown(std::string name) {
   return name;
 }
 
+std::string textFault(const std::string& what, const std::string& text) {
+  if (text.empty() || text.size() > kMostText)
+    return what + " has " + std::to_string(text.size()) + " characters, not 1 to " +
+           std::to_string(kMostText);
+  if (std::any_of(text.begin(), text.end(), isControl))
+    return what + " (" + shown(text) + ") has characters that cannot be printed";
+  return {};
+}
+
 std::string textOf(const MapCamera& c) {
   std::ostringstream text;
   text << c.width_px << " x " << c.height_px << " px, focal length " << c.focal_length_px << " px";
@@ -43,14 +52,20 @@ void refuseSection(const SectionTag& tag, const std::string& what) {
 }
 
 std::string infoFault(const SavedMap& map) {
-  const std::string& frame = map.frame_id;
-  if (frame.empty() || frame.size() > kMostText)
-    return "the name of the frame has " + std::to_string(frame.size()) + " characters, not 1 to " +
-           std::to_string(kMostText);
-  if (std::any_of(frame.begin(), frame.end(), isControl))
-    return "the name of the frame (" + shown(frame) + ") has characters that cannot be printed";
-  if (map.stamp_ns < 0) return "the stamp is negative";
-  return {};
+  const std::string fault = textFault("the name of the frame", map.frame_id);
+  if (!fault.empty()) return fault;
+  return map.stamp_ns < 0 ? "the stamp is negative" : "";
+}
+
+std::string madeFault(const std::string& made_by) {
+  return textFault("the name of the program that made the map", made_by);
+}
+
+void readMade(ByteReader in, SavedMap& map) {
+  map.made_by = in.text(kMostText);
+  if (in.isShort() || in.remaining() > 0) refuseSection(kMadeTag, "its size does not fit");
+  const std::string fault = madeFault(map.made_by);
+  if (!fault.empty()) refuseSection(kMadeTag, fault);
 }
 
 void writeInfo(const SavedMap& map, ByteWriter& out) {

@@ -28,7 +28,9 @@ constexpr SectionTag kInfoTag{'I', 'N', 'F', 'O'};
 constexpr SectionTag kCameraTag{'C', 'A', 'M', 'R'};
 constexpr SectionTag kAnchorsTag{'A', 'N', 'C', 'H'};
 constexpr SectionTag kLandmarksTag{'L', 'A', 'N', 'D'};
-constexpr SectionTag kFlightTag{'k', 'e', 'y', 'f'};  // versions that do not know it skip it
+// Versions that do not know these skip them.
+constexpr SectionTag kFlightTag{'k', 'e', 'y', 'f'};
+constexpr SectionTag kMadeTag{'m', 'a', 'd', 'e'};
 constexpr SectionTag kEndTag{'D', 'O', 'N', 'E'};
 
 /// As text; what cannot be printed becomes "?".
@@ -40,6 +42,7 @@ std::string printable(const SectionTag& tag);
 // What is wrong with a part of a map, so that a file with it is neither written nor read; empty if
 // nothing is.
 std::string infoFault(const SavedMap& map);
+std::string madeFault(const std::string& made_by);
 std::string anchorsFault(const SavedMap& map);
 
 /// What cannot be; empty when it can.
@@ -63,6 +66,8 @@ void writeCovarianceRow(const Eigen::MatrixXd& covariance, Eigen::Index row, Byt
 /// Frame and stamp.
 void readInfo(ByteReader in, SavedMap& map);
 void readCamera(ByteReader in, SavedMap& map);
+/// Program and version.
+void readMade(ByteReader in, SavedMap& map);
 /// With their covariance.
 void readAnchors(ByteReader in, SavedMap& map);
 

@@ -10,7 +10,7 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr SectionTag kKnown[] = {kInfoTag,      kCameraTag, kAnchorsTag,
+constexpr SectionTag kKnown[] = {kInfoTag,      kCameraTag, kAnchorsTag, kMadeTag,
                                  kLandmarksTag, kFlightTag, kEndTag};
 constexpr char kGoesOn[] = "the file is damaged: it goes on behind its last section";
 constexpr char kUseNewer[] = "use a newer version of ardrone_vslam";

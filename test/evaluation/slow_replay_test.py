@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""replay --budget-ms and --cpu-factor, and what evaluate draws of such runs."""
+"""replay --image-ms and --cpu-factor, and what evaluate draws of such runs."""
 
 import json
 import os
@@ -33,26 +33,33 @@ class SlowReplayTest(TestWithFolder):
     def test_dropped_images_are_counted_and_shown(self):
         summary, told = self.summary("whole")
         self.assertEqual((summary["frames"], summary["frames_dropped_slow"]), (FRAMES, 0))
-        summary, told = self.summary("slow", "--budget-ms", "100")
+        summary, told = self.summary("slow", "--image-ms", "100")
         self.assertEqual((summary["frames"], summary["frames_dropped_slow"]), (21, 19))  # every other one, and the last
         self.assertIn("m travelled; 19 dropped as too slow\n", told)
-        self.assertEqual(self.summary("slower", "--budget-ms", "100", "--cpu-factor", "4")[0]["frames"], 6)
+        self.assertEqual(self.summary("slower", "--image-ms", "100", "--cpu-factor", "4")[0]["frames"], 6)
 
     def test_seeds_share_what_is_dropped(self):
-        summary, told = self.summary("seeds", "--budget-ms", "100", "--seeds", "1:2")
+        summary, told = self.summary("seeds", "--image-ms", "100", "--seeds", "1:2")
         self.assertEqual([run["frames_dropped_slow"] for run in summary["runs"]], [19, 19])
         self.assertIn("frames: 21, and 19 dropped as too slow", told)
 
+    def test_what_there_was_no_time_for_is_counted(self):
+        summary, _ = self.summary("hasty", "--set", "frame_budget_ms=0.001")
+        self.assertEqual(summary["left_out"]["keyframe"], FRAMES)  # one is due at each: none was ever taken
+        self.assertEqual(summary["landmarks"], 0)
+        summary, _ = self.summary("patient", "--set", "frame_budget_ms=10000")
+        self.assertEqual(summary["left_out"], {"place_search": 0, "landmarks": 0, "keyframe": 0})
+
     def test_wrong_usage_is_told(self):
         for options, part in ((("--cpu-factor", "2", "--seeds", "1:2"), "--cpu-factor: what an image takes differs from seed to seed"),
-                              (("--budget-ms", "-1"), "--budget-ms"), (("--cpu-factor", "fast"), "--cpu-factor")):
+                              (("--image-ms", "-1"), "--image-ms"), (("--cpu-factor", "fast"), "--cpu-factor")):
             code, _, fault = self.replay("refused", *options)
             self.assertEqual(code, 2, fault)
             self.assertIn(part, fault)
 
     def test_accuracy_against_rate_is_drawn_of_runs_that_differ_in_it(self):
         self.summary("fast_1", "--seeds", "1:2")
-        self.summary("slow_1", "--budget-ms", "200", "--seeds", "1:2")
+        self.summary("slow_1", "--image-ms", "200", "--seeds", "1:2")
         code, _, fault = evaluate(self.path("fast_1"), self.path("slow_1"), "--figures", self.path("figures"))
         self.assertEqual(code, 0, fault)
         self.assertTrue(os.path.exists(f"{self.path('figures')}/error_against_rate.png"))
@@ -65,7 +72,7 @@ class SlowReplayTest(TestWithFolder):
         from ardrone_vslam_evaluation.plot_rates import errors_by_rate
         from ardrone_vslam_evaluation.run_folder import read_run
         self.summary("a")
-        self.summary("b", "--budget-ms", "450")  # 0, 0.45, 0.9, 1.35, 1.8 and the last
+        self.summary("b", "--image-ms", "450")  # 0, 0.45, 0.9, 1.35, 1.8 and the last
         rows = []
         for name in ("a", "b"):
             run = read_run(self.path(name))

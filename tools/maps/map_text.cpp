@@ -36,6 +36,7 @@ Json factsOf(const SavedMap& map) {
   Json facts;
   facts["landmarks"] = map.landmarks.size();
   facts["anchors"] = map.anchors.size();
+  facts["made_by"] = map.made_by;
   facts["frame"] = map.frame_id;
   facts["stamp_ns"] = map.stamp_ns;
   facts["camera"] = {{"width_px", map.camera.width_px},

@@ -12,7 +12,7 @@ namespace ardrone_vslam {
 
 /// How long a computer is busy with an image: its measured time, or a fixed one, times a factor.
 struct ComputerSpeed {
-  std::optional<double> budget_ms;
+  std::optional<double> image_ms;
   double cpu_factor = 1;
 };
 

@@ -74,6 +74,21 @@ TEST_F(MapFileReadTest, ANewerSchemaIsRefusedByName) {
   EXPECT_NE(faultOfBytes(headerOf(5, 0) + bytes_.substr(kMapHeaderSize)), "");
 }
 
+TEST_F(MapFileReadTest, SaysWhoMadeTheFileIfThatWasTold) {
+  EXPECT_EQ(readMap(path_).made_by, "");
+  writeMap(path_, smallMap(), "replay 0.2.0");
+  EXPECT_EQ(readMap(path_).made_by, "replay 0.2.0");
+  auto sections = sectionsOf(readFile(path_));
+  sections[2].payload.back() = '\n';
+  EXPECT_EQ(faultOfSections(sections),
+            "section made cannot be right: the name of the program that made the map (replay "
+            "0.2.?) has characters that cannot be printed; use another copy, or make the map anew");
+  sections[2].payload += '!';
+  EXPECT_NE(faultOfSections(sections).find("its size does not fit"), std::string::npos);
+  writeMap(path_, smallMap(), std::string(256, 'x'));
+  EXPECT_TRUE(readFile(path_) == bytes_) << "too long a name is left out";
+}
+
 TEST_F(MapFileReadTest, OtherDescriptorsAreRefusedByName) {
   auto sections = sections_;
   ByteWriter info;
