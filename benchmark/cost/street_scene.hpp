@@ -67,7 +67,6 @@ inline std::vector<OdometryState> truthOf(const Trajectory& path) {
 inline SlamConfig streetConfig(EstimatorKind estimator) {
   SlamConfig config;
   config.estimator = estimator;
-  config.mapper.max_depth_m = 200;
   config.landmark_map.max_landmarks = 10000000;
   config.msckf.odometry.walk_m_per_sqrt_m = 0.005;
   config.msckf.odometry.walk_m_per_sqrt_s = 0.001;

@@ -36,7 +36,11 @@ enum {
   VSLAM_POSE_BYTES = 204,
   VSLAM_OBSERVER_HAS_VARIANCE = 1,
   VSLAM_OBSERVER_HAS_HEIGHT = 2,
-  VSLAM_POSE_IS_VALID = 1
+  VSLAM_POSE_IS_VALID = 1,
+  /* What frame_budget_ms left this image no time for. */
+  VSLAM_POSE_WITHOUT_PLACE_SEARCH = 2,
+  VSLAM_POSE_WITHOUT_LANDMARKS = 4,
+  VSLAM_POSE_WITHOUT_KEYFRAME = 8
 };
 #define VSLAM_MAGIC 0x4D4C5356u /* "VSLM" */
 
@@ -82,7 +86,7 @@ typedef struct VslamObserver {
  * something. */
 typedef struct VslamPose {
   uint32_t sequence;
-  uint32_t flags; /* VSLAM_POSE_IS_VALID */
+  uint32_t flags; /* VSLAM_POSE_... */
   uint32_t state;
   int64_t stamp_ns; /* the image's; the pose is of its exposure: that plus image_time_offset_s */
   double position_m[3]; /* fused, of base in map: equals odom at the first image */

@@ -10,6 +10,7 @@
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/odometry_buffer.hpp"
 #include "ardrone_vslam/parameters.hpp"
+#include "ardrone_vslam/stages.hpp"
 
 namespace ardrone_vslam {
 
@@ -107,6 +108,7 @@ struct FrameResult {
   int removed_landmarks = 0;  ///< dropped by it: never confirmed, failing, or over the cap
   int landmarks = 0;          ///< in the map, after this frame
   int map_features = 0;       ///< in the feature map, after this frame
+  LeftOut left_out;           ///< what `frame_budget_ms` left this frame no time for
 };
 
 /// Whether every number of the pose, of its covariance and of T_map_odom is finite.

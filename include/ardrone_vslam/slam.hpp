@@ -36,8 +36,9 @@ class Slam {
   /// At the first frame map equals odom. After kNotFinite every further answer may be that. With
   /// another OdometryState::start than before, MSCKF looks for the flight in its own map, as after
   /// load().
+  /// @param clock  of this frame, for `frame_budget_ms`; empty: nothing is left out
   const FrameResult& process(const ImageFeatures& features, const OdometryState& odometry,
-                             const StageHook& hook = {});
+                             const StageHook& hook = {}, const FrameClock& clock = {});
 
   /// What a SetupWatch says at the next frame. With a fault, poses are the odometry's, the state is
   /// kDistrusted, and with MSCKF the map keeps only what was made until the set-up was last

@@ -137,9 +137,8 @@ void visitParameters(ThesisFilterConfig& c, Visitor&& visit) {
 
 /// When a feature becomes a landmark, how well it is known then, and when it is dropped.
 struct MapperConfig {
-  double max_depth_m = 1000.0;
-
   // No parameters, but varied by tests.
+  double max_depth_m = 200;        ///< points further away do not become landmarks
   double angle_sigma_px = 1.0;     ///< of a measured direction: sigma_a times the focal length
   double position_sigma_m = 0.01;  ///< smallest sigma_p of a landmark (5.19, 5.22)
   double min_parallax_deg = 1.0;   ///< between first and present view: less tells no depth
@@ -149,13 +148,6 @@ struct MapperConfig {
   /// an accepted fix.
   double drop_failing_ratio = 10;
 };
-
-template <class Visitor>
-void visitParameters(MapperConfig& c, Visitor&& visit) {
-  visit(ParameterInfo{"max_depth_m", "m", 0.1, 1e5, "points further away do not become landmarks",
-                      ofPart(PagePart::kThesis)},
-        c.max_depth_m);
-}
 
 /// How many features wait for depth, and how long. No parameters: a camera that moves gives a
 /// feature its depth within seconds.
@@ -194,13 +186,14 @@ struct SlamConfig {
   EstimatorKind estimator = EstimatorKind::kMsckf;
   bool planar = false;
   NumberOrAuto image_time_offset_s;
+  double frame_budget_ms = 0;
   OdometryBufferConfig odometry;
   OdometryAdapterConfig odometry_adapter;
   HeightInputConfig height_input;
   AssociationConfig association;
   ThesisFilterConfig thesis_filter;
   MsckfConfig msckf;
-  MapperConfig mapper;
+  MapperConfig mapper;           ///< has no parameters
   FeatureMapConfig feature_map;  ///< has no parameters
   LandmarkMapConfig landmark_map;
 };
@@ -234,13 +227,19 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
           "thesis all z are zero, for a front camera when height and tilt are unknown",
           turnFirst(6)},
       c.planar);
+  visit(
+      ParameterInfo{
+          "frame_budget_ms", "ms", 0, 10000,
+          "longest time for an image: in the mapper from its features on, in vslam_onboard "
+          "processor time from the tracker on. What does not fit is left out in this "
+          "order: search for the place, landmarks, keyframe; `status` tells. 0: no bound"},
+      c.frame_budget_ms);
   visitParameters(c.odometry, visit);
   visitParameters(c.odometry_adapter, visit);
   visitParameters(c.height_input, visit);
   visitParameters(c.association, visit);
   visitParameters(c.thesis_filter, visit);
   visitParameters(c.msckf, visit);
-  visitParameters(c.mapper, visit);
   visitParameters(c.landmark_map, visit);
 }
 

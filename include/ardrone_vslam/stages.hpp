@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <functional>
+#include <string>
 
 namespace ardrone_vslam {
 
@@ -25,5 +27,21 @@ constexpr std::array<const char*, kStageCount> kStageNames{"detect",    "describ
 
 /// Called when a stage begins, with kIdle when the work on a frame is done. May be empty.
 using StageHook = std::function<void(Stage)>;
+
+/// What an image can go without when `frame_budget_ms` leaves it no time, the first to go first.
+enum class OptionalWork {
+  kPlaceSearch,  ///< the flight looked for in a loaded map, or elsewhere in its own
+  kLandmarks,    ///< landmarks found, and the correction by them
+  kKeyframe      ///< MSCKF: tracks used; the keyframe comes with a later image
+};
+/// As in Status and summary.json, by the enumerators' order.
+constexpr std::array<const char*, 3> kOptionalWorkNames{"place_search", "landmarks", "keyframe"};
+/// By OptionalWork.
+using LeftOut = std::bitset<kOptionalWorkNames.size()>;
+/// A sentence for users, empty where nothing was left out.
+std::string explain(const LeftOut& left_out);
+
+/// Milliseconds since the work on a frame began. May be empty: there is as much time as it takes.
+using FrameClock = std::function<double()>;
 
 }  // namespace ardrone_vslam

@@ -81,7 +81,9 @@ nav_msgs::Odometry toOdometryMessage(const OdometryState& state, const std::stri
 PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isometry3d& T_map_odom,
                                    const Frames& frames);
 /// Fills the state, its name and the reason.
-void toStatus(SlamState state, Status& status);
+void toStatus(SlamState state, const LeftOut& left_out, Status& status);
+/// Puts a sentence before the reason; an empty one: nothing.
+void sayFirst(const std::string& sentence, Status& status);
 /// Near a plain wall, say: the image tells nothing, whatever the state.
 bool hasHardlyACorner(const FrameResult& result);
 /// Fills the state and the counts of one frame; leaves stage times and totals alone.

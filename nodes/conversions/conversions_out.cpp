@@ -113,9 +113,13 @@ PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isome
   message.fused_pose = toPoseWithCovariance(result);
   message.map_to_odom = toTransform(T_map_odom);
   message.deviation = result.sigma_m;
-  message.corrected = result.state == SlamState::kLocalised ||
-                      result.state == SlamState::kTracking || result.state == SlamState::kResting ||
-                      result.state == SlamState::kRotating || result.state == SlamState::kRelocated;
+  const bool is_by_camera =
+      result.state == SlamState::kLocalised || result.state == SlamState::kTracking ||
+      result.state == SlamState::kResting || result.state == SlamState::kRotating ||
+      result.state == SlamState::kRelocated;
+  const bool had_no_time = result.left_out[static_cast<std::size_t>(OptionalWork::kLandmarks)] &&
+                           result.left_out[static_cast<std::size_t>(OptionalWork::kKeyframe)];
+  message.corrected = is_by_camera && !had_no_time;
   return message;
 }
 

@@ -46,22 +46,31 @@ bool hasHardlyACorner(const FrameResult& result) {
   return result.features < kFewestFeatures;
 }
 
-void toStatus(SlamState state, Status& status) {
+void sayFirst(const std::string& sentence, Status& status) {
+  const bool has_both = !sentence.empty() && !status.reason.empty();
+  status.reason = sentence + (has_both ? "; " : "") + status.reason;
+}
+
+void toStatus(SlamState state, const LeftOut& left_out, Status& status) {
   status.state = stateOf(state);
   status.state_name = kSlamStateNames[static_cast<std::size_t>(state)];
-  status.reason = state == SlamState::kLocalised ? "" : explain(state);
+  const bool is_by_landmarks = state == SlamState::kTracking || state == SlamState::kResting ||
+                               state == SlamState::kRotating ||
+                               state == SlamState::kTooFewLandmarks;
+  // That no landmark was found says nothing when none was looked for.
+  const bool has_looked = !left_out[static_cast<std::size_t>(OptionalWork::kLandmarks)];
+  status.reason =
+      state == SlamState::kLocalised || (is_by_landmarks && !has_looked) ? "" : explain(state);
 }
 
 void toStatus(const FrameResult& result, const std::string& map_frame, Status& status) {
   const auto count = [](int number) { return static_cast<std::uint32_t>(number); };
   status.header.stamp = toRosTime(result.stamp_ns);
   status.header.frame_id = map_frame;
-  toStatus(result.state, status);
+  toStatus(result.state, result.left_out, status);
   if (hasHardlyACorner(result) && result.state != SlamState::kBlind) {
-    const std::string why_state = status.reason.empty() ? "" : "; " + status.reason;
-    status.reason =
-        "the image has hardly a corner: it is dark, over-exposed, blurred or without texture" +
-        why_state;
+    sayFirst("the image has hardly a corner: it is dark, over-exposed, blurred or without texture",
+             status);
   }
   status.features = count(result.features);
   status.match_method = nameOf(result.match_method);

@@ -15,6 +15,14 @@ Eigen::Isometry3d toIsometry(const double (&position_m)[3], const double (&quate
   return Eigen::Translation3d(position_m[0], position_m[1], position_m[2]) * q.normalized();
 }
 
+LeftOut leftOutOf(const VslamPose& pose) {
+  LeftOut left_out;
+  left_out[0] = (pose.flags & VSLAM_POSE_WITHOUT_PLACE_SEARCH) != 0;
+  left_out[1] = (pose.flags & VSLAM_POSE_WITHOUT_LANDMARKS) != 0;
+  left_out[2] = (pose.flags & VSLAM_POSE_WITHOUT_KEYFRAME) != 0;
+  return left_out;
+}
+
 void setState(std::uint8_t state, const char* name, const char* reason, Status& status) {
   status.state = state;
   status.state_name = name;
@@ -32,6 +40,7 @@ FrameResult toFrameResult(const VslamPose& pose, std::int64_t stamp_ns) {
   for (int i = 0; i < 6; ++i) result.covariance(i, i) = pose.deviation[i] * pose.deviation[i];
   result.sigma_m = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace() / 3);
   result.landmarks = static_cast<int>(pose.landmarks);
+  result.left_out = leftOutOf(pose);
   return result;
 }
 
@@ -72,7 +81,8 @@ void toStatus(const VslamPose& pose, Status& status) {
                status);
       break;
     default:
-      toStatus(static_cast<SlamState>(pose.state), status);
+      toStatus(static_cast<SlamState>(pose.state), leftOutOf(pose), status);
+      sayFirst(explain(leftOutOf(pose)), status);
   }
   status.landmarks = pose.landmarks;
   status.images_dropped = pose.frames_dropped;

@@ -78,10 +78,13 @@ const FrameResult& LiveSlam::process(const Features& message, OdometryState odom
   toFeatures(message, features_);
   setup_.see(features_, odometries, *slam_);
   odometry.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
-  const FrameResult& result = slam_->process(features_, odometry, stage_clock_.hook());
+  const FrameResult& result =
+      slam_->process(features_, odometry, stage_clock_.hook(), stage_clock_.frameClock());
   recorder_->see(features_, odometry, result, slam_->landmarks());
   has_answered_ = true;
   if (result.height == HeightOutcome::kRejected) ++counts_.heights_rejected;
+  for (std::size_t i = 0; i < counts_.left_out.size(); ++i)
+    counts_.left_out[i] += result.left_out[i];
   if (result.state == SlamState::kNotFinite) {
     ++counts_.results_not_finite;
   } else {
@@ -101,6 +104,8 @@ void LiveSlam::fill(Status& status) const {
   status.results_not_finite = counts_.results_not_finite;
   status.restarts = counts_.restarts;
   status.camera_changes = counts_.camera_changes;
+  status.left_out.assign(kOptionalWorkNames.begin(), kOptionalWorkNames.end());
+  status.left_out_count.assign(counts_.left_out.begin(), counts_.left_out.end());
   setup_.fill(status);
 }
 

@@ -3,6 +3,7 @@
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -68,6 +69,7 @@ class LiveSlam {
     std::uint64_t results_not_finite = 0;
     std::uint64_t restarts = 0;  ///< of the map
     std::uint64_t camera_changes = 0;
+    std::array<std::uint64_t, kOptionalWorkNames.size()> left_out{};  ///< images without that work
   };
   const Counts& counts() const { return counts_; }
   const SetupReport& setup() const { return setup_; }

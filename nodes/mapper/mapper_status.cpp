@@ -33,6 +33,7 @@ void MapperStatus::publishAnswer(const FrameResult& result, const Features& feat
   } else if (status.reason.empty()) {
     status.reason = watch.speedFault();
   }
+  sayFirst(explain(result.left_out), status);
   fillStages(features, status);
   publish(status);
 }
@@ -125,6 +126,11 @@ void MapperStatus::diagnose(diagnostic_updater::DiagnosticStatusWrapper& wrapper
   parts_.slam.setup().diagnose(wrapper);
   wrapper.add("results not finite", counts.results_not_finite);
   wrapper.add("camera changes", counts.camera_changes);
+  for (std::size_t i = 0; i < counts.left_out.size(); ++i) {
+    if (counts.left_out[i] > 0)
+      wrapper.add(std::string("images without time for ") + kOptionalWorkNames[i],
+                  counts.left_out[i]);
+  }
   if (!latest_.changed_parameters.empty())
     wrapper.add("parameters changed in flight", latest_.changed_parameters);
   wrapper.add("landmarks", latest_.landmarks);

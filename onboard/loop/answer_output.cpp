@@ -46,6 +46,11 @@ AnswerOutput::AnswerOutput(const OnboardConfig& config)
 void AnswerOutput::sendPose(const FrameResult& result, const Counters& counters) {
   VslamPose pose{};
   pose.flags = VSLAM_POSE_IS_VALID;
+  constexpr std::array<std::uint32_t, kOptionalWorkNames.size()> kWithout{
+      VSLAM_POSE_WITHOUT_PLACE_SEARCH, VSLAM_POSE_WITHOUT_LANDMARKS, VSLAM_POSE_WITHOUT_KEYFRAME};
+  for (std::size_t i = 0; i < kWithout.size(); ++i) {
+    if (result.left_out[i]) pose.flags |= kWithout[i];
+  }
   pose.state = static_cast<std::uint32_t>(result.state);
   pose.stamp_ns = result.stamp_ns;
   put(result.T_map_base, pose.position_m, pose.quaternion);

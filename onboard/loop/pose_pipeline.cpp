@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "protocol/clocks.hpp"
+
 namespace ardrone_vslam {
 
 PosePipeline::PosePipeline(const TrackerConfig& tracker, const SlamConfig& slam,
@@ -44,7 +46,7 @@ void PosePipeline::beginAnew() {
 }
 
 void PosePipeline::startOver() {
-  is_waiting_ = false;
+  forgetFrame();
   observer_.clear();
   beginAnew();
 }
@@ -63,8 +65,9 @@ bool PosePipeline::track(const Frame& frame) {
   } else if (result_ != nullptr && result_->state == SlamState::kNotFinite) {
     beginAnew();
   }
+  const std::int64_t begun_ns = clock_ns(CLOCK_PROCESS_CPUTIME_ID);
   tracker_.process(frame.image, frame.stamp_ns, features_);
-  is_waiting_ = true;
+  waiting_since_ns_ = begun_ns;
   return true;
 }
 
@@ -75,10 +78,14 @@ PosePipeline::Answer PosePipeline::localise() {
       observer_.at(setup_.clock().exposed_ns(features_.stamp_ns), features_.stamp_ns, state);
   const bool may_come = lookup == Lookup::kNotYet || lookup == Lookup::kEmpty;
   if (may_come && !observer_.isOver()) return Answer::kNotYet;
-  is_waiting_ = false;
+  const std::int64_t begun_ns = waiting_since_ns_.value();
+  forgetFrame();
   if (lookup != Lookup::kFound) return Answer::kNever;
   setup_.see(features_, observer_.buffer(), *slam_);
-  result_ = &slam_->process(features_, state);
+  const FrameClock cpu_ms = [begun_ns] {
+    return static_cast<double>(clock_ns(CLOCK_PROCESS_CPUTIME_ID) - begun_ns) * 1e-6;
+  };
+  result_ = &slam_->process(features_, state, {}, cpu_ms);
   map_.see(features_, state, *result_, slam_->landmarks());
   return Answer::kPose;
 }

@@ -28,9 +28,9 @@ class PosePipeline {
   /// @return whether the frame is used: its stamp is after the one before, and no single one far
   /// from all others (StampGuard). When time begins again the map begins anew.
   bool track(const Frame& frame);
-  bool isWaiting() const { return is_waiting_; }
+  bool isWaiting() const { return waiting_since_ns_.has_value(); }
   /// Gives the waiting frame up.
-  void forgetFrame() { is_waiting_ = false; }
+  void forgetFrame() { waiting_since_ns_.reset(); }
   /// Memory has run out: gives map, waiting frame and observer states up, and begins anew, without
   /// a loaded map.
   void startOverEmpty();
@@ -73,7 +73,7 @@ class PosePipeline {
   ImageFeatures features_;
   const FrameResult* result_ = nullptr;
   StampGuard stamps_;
-  bool is_waiting_ = false;
+  std::optional<std::int64_t> waiting_since_ns_;  // the waiting frame's begin, in processor time
   int restarts_ = 0;
 };
 

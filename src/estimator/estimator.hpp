@@ -10,6 +10,7 @@
 #include "ardrone_vslam/frame_result.hpp"
 #include "ardrone_vslam/saved_map.hpp"
 #include "ardrone_vslam/setup_watch.hpp"
+#include "estimator/frame_budget.hpp"
 #include "map/association.hpp"
 #include "map/landmark_locator.hpp"
 #include "map/landmark_map.hpp"
@@ -79,8 +80,9 @@ class Estimator {
   /// Corrects the pose by a still image, a height and the frame's tracks, in this order, and then
   /// changes the map.
   /// @param view  that of correct(); is moved to the pose that the map is changed from
-  virtual MapChanges updateMap(const AssociationResult& matches, FrameView& view,
-                               LandmarkMap& map) = 0;
+  /// @param budget  OptionalWork::kKeyframe is taken from it where one is due
+  virtual MapChanges updateMap(const AssociationResult& matches, FrameView& view, LandmarkMap& map,
+                               FrameBudget& budget) = 0;
   /// After what has been called last.
   virtual Estimate estimate() const = 0;
 

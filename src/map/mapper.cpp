@@ -23,10 +23,6 @@ void rememberObservation(const FrameView& view, std::size_t feature, Landmark& l
 
 }  // namespace
 
-Mapper::Mapper(const MapperConfig& config) : config_(config) {
-  validate(config);
-}
-
 void Mapper::refine(const FrameView& view, const std::vector<Association>& matches,
                     LandmarkMap& map) const {
   const double sigma_a = angleSigma_rad(view.focalLength_px());

@@ -15,8 +15,7 @@ namespace ardrone_vslam {
 /// is known.
 class Mapper {
  public:
-  /// @throws ConfigError listing every parameter out of its range
-  explicit Mapper(const MapperConfig& config);
+  explicit Mapper(const MapperConfig& config) : config_(config) {}
 
   /// sigma_a for a camera of this focal length.
   double angleSigma_rad(double focal_length_px) const {

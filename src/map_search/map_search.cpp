@@ -55,12 +55,14 @@ bool MapSearch::Near::allows(const MapEntry& entry) const {
 
 std::optional<MapEntry> MapSearch::see(const ImageFeatures& features,
                                        const Eigen::Isometry3d& T_flight_cam,
-                                       const Eigen::Isometry3d& T_base_cam) {
+                                       const Eigen::Isometry3d& T_base_cam, FrameBudget& budget) {
   if (near_ && !near_->T_flight_base) near_->T_flight_base = T_flight_cam * T_base_cam.inverse();
   if (looked_ns_ != 0 && seconds(features.stamp_ns - looked_ns_) < kBetweenLooks_s)
     return std::nullopt;
+  if (!budget.take(OptionalWork::kPlaceSearch)) return std::nullopt;
   looked_ns_ = features.stamp_ns;
   std::optional<PlaceSight> sight = look_.at(features, T_flight_cam, landmarks_);
+  budget.done(OptionalWork::kPlaceSearch);
   if (sight && near_ && !near_->allows(sight->entry)) sight.reset();
   if (!sights_.add(sight, is_own_ || near_)) return std::nullopt;
   sight->entry.anchor = sight->anchor_id - 1;

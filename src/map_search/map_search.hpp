@@ -9,6 +9,7 @@
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/saved_map.hpp"
 #include "ardrone_vslam/slam_config.hpp"
+#include "estimator/frame_budget.hpp"
 #include "map/landmark_map.hpp"
 #include "map_search/place_look.hpp"
 #include "map_search/place_sights.hpp"
@@ -31,7 +32,7 @@ class MapSearch {
   /// between two images
   /// @return where the flight is, once
   std::optional<MapEntry> see(const ImageFeatures& features, const Eigen::Isometry3d& T_flight_cam,
-                              const Eigen::Isometry3d& T_base_cam);
+                              const Eigen::Isometry3d& T_base_cam, FrameBudget& budget);
   /// From now on only places near the hint count, of where base is at the next image, and only
   /// landmarks that may be seen from there. O(landmarks).
   void lookNear(const PlaceHint& hint);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "ardrone_vslam/frame_result.hpp"
 #include "linear/scalars.hpp"
@@ -62,9 +63,11 @@ void RevisitSearch::follow(const ImageFeatures& features, const Eigen::Vector3d&
   const std::int64_t now_ns = features.stamp_ns;
   const std::int64_t visit_ns = wasCovered() ? covered_from_ns_ : now_ns - kEarlierVisit_ns;
   const bool is_first = located_ns_ == 0;  // it has no tracks
+  const bool has_looked = std::exchange(has_looked_, false);
   const bool is_known = known_since_ns_ && *known_since_ns_ < visit_ns;
-  if (!is_known || known_from_ns_ == 0) known_from_ns_ = is_known ? now_ns : 0;
-  const bool is_sure = is_known && (!wasCovered() || now_ns - known_from_ns_ > kSure_ns);
+  if (has_looked && (!is_known || known_from_ns_ == 0)) known_from_ns_ = is_known ? now_ns : 0;
+  const bool is_sure =
+      has_looked && is_known && (!wasCovered() || now_ns - known_from_ns_ > kSure_ns);
   if (is_first || is_sure) beginAnew(now_ns);
   const bool has_tracks = static_cast<int>(features.tracked()) >= kFewestFeatures;
   if (is_first || !has_map || has_tracks || is_another_camera_) return;
@@ -85,15 +88,19 @@ bool RevisitSearch::isElsewhere(const PlaceSight& sight) const {
 }
 
 std::optional<Revisit> RevisitSearch::see(const ImageFeatures& features, bool is_trusted,
-                                          const Eigen::Isometry3d& T_map_cam, LandmarkMap& map) {
+                                          const Eigen::Isometry3d& T_map_cam, LandmarkMap& map,
+                                          FrameBudget& budget) {
   const std::int64_t now_ns = features.stamp_ns;
   follow(features, T_map_cam.translation(), static_cast<int>(map.size()) >= kFewestFixLandmarks);
   is_another_camera_ = false;
-  if (now_ns < next_look_ns_ || !is_trusted || static_cast<int>(features.size()) < kFewestFeatures)
+  if (now_ns < next_look_ns_ || !is_trusted ||
+      static_cast<int>(features.size()) < kFewestFeatures ||
+      !budget.take(OptionalWork::kPlaceSearch))
     return std::nullopt;
 
   const LookLimits limits{std::max(covered_from_ns_, now_ns - kOutOfView_ns), kMostFeatures};
   std::optional<PlaceSight> sight = look_.at(features, T_map_cam, map, limits);
+  budget.done(OptionalWork::kPlaceSearch);
   if (sight && !isElsewhere(*sight)) sight.reset();
   next_look_ns_ = now_ns + (sight ? kBetweenSights_ns : kBetweenLooks_ns);
   if (!sights_.add(sight)) return std::nullopt;

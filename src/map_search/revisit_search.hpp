@@ -7,6 +7,7 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/slam_config.hpp"
+#include "estimator/frame_budget.hpp"
 #include "map/landmark_map.hpp"
 #include "map_search/place_look.hpp"
 #include "map_search/place_sights.hpp"
@@ -23,16 +24,22 @@ class RevisitSearch {
   explicit RevisitSearch(const SlamConfig& config) : look_(config) {}
 
   /// The image seen last agreed with landmarks that were made then or earlier; nothing: with none.
-  void know(std::optional<std::int64_t> since_ns) { known_since_ns_ = since_ns; }
+  /// Not called: landmarks were not looked for in it.
+  void know(std::optional<std::int64_t> since_ns) {
+    known_since_ns_ = since_ns;
+    has_looked_ = true;
+  }
   /// The next image is another camera's: that it has no tracks says nothing.
   void changeCamera() { is_another_camera_ = true; }
   /// An image, before its landmarks are looked for. Costs a PlaceLook once a second at most, five
   /// times a second while one sight follows another.
   /// @param is_trusted  the camera, as of the image before
   /// @param T_map_cam  where the camera is thought to be
+  /// @param budget  a look waits until there is some
   /// @return where it is instead, until that is noted
   std::optional<Revisit> see(const ImageFeatures& features, bool is_trusted,
-                             const Eigen::Isometry3d& T_map_cam, LandmarkMap& map);
+                             const Eigen::Isometry3d& T_map_cam, LandmarkMap& map,
+                             FrameBudget& budget);
   /// At the image of this stamp the flight has been moved there.
   void noteShift(std::int64_t stamp_ns, const Revisit& revisit);
 
@@ -49,6 +56,7 @@ class RevisitSearch {
   PlaceLook look_;
   PlaceSights sights_;
   std::optional<std::int64_t> known_since_ns_;  // see know()
+  bool has_looked_ = false;                     // likewise
   std::int64_t known_from_ns_ = 0;  // for how long landmarks of an earlier visit agree; 0: none do
   std::optional<Eigen::Vector3d> last_camera_map_;
   bool is_another_camera_ = false;

@@ -2,7 +2,6 @@
 #include "msckf/msckf.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "linear/scalars.hpp"
 #include "zero_motion/scene_limit.hpp"
@@ -108,12 +107,13 @@ FixOutcome Msckf::fix(const std::vector<LandmarkObservation>& observations,
   return FixOutcome::kNone;
 }
 
-const std::vector<UsedTrack>& Msckf::track(const ImageFeatures& features) {
+const std::vector<UsedTrack>& Msckf::track(const ImageFeatures& features, FrameBudget& budget) {
   track_update_.skip();
   order_.reset(features);
   useStillness(features);
   height_.apply(state_);
-  if (!isDistrustful() && needsKeyframe(features)) useTracks(features);
+  if (!isDistrustful() && needsKeyframe(features) && budget.take(OptionalWork::kKeyframe))
+    useTracks(features);
   if (static_cast<int>(features.tracked()) < kFewestFeatures) {
     anchors_.breakOff();
     if (anchors_.current() == 0 && !state_.anchors().empty() && !config_.localise_only)
@@ -164,10 +164,6 @@ void Msckf::dropOldest() {
   const std::size_t oldest = zero_motion_.isReferenceOnly(frames.front().id) ? 1 : 0;
   tracks_.dropFrame(frames[oldest].id);
   anchors_.retire(oldest, state_);
-}
-
-double Msckf::scaleSigma() const {
-  return std::sqrt(state_.covariance()(WindowState::kScale, WindowState::kScale));
 }
 
 }  // namespace ardrone_vslam

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/msckf_config.hpp"
+#include "estimator/frame_budget.hpp"
 #include "heights/height_update.hpp"
 #include "map_update/map_update.hpp"
 #include "matching/track_order.hpp"
@@ -49,8 +51,9 @@ class Msckf {
   const std::vector<ObservationVerdict>& verdicts() const { return map_update_.verdicts(); }
   /// Holds a camera that stands still, takes in the newest frame's height and tracks, and at a
   /// keyframe uses the tracks that are complete.
+  /// @param budget  a keyframe that is due waits for it
   /// @return the tracks used, good until the next call
-  const std::vector<UsedTrack>& track(const ImageFeatures& features);
+  const std::vector<UsedTrack>& track(const ImageFeatures& features, FrameBudget& budget);
   /// A track belongs to a landmark.
   void assignLandmark(std::uint32_t track_id, std::uint32_t landmark_id) {
     tracks_.assignLandmark(track_id, landmark_id);
@@ -77,7 +80,9 @@ class Msckf {
   /// Mean and covariance of all that is estimated.
   const WindowState& state() const { return state_; }
   /// Standard deviation of WindowState::scaleError().
-  double scaleSigma() const;
+  double scaleSigma() const {
+    return std::sqrt(state_.covariance()(WindowState::kScale, WindowState::kScale));
+  }
   /// Of the last frame's height.
   HeightOutcome heightOutcome() const { return height_.outcome(); }
   /// Of the last frame: tracks with enough parallax.

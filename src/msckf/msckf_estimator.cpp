@@ -13,6 +13,7 @@ namespace {
 // Odometry drifts otherwise than it claims: after so long without a fix the pose's sigma counts
 // twice in the search, after twice as long three times.
 constexpr double kWidening_s = 10;
+const std::vector<UsedTrack> kNoTracks;
 
 }  // namespace
 
@@ -158,10 +159,10 @@ void MsckfEstimator::judge(const AssociationResult& matches, const LandmarkMap& 
 }
 
 MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView& view,
-                                     LandmarkMap& map) {
+                                     LandmarkMap& map, FrameBudget& budget) {
   MapChanges changes;
   changes.removed_landmarks = unconfirmed_.judge(map);
-  const std::vector<UsedTrack>& used_tracks = filter_.track(view.features());
+  const std::vector<UsedTrack>& used_tracks = filter_.track(view.features(), budget);
   // Landmarks decided on the state, be it that they were rejected: the image's rest stays unsaid.
   const bool is_located = state_ == SlamState::kLocalised || state_ == SlamState::kRelocated ||
                           state_ == SlamState::kFixRejected;
@@ -176,7 +177,8 @@ MapChanges MsckfEstimator::updateMap(const AssociationResult& matches, FrameView
   if (config_.msckf.localise_only) {
     followTracks(view, trusted_, map);
   } else {
-    changeLandmarks(matches, used_tracks, view, map, changes);
+    const bool is_left_out = budget.hasLeftOut(OptionalWork::kLandmarks);  // else made twice
+    changeLandmarks(matches, is_left_out ? kNoTracks : used_tracks, view, map, changes);
   }
   changes.feature_candidates = filter_.candidates();
   changes.feature_matches = filter_.used();

@@ -24,8 +24,8 @@ class MsckfEstimator final : public Estimator {
   bool wantsLandmarks() const override { return !filter_.isDistrustful(); }
   Correction correct(const AssociationResult& matches, const FrameView& view,
                      const LandmarkMap& map) override;
-  MapChanges updateMap(const AssociationResult& matches, FrameView& view,
-                       LandmarkMap& map) override;
+  MapChanges updateMap(const AssociationResult& matches, FrameView& view, LandmarkMap& map,
+                       FrameBudget& budget) override;
   Estimate estimate() const override;
   void heed(const SetupFinding& finding) override;
   bool canChangeCamera() const override;

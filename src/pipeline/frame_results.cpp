@@ -66,6 +66,16 @@ bool isFinite(const FrameResult& r) {
          r.covariance.allFinite() && std::isfinite(r.sigma_m);
 }
 
+std::string explain(const LeftOut& left_out) {
+  if (left_out.none()) return "";
+  std::string names;
+  for (std::size_t i = 0; i < kOptionalWorkNames.size(); ++i) {
+    if (left_out[i]) names += (names.empty() ? "" : ", ") + std::string(kOptionalWorkNames[i]);
+  }
+  return "frame_budget_ms leaves no time for all (left out: " + names +
+         "): raise it, or lower features_per_frame, max_clones or max_landmarks";
+}
+
 const char* explain(SlamState state) {
   switch (state) {
     case SlamState::kBuildingMap:

@@ -17,7 +17,7 @@ class OdometryEstimator final : public ThesisEstimator {
     return {SlamState::kOdometryOnly, std::nullopt, std::nullopt};
   }
   MapChanges updateMap(const AssociationResult& /*matches*/, FrameView& /*view*/,
-                       LandmarkMap& /*map*/) override {
+                       LandmarkMap& /*map*/, FrameBudget& /*budget*/) override {
     return {};
   }
 };

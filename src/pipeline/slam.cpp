@@ -41,7 +41,7 @@ void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   assert(canChangeCamera() && "an estimated error of the extrinsics is one camera's");
   refuse(extrinsicsFault(T_base_cam), "the camera's mounting: ");
   state_->view.changeCamera();
-  state_->T_base_cam = T_base_cam;
+  state_->camera_in_use.T_base_cam = T_base_cam;
   state_->revisits.changeCamera();
   state_->estimator->changeCamera(T_base_cam);
 }
@@ -91,7 +91,7 @@ Eigen::Isometry3d Slam::T_map_odom() const {
 }
 
 const FrameResult& Slam::process(const ImageFeatures& features, const OdometryState& odometry,
-                                 const StageHook& hook) {
+                                 const StageHook& hook, const FrameClock& clock) {
   assert(odometry.stamp_ns == features.stamp_ns &&
          "the odometry must be that of the image's stamp");
   assert((state_->result.stamp_ns == 0 || features.stamp_ns > state_->result.stamp_ns) &&
@@ -103,6 +103,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   if (state_->step_watch.isNewStart(odometry) && faultOfMaps(state_->config).empty())
     state_ = state_->flyAgain();
   State& s = *state_;
+  s.budget.begin(clock);
   Estimator& estimator = *s.estimator;
   Correction correction;
   MapChanges changes;
@@ -110,7 +111,6 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   estimator.predict(odometry, step);
   CameraPose camera = estimator.camera();
   s.view.reset(features, camera.T_map_cam, s.hasFlatRays());
-  s.seen_by = {features.width_px, features.height_px, features.focal_length_px};
   enter(Stage::kAssociate);
   const double revisit_m = s.searchMap(features, camera);
   enter(Stage::kLocalise);
@@ -119,28 +119,25 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
   // Of what is not finite nothing may reach the map; the result says so.
   if (isFinite(estimator.estimate())) {
     enter(Stage::kAssociate);
-    if (estimator.wantsLandmarks()) s.associator.matchLandmarks(s.view, s.map, s.matches);
+    s.matchLandmarks();
     enter(Stage::kLocalise);
     correction = estimator.correct(s.matches, s.view, s.map);
-    s.revisits.know(correction.known_since_ns);
+    s.noteLandmarks(correction);
     if (revisit_m > 0 && correction.state == SlamState::kLocalised)
       correction.state = SlamState::kRelocated;
     enter(Stage::kMap);
-    changes = estimator.updateMap(s.matches, s.view, s.map);
+    changes = estimator.updateMap(s.matches, s.view, s.map, s.budget);
     changes.removed_landmarks += s.map.enforceCap();
+    s.budget.done(OptionalWork::kKeyframe);
   }
 
   const Estimate estimate = estimator.estimate();
   s.result = resultOf(estimate, correction, changes);
-  s.result.stamp_ns = odometry.stamp_ns;
-  s.result.T_odom_base = odometry.T_odom_base;
-  if (step) s.result.odometry_step_m = step->jump_odom_m.norm();
+  s.noteOdometry(odometry, step);
   s.result.revisit_m = revisit_m;
   const double lost_m = s.step_watch.frozenWay_m() + kDoubt * estimate.doubtful_way_m;
   if (lost_m > 0) widenPlace(s.result, lost_m);
-  noteFeatures(features, s.result);
-  s.result.landmarks = static_cast<int>(s.map.size());
-  noteMatches(s.matches, s.result);
+  s.noteFeatures(features);
   if (s.search) {
     s.result.state = SlamState::kSearchingMap;
     forgetPlace(s.result);

@@ -17,18 +17,25 @@
 
 namespace ardrone_vslam {
 
+/// The camera in use.
+struct CameraInUse {
+  Eigen::Isometry3d T_base_cam;
+  MapCamera of_map;  ///< as the last frame had it
+};
+
 /// What Slam keeps from one image to the next.
 struct Slam::State {
   State(const SlamConfig& c, const Eigen::Isometry3d& T)
       : config(c),
-        T_base_cam(T),
+        camera_in_use{T, {}},
         estimator(makeEstimator(c, T)),
         associator(c.association),
         map(c.landmark_map),
-        revisits(c) {}
+        revisits(c),
+        budget(c.frame_budget_ms) {}
 
   SlamConfig config;
-  Eigen::Isometry3d T_base_cam;
+  CameraInUse camera_in_use;
   OdometryStepWatch step_watch;
   std::unique_ptr<Estimator> estimator;
   FrameView view;
@@ -37,18 +44,18 @@ struct Slam::State {
   LandmarkMap map;
   std::unique_ptr<MapSearch> search;  // until the flight has been found
   RevisitSearch revisits;             // from then on
-  MapCamera seen_by;                  // the last frame
+  FrameBudget budget;
   /// The thesis's 2-D mode; the MSCKF's `planar` is a measurement of z.
   bool hasFlatRays() const { return config.planar && config.estimator != EstimatorKind::kMsckf; }
   FrameResult result;
   MapSnapshot save() const {
     MapSnapshot saved = estimator->save(map);
-    saved.all_but_landmarks.camera = seen_by;
+    saved.all_but_landmarks.camera = camera_in_use.of_map;
     return saved;
   }
   /// Another flight in the map so far, if there is one: where the drone is now is not known.
   std::unique_ptr<State> flyAgain() const {
-    auto next = std::make_unique<State>(config, T_base_cam);
+    auto next = std::make_unique<State>(config, camera_in_use.T_base_cam);
     const bool is_own = !search || search->isOwn();
     SavedMap so_far = search ? search->map() : save().map();
     if (!is_own || so_far.landmarks.size() >= kFewestFixLandmarks)
@@ -63,13 +70,13 @@ struct Slam::State {
     double revisit_m = 0;
     if (search) {
       if (!isFinite(estimator->estimate())) return 0;
-      auto entry = search->see(features, camera.T_map_cam, T_base_cam);
+      auto entry = search->see(features, camera.T_map_cam, camera_in_use.T_base_cam, budget);
       if (!entry) return 0;
       estimator->enterMap(std::move(*entry), search->takeMap(), view, map);
       search.reset();
     } else {
       const bool is_trusted = result.state != SlamState::kDistrusted;
-      const auto revisit = revisits.see(features, is_trusted, camera.T_map_cam, map);
+      const auto revisit = revisits.see(features, is_trusted, camera.T_map_cam, map, budget);
       if (!revisit || !estimator->shift(*revisit, view, map)) return 0;
       revisits.noteShift(features.stamp_ns, *revisit);
       revisit_m = (revisit->entry.camera_loaded - camera.T_map_cam.translation()).norm();
@@ -77,6 +84,28 @@ struct Slam::State {
     camera = estimator->camera();
     view.reset(features, camera.T_map_cam, hasFlatRays());
     return revisit_m;
+  }
+  void matchLandmarks() {
+    if (estimator->wantsLandmarks() && map.size() > 0 && budget.take(OptionalWork::kLandmarks))
+      associator.matchLandmarks(view, map, matches);
+  }
+  /// After the correction by what matchLandmarks() has found.
+  void noteLandmarks(const Correction& correction) {
+    budget.done(OptionalWork::kLandmarks);
+    // Landmarks that were not looked for say nothing.
+    if (!budget.hasLeftOut(OptionalWork::kLandmarks)) revisits.know(correction.known_since_ns);
+  }
+  void noteOdometry(const OdometryState& odometry, const std::optional<OdometryStep>& step) {
+    result.stamp_ns = odometry.stamp_ns;
+    result.T_odom_base = odometry.T_odom_base;
+    if (step) result.odometry_step_m = step->jump_odom_m.norm();
+  }
+  void noteFeatures(const ImageFeatures& features) {
+    camera_in_use.of_map = {features.width_px, features.height_px, features.focal_length_px};
+    ardrone_vslam::noteFeatures(features, result);
+    noteMatches(matches, result);
+    result.landmarks = static_cast<int>(map.size());
+    result.left_out = budget.leftOut();
   }
 };
 

@@ -63,7 +63,7 @@ Correction ThesisEstimator::correct(const AssociationResult& matches, const Fram
 }
 
 MapChanges ThesisEstimator::updateMap(const AssociationResult& matches, FrameView& view,
-                                      LandmarkMap& map) {
+                                      LandmarkMap& map, FrameBudget& /*budget*/) {
   MapChanges changes;
   if (is_refused_) return changes;
   moveTo(camera(), view);

@@ -22,8 +22,8 @@ class ThesisEstimator : public Estimator {
   CameraPose camera() override;
   Correction correct(const AssociationResult& matches, const FrameView& view,
                      const LandmarkMap& map) override;
-  MapChanges updateMap(const AssociationResult& matches, FrameView& view,
-                       LandmarkMap& map) override;
+  MapChanges updateMap(const AssociationResult& matches, FrameView& view, LandmarkMap& map,
+                       FrameBudget& budget) override;
   Estimate estimate() const override;
   bool wantsLandmarks() const override { return !is_refused_; }
   void heed(const SetupFinding& finding) override {

@@ -28,7 +28,8 @@ class MapperAllocation : public ::testing::Test {
     std::vector<long> counts;
     for (int i = 0; i < kLapFrames; ++i, ++next_) {
       const long before = allocations;
-      slam_.process(frames_[next_], odometry_[next_]);
+      slam_.process(frames_[next_], odometry_[next_], {},
+                    [this] { return 1e-3 * static_cast<double>(next_); });
       counts.push_back(allocations - before);
     }
     return counts;
@@ -37,6 +38,7 @@ class MapperAllocation : public ::testing::Test {
   static SlamConfig config() {
     SlamConfig config;
     config.landmark_map.max_landmarks = 2000;  // more than there are
+    config.frame_budget_ms = 1000;             // there is always time, but that is asked
     return config;
   }
 

@@ -154,7 +154,7 @@ TEST(OldNames, ASingleValueIsRefusedAlike) {
 }
 
 TEST(OldNames, OthersAreNone) {
-  EXPECT_EQ(whatBecameOf(Kind::kParameter, "max_depth_m"), "");
+  EXPECT_EQ(whatBecameOf(Kind::kParameter, "max_clones"), "");
   EXPECT_EQ(whatBecameOf(Kind::kParameter, "rest_depth_m", "tracker"), "");
   EXPECT_EQ(whatBecameOf(Kind::kSection, "rest_depth_m"), "");
 }

@@ -40,10 +40,11 @@ PointWorld room(std::uint64_t seed, int hz) {
 int keyframesOf(const std::vector<ImageFeatures>& frames,
                 const std::vector<OdometryState>& odometry) {
   Msckf filter(test::configForDrift().msckf, test::forwardExtrinsics());
+  FrameBudget time;
   int count = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     i == 0 ? filter.start(odometry[i]) : filter.predict(odometry[i]);
-    filter.track(frames[i]);
+    filter.track(frames[i], time);
     if (filter.isKeyframe()) ++count;
   }
   return count;

@@ -25,6 +25,10 @@ StageHook StageTimer::hook() {
   return [this](Stage stage) { enter(stage); };
 }
 
+FrameClock StageTimer::clock() const {
+  return [begun_ns = now_ns()] { return static_cast<double>(now_ns() - begun_ns) * 1e-6; };
+}
+
 void StageTimer::enter(Stage stage) {
   const std::int64_t now = now_ns();
   if (stage_ != Stage::kIdle)

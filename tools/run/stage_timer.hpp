@@ -17,6 +17,8 @@ class StageTimer {
  public:
   explicit StageTimer(StageTimes_ms& times_ms);
   StageHook hook();
+  /// Of what comes after this call.
+  FrameClock clock() const;
 
  private:
   void enter(Stage stage);

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "summary/run_report.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "ardrone_vslam/instruction_set.hpp"
+#include "summary/cost_summary.hpp"
 #include "summary/flight_summary.hpp"
 #include "summary/map_summary.hpp"
 #include "summary/refined_summary.hpp"
@@ -31,12 +29,6 @@ std::vector<double> collect(const RunResult& run, Value&& value) {
   values.reserve(run.frames.size());
   for (const RunFrame& frame : run.frames) values.push_back(static_cast<double>(value(frame)));
   return values;
-}
-
-double peakMemory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 std::vector<double> finite(const std::vector<double>& values) {
@@ -124,26 +116,6 @@ void addScale(const RunResult& run, Json& summary) {
   summary["heights_missing"] = run.heights_missing;
   summary["heights_tilted"] = run.heights_tilted;
   summary["ranges_refused"] = run.ranges_refused;
-}
-
-void addCost(const RunResult& run, Json& summary) {
-  const std::vector<double> totals =
-      collect(run, [](const RunFrame& f) { return total_ms(f.times_ms); });
-  summary["ms_per_frame_median"] = quantile(totals, 0.5);
-  summary["ms_per_frame_p95"] = quantile(totals, 0.95);
-  double sum_ms = 0;
-  for (const double ms : totals) sum_ms += ms;
-  summary["frames_per_second"] =
-      sum_ms > 0 ? Json(1000 * static_cast<double>(totals.size()) / sum_ms) : Json(nullptr);
-  Json share;
-  for (std::size_t stage = 0; stage < kStageCount; ++stage) {
-    double stage_ms = 0;
-    for (const RunFrame& frame : run.frames) stage_ms += frame.times_ms[stage];
-    share[kStageNames[stage]] = sum_ms > 0 ? stage_ms / sum_ms : 0.0;
-  }
-  summary["stage_share"] = share;
-  summary["peak_rss_mb"] = peakMemory_mb();
-  summary["instruction_set"] = nameOf(instructionSetInUse().set);
 }
 
 /// Null without a stamp (0).

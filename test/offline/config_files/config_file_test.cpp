@@ -46,13 +46,13 @@ using test::contains;
 TEST_F(ConfigFile, ReadsBothSectionsAndKeepsDefaults) {
   const PipelineConfig config = load(
       "tracker:\n  features_per_frame: 321\n  use_attitude: on\n  track_search_radius_px: 70.5\n"
-      "mapper:\n  estimator: thesis\n  planar: true\n  max_depth_m: 50\n");
+      "mapper:\n  estimator: thesis\n  planar: true\n  known_height_m: 50\n");
   EXPECT_EQ(config.tracker.corners.features_per_frame, 321);
   EXPECT_TRUE(config.tracker.use_attitude);
   EXPECT_EQ(config.tracker.tracks.search_radius_px, 70.5);
   EXPECT_EQ(config.mapper.estimator, EstimatorKind::kThesis);
   EXPECT_TRUE(config.mapper.planar);
-  EXPECT_EQ(config.mapper.mapper.max_depth_m, 50);
+  EXPECT_EQ(config.mapper.height_input.known_height_m, 50);
   EXPECT_EQ(config.mapper.landmark_map.max_landmarks, LandmarkMapConfig{}.max_landmarks);
 }
 
@@ -76,10 +76,12 @@ TEST_F(ConfigFile, EmptyPathFileAndSectionsAreTheDefaults) {
 }
 
 TEST_F(ConfigFile, OverridesStandAboveTheFile) {
-  const std::string text = "mapper:\n  max_depth_m: 50\n";
-  EXPECT_EQ(load(text, {"max_depth_m=60"}).mapper.mapper.max_depth_m, 60);
-  EXPECT_EQ(load(text, {"mapper/max_depth_m=70"}).mapper.mapper.max_depth_m, 70);
-  EXPECT_EQ(load(text, {"max_depth_m=60", "max_depth_m=80"}).mapper.mapper.max_depth_m, 80);
+  const std::string text = "mapper:\n  known_height_m: 50\n";
+  EXPECT_EQ(load(text, {"known_height_m=60"}).mapper.height_input.known_height_m, 60);
+  EXPECT_EQ(load(text, {"mapper/known_height_m=70"}).mapper.height_input.known_height_m, 70);
+  EXPECT_EQ(
+      load(text, {"known_height_m=60", "known_height_m=80"}).mapper.height_input.known_height_m,
+      80);
   EXPECT_EQ(load(text, {"features_per_frame=99"}).tracker.corners.features_per_frame, 99)
       << "a tracker's parameter is known without its section";
   EXPECT_EQ(loadConfig("", {"estimator=odometry"}).mapper.estimator, EstimatorKind::kOdometry);
@@ -88,7 +90,8 @@ TEST_F(ConfigFile, OverridesStandAboveTheFile) {
 TEST_F(ConfigFile, EveryFaultIsListedAtOnce) {
   const auto faults = faultsOf(
       "tracker:\n  features_per_frame: many\n  cell_size_px: 12.5\n  frobnicate: 1\n"
-      "mapper:\n  estimator: median\n  planar: perhaps\n  max_depth_m: -3\n  track_sigma_px: .nan\n"
+      "mapper:\n  estimator: median\n  planar: perhaps\n  known_height_m: -3\n  track_sigma_px: "
+      ".nan\n"
       "recorder:\n  rate: 3\n",
       {"no_equals_sign", "=3", "min_landmarks=0"});
   const std::vector<std::string> expected{
@@ -99,7 +102,7 @@ TEST_F(ConfigFile, EveryFaultIsListedAtOnce) {
       "tracker/frobnicate is not a parameter",
       "mapper/estimator is 'median' but must be one of: thesis, msckf, odometry",
       "mapper/planar is 'perhaps' but must be a switch (true or false)",
-      "max_depth_m is -3 but must be between",
+      "known_height_m is -3 but must be between",
       "track_sigma_px is nan but must be between",
       "min_landmarks is 0 but must be between",
       "unknown section 'recorder'"};
@@ -137,7 +140,7 @@ TEST_F(ConfigFile, UnknownKeysGetAHint) {
   };
   EXPECT_TRUE(
       contains(hintOf("landmark_treshold_px"), "did you mean mapper/landmark_threshold_px"));
-  EXPECT_TRUE(contains(hintOf("max_depth"), "mapper/max_depth_m"));
+  EXPECT_TRUE(contains(hintOf("known_height"), "mapper/known_height_m"));
   EXPECT_TRUE(contains(hintOf("features_per_frame"), "did you mean tracker/features_per_frame"));
   EXPECT_FALSE(contains(hintOf("xyzzy_plugh"), "did you mean"));
   const auto faults = faultsOf("", {"feature_per_frame=3"});

@@ -45,6 +45,7 @@ RunResult someRun() {
       frame.result.landmark_position_map = Eigen::Vector3d(3, 0.4, 0);
       frame.result.landmark_sigma_m = 0.07;
     }
+    frame.result.left_out = i > 1 ? LeftOut("100") : LeftOut("101");
     frame.times_ms = {1, 2, 3, 0, 0, static_cast<double>(i)};
     run.frames.push_back(frame);
   }
@@ -126,6 +127,8 @@ TEST(RunReport, SummaryHasAllThatIsAskedFor) {
   EXPECT_EQ(summary["landmark_matches_median"], 15);
   EXPECT_EQ(summary["landmarks"], 2);
   EXPECT_EQ(summary["ms_per_frame_median"], 7.5);
+  EXPECT_EQ(summary["ms_per_frame_max"], 9);
+  EXPECT_EQ(summary["left_out"], Json({{"place_search", 2}, {"landmarks", 0}, {"keyframe", 4}}));
   EXPECT_GT(summary["peak_rss_mb"], 0);
   EXPECT_TRUE(summary["t_rel_percent"].is_null()) << "the path is shorter than 100 m";
   EXPECT_NEAR(summary["camera_error_mean_m"], 0.4, 1e-12);

@@ -38,6 +38,21 @@ TEST_F(OnboardLoopTest, AnswersEachImageOfAFileFromAFileOfRecords) {
   EXPECT_EQ(answers.back().frames_dropped, 0U);
 }
 
+TEST_F(OnboardLoopTest, AnswersSayWhatTheirImagesHadNoTimeFor) {
+  writeFile(file("observer"), records());
+  settings_.onboard.observer = file("observer");
+  settings_.mapper.frame_budget_ms = 1e-3;
+  OnboardLoop loop(settings_, stop_.ends[0]);
+  EXPECT_TRUE(loop.run());
+  const auto answers = poses();
+  ASSERT_EQ(answers.size(), kImages + 1U);
+  for (int i = 0; i < kImages; ++i) {
+    EXPECT_EQ(answers[static_cast<std::size_t>(i)].flags,
+              std::uint32_t{VSLAM_POSE_IS_VALID} | VSLAM_POSE_WITHOUT_KEYFRAME)
+        << i;
+  }
+}
+
 TEST_F(OnboardLoopTest, TakesDatagramsAndCountsTheBadOnes) {
   OnboardLoop loop(settings_, stop_.ends[0]);
   const FileDescriptor controller = sendTo({"127.0.0.1", loop.observerPort()});

@@ -75,10 +75,10 @@ TYPED_TEST(ParametersOf, EveryFaultIsListedOnce) {
 
 TEST(Parameters, AFaultSaysNameValueAndRange) {
   SlamConfig config;
-  config.mapper.max_depth_m = 0;
+  config.msckf.height.height_sigma_m = 0;
   const auto faults = rangeFaults(config);
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0], "max_depth_m is 0 but must be between 0.1 and 100000 [m]");
+  EXPECT_EQ(faults[0], "height_sigma_m is 0 but must be between 0.0001 and 10 [m]");
 }
 
 TEST(Parameters, BothEndsOfARangeAreValid) {

@@ -28,7 +28,7 @@ class FixAfterAGap : public ::testing::Test {
     for (std::size_t i = 0; i < kSeen; ++i) {
       if (i > 0) filter_.predict(odometry[i]);
       const Eigen::Isometry3d T_map_cam = flight[i].T_map_base * test::forwardExtrinsics();
-      for (const UsedTrack& used : filter_.track(world.look(T_map_cam, flight[i].stamp_ns)))
+      for (const UsedTrack& used : filter_.track(world.look(T_map_cam, flight[i].stamp_ns), time_))
         seen_.push_back(used);
     }
     truth_ = flight[kAgain].T_map_base;
@@ -42,6 +42,7 @@ class FixAfterAGap : public ::testing::Test {
   }
 
   Msckf filter_;
+  FrameBudget time_;
   std::vector<UsedTrack> seen_;
   Eigen::Isometry3d truth_;
 };

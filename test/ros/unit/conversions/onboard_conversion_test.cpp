@@ -60,6 +60,19 @@ TEST(OnboardConversion, EveryStateOfTheCoreHasItsOwnNameAndSentence) {
   }
 }
 
+TEST(OnboardConversion, WhatAnImageWentWithoutIsSaidAsByTheMapper) {
+  VslamPose pose = somePose();
+  pose.flags |= VSLAM_POSE_WITHOUT_LANDMARKS | VSLAM_POSE_WITHOUT_KEYFRAME;
+  EXPECT_EQ(toFrameResult(pose, 42).left_out, LeftOut("110"));
+  Status status;
+  toStatus(pose, status);
+  EXPECT_EQ(status.reason.rfind(
+                "frame_budget_ms leaves no time for all (left out: landmarks, keyframe)", 0),
+            0U)
+      << status.reason;
+  EXPECT_EQ(status.reason.find("no place seen before"), std::string::npos) << "nobody looked";
+}
+
 TEST(OnboardConversion, AnswersWithoutAPoseSayWhy) {
   std::set<std::string> names;
   for (std::uint32_t state = VSLAM_WAITING_FOR_IMAGES; state <= VSLAM_OUT_OF_MEMORY; ++state) {
