@@ -18,16 +18,17 @@ void writeNumber(std::uint8_t* to, std::uint64_t value, std::size_t count) {
 }
 
 std::string fileOfMap(const SavedMap& map, const TemporaryFolder& folder) {
-  writeMap(folder.file("seed.vmap"), map);
+  writeMap(folder.file("seed.vmap"), map, "fuzz 1");
   return test::readFile(folder.file("seed.vmap"));
 }
 
 void requireUsable(const SavedMap& map, const TemporaryFolder& folder) {
   const std::string first = folder.file("first.vmap");
   const std::string second = folder.file("second.vmap");
-  require(writeMap(first, map) == map.landmarks.size(), "all landmarks that were read are written");
-  require(writeMap(second, readMap(first, WithFlight::kYes)) == map.landmarks.size(),
-          "and come back");
+  require(writeMap(first, map, map.made_by) == map.landmarks.size(),
+          "all landmarks that were read are written");
+  const SavedMap again = readMap(first, WithFlight::kYes);
+  require(writeMap(second, again, again.made_by) == map.landmarks.size(), "and come back");
   require(test::readFile(first) == test::readFile(second), "a map comes back as it was written");
 }
 
