@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where things are. The paths are in one generated source alone (test/CMakeLists.txt), so that one compiler cache serves the
-// other tests of every checkout.
+// Where things are. The paths are in one generated source alone (test/CMakeLists.txt), so that one
+// compiler cache serves the other tests of every checkout.
 #pragma once
 
 #include <string>
