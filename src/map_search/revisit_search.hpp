@@ -35,7 +35,7 @@ class RevisitSearch {
   /// times a second while one sight follows another.
   /// @param is_trusted  the camera, as of the image before
   /// @param T_map_cam  where the camera is thought to be
-  /// @param budget  a look waits until there is some
+  /// @param budget  a look waits until it has the time
   /// @return where it is instead, until that is noted
   std::optional<Revisit> see(const ImageFeatures& features, bool is_trusted,
                              const Eigen::Isometry3d& T_map_cam, LandmarkMap& map,
