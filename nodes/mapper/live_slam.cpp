@@ -78,8 +78,10 @@ const FrameResult& LiveSlam::process(const Features& message, OdometryState odom
   toFeatures(message, features_);
   setup_.see(features_, odometries, *slam_);
   odometry.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
+  times_ms_ = {};
+  StageTimer timer(times_ms_);
   const FrameResult& result =
-      slam_->process(features_, odometry, stage_clock_.hook(), stage_clock_.frameClock());
+      slam_->process(features_, odometry, timer.hook(), StageTimer::clock());
   recorder_->see(features_, odometry, result, slam_->landmarks());
   has_answered_ = true;
   if (result.height == HeightOutcome::kRejected) ++counts_.heights_rejected;

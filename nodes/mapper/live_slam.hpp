@@ -13,7 +13,7 @@
 #include "conversions/conversions.hpp"
 #include "inputs/camera_identity.hpp"
 #include "mapper/setup_report.hpp"
-#include "timing/stage_clock.hpp"
+#include "stamps/stage_timer.hpp"
 
 namespace ardrone_vslam {
 
@@ -55,7 +55,7 @@ class LiveSlam {
                              const OdometryBuffer& odometries);
   /// Of the image processed last.
   const ImageFeatures& features() const { return features_; }
-  double milliseconds(Stage stage) const { return stage_clock_.milliseconds(stage); }
+  double milliseconds(Stage stage) const { return times_ms_[static_cast<std::size_t>(stage)]; }
   /// @pre hasMap()
   const Slam& slam() const { return *slam_; }
   /// Stamp of the newest image in the map; 0: none.
@@ -84,7 +84,7 @@ class LiveSlam {
   CameraIdentity camera_;
   Eigen::Isometry3d T_base_cam_ = Eigen::Isometry3d::Identity();
   ImageFeatures features_;  // kept for its memory
-  StageClock stage_clock_;
+  StageTimes_ms times_ms_{};
   std::int64_t answered_ns_ = 0;
   bool has_answered_ = false;  // within this second
   Counts counts_;

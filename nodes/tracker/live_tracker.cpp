@@ -82,7 +82,9 @@ std::string LiveTracker::imageFault(const CameraIntrinsics& camera, const std::s
 
 void LiveTracker::process(const GreyImage& image, std::int64_t stamp_ns,
                           std::optional<float> rotation_rad) {
-  tracker_->process(image.view(), stamp_ns, features_, stage_clock_.hook(), rotation_rad);
+  times_ms_ = {};
+  StageTimer timer(times_ms_);
+  tracker_->process(image.view(), stamp_ns, features_, timer.hook(), rotation_rad);
   next_track_id_ = tracker_->nextTrackId();
 }
 

@@ -10,7 +10,7 @@
 #include "ardrone_vslam/tracker.hpp"
 #include "configs/node_config.hpp"
 #include "images/image_input.hpp"
-#include "timing/stage_clock.hpp"
+#include "stamps/stage_timer.hpp"
 #include "timing/warning_limiter.hpp"
 #include "tracker/image_receiver.hpp"
 #include "with_ros/camera_info_conversion.hpp"
@@ -53,7 +53,7 @@ class LiveTracker {
 
   /// Of the image processed last.
   const ImageFeatures& features() const { return features_; }
-  double milliseconds(Stage stage) const { return stage_clock_.milliseconds(stage); }
+  double milliseconds(Stage stage) const { return times_ms_[static_cast<std::size_t>(stage)]; }
   const std::string& cameraFrame() const { return camera_frame_; }
 
  private:
@@ -70,7 +70,7 @@ class LiveTracker {
   CameraIntrinsics camera_;
   std::string camera_frame_;
   ImageFeatures features_;
-  StageClock stage_clock_;
+  StageTimes_ms times_ms_{};
 };
 
 }  // namespace ardrone_vslam

@@ -9,8 +9,8 @@
 
 #include "ardrone_vslam/features.hpp"
 #include "ardrone_vslam/tracker_config.hpp"
-#include "run/stage_timer.hpp"
 #include "sequences/sequence.hpp"
+#include "stamps/stage_timer.hpp"
 
 namespace ardrone_vslam {
 

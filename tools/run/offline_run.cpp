@@ -55,7 +55,7 @@ double BackEnd::process(const TrackedFrame& frame) {
   run_frame.image_time_offset_ns = exposed_ns - frame.features.stamp_ns;
   run_frame.times_ms = frame.times_ms;
   StageTimer timer(run_frame.times_ms);
-  run_frame.result = slam_.process(frame.features, state, timer.hook(), timer.clock());
+  run_frame.result = slam_.process(frame.features, state, timer.hook(), StageTimer::clock());
   if (recorder_) recorder_->see(frame.features, state, run_frame.result, slam_.landmarks());
   run_.frames.push_back(std::move(run_frame));
   return total_ms(run_.frames.back().times_ms);

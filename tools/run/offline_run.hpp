@@ -14,9 +14,9 @@
 #include "input_checks/standstill_watch.hpp"
 #include "run/front_end.hpp"
 #include "run/recorded_inputs.hpp"
-#include "run/stage_timer.hpp"
 #include "sequences/sequence.hpp"
 #include "simulation/odometry_model.hpp"
+#include "stamps/stage_timer.hpp"
 
 namespace ardrone_vslam {
 
