@@ -43,9 +43,9 @@ struct Street {
       Landmark landmark;
       landmark.descriptor = randomDescriptor(random);
       landmark.position_map << uniform(0, 400), uniform(-30, 30), uniform(-2, 8);
-      const double rotation_rad = uniform(-M_PI, M_PI);
+      const auto rotation_rad = static_cast<float>(uniform(-M_PI, M_PI));
       landmark.view_direction_map << std::cos(rotation_rad), std::sin(rotation_rad), 0;
-      landmark.seen_distance_m = uniform(5, 40);
+      landmark.seen_distance_m = static_cast<float>(uniform(5, 40));
       map.add(landmark);
     }
     for (std::size_t pose = 0; pose < kPoses; ++pose) look(pose);
@@ -73,8 +73,7 @@ struct Street {
     const std::size_t count = visible[pose].count;
     for (std::size_t i = 2; i < kFeatures; ++i) {
       const std::size_t k = i * count / kFeatures;
-      Descriptor descriptor =
-          map.all()[static_cast<std::size_t>(visible[pose].index[k])].descriptor;
+      Descriptor descriptor(map.all()[static_cast<std::size_t>(visible[pose].index[k])].descriptor);
       for (int bit = 0; bit < kFlippedBits; ++bit)
         descriptor.words[random() % 8] ^= std::uint64_t{1} << (random() % 64);
       const Eigen::Vector2f pixel_px = visible[pose].pixel_px(k);

@@ -115,8 +115,7 @@ int parse(int argc, char** argv, Arguments& arguments) {
 }
 
 void takeMemoryFor(const Settings& settings) {
-  const int megabytes = settings.onboard.working_mb + settings.onboard.max_map_mb;
-  takeMemory(static_cast<std::size_t>(megabytes) * 1'000'000, settings.onboard.lock_memory);
+  takeMemory(memory_bytes(settings), settings.onboard.lock_memory);
 }
 
 int run(const Settings& settings) {

@@ -43,8 +43,8 @@ void takeMemory(std::size_t bytes, bool lock) {
   if (region == MAP_FAILED)
     throw std::runtime_error(
         "out of memory: " + std::to_string(bytes / 1'000'000) +
-        " MB (onboard/working_mb and onboard/max_map_mb) cannot be had: " + std::strerror(errno) +
-        "; end other programs, or set max_map_mb lower");
+        " MB (working_mb, and 400 bytes for each of max_landmarks) cannot be had: " +
+        std::strerror(errno) + "; end other programs, or set max_landmarks or max_map_mb lower");
   std::memset(region, 0, bytes);
   touchStack();
   if (lock && ::mlockall(MCL_CURRENT) != 0)

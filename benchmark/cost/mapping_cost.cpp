@@ -110,9 +110,9 @@ Cost costOfMap(const Scene& scene, int landmarks) {
     landmark.position_map << random.uniform(-side_m / 2, side_m / 2),
         random.uniform(-side_m / 2, side_m / 2), random.uniform(-1.6, 6);
     landmark.descriptor = descriptors.randomDescriptor();
-    landmark.sigma_m = 0.1;
-    landmark.seen_distance_m = random.uniform(8, 40);
-    const double heading = random.uniform(0, 2 * M_PI);
+    landmark.sigma_m = 0.1F;
+    landmark.seen_distance_m = static_cast<float>(random.uniform(8, 40));
+    const auto heading = static_cast<float>(random.uniform(0, 2 * M_PI));
     landmark.view_direction_map << std::cos(heading), std::sin(heading), 0;
     map.add(landmark);
   }

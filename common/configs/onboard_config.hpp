@@ -30,7 +30,6 @@ struct OnboardConfig {
   double telemetry_hz = 5;
   int priority = 10;
   double cpu_share = 0.5;
-  int max_map_mb = 16;
   int working_mb = 12;
   bool lock_memory = false;
 
@@ -89,12 +88,9 @@ void visitParameters(OnboardConfig& c, Visitor&& visit) {
                       "at most this share of the processor: after an image it waits as long as "
                       "that takes"},
         c.cpu_share);
-  visit(ParameterInfo{"max_map_mb", "MB", 1, 1000,
-                      "what the landmarks may take: bounds `max_landmarks`"},
-        c.max_map_mb);
   visit(ParameterInfo{"working_mb", "MB", 1, 1000,
-                      "what all but the landmarks may take; taken from the system at the start, as "
-                      "`max_map_mb` is"},
+                      "what all but the landmarks may take; taken from the system at the start, "
+                      "with 400 bytes for each of `max_landmarks`"},
         c.working_mb);
   visit(ParameterInfo{"lock_memory", "switch", 0, 0,
                       "program and memory are never paged out; needs root"},

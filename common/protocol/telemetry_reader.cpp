@@ -13,12 +13,10 @@
 namespace ardrone_vslam {
 namespace {
 
-const std::uint8_t* getFloat(const std::uint8_t* from, double& value) {
+const std::uint8_t* getFloat(const std::uint8_t* from, float& value) {
   std::uint32_t bits = 0;
   from = vslam_get_u32(from, &bits);
-  float narrow = 0;
-  std::memcpy(&narrow, &bits, sizeof narrow);
-  value = narrow;
+  std::memcpy(&value, &bits, sizeof value);
   return from;
 }
 
@@ -38,7 +36,9 @@ const std::uint8_t* getCount(const std::uint8_t* from, std::size_t& count) {
 
 const std::uint8_t* getLandmark(const std::uint8_t* from, Landmark& landmark) {
   from = vslam_get_u32(from, &landmark.id);
-  for (int axis = 0; axis < 3; ++axis) from = getFloat(from, landmark.position_map[axis]);
+  Eigen::Vector3f position_map;
+  for (int axis = 0; axis < 3; ++axis) from = getFloat(from, position_map[axis]);
+  landmark.position_map = position_map.cast<double>();
   return getFloat(from, landmark.sigma_m);
 }
 

@@ -17,7 +17,7 @@ class TelemetryReader {
  public:
   /// A landmark that does not come for so many rounds is no longer in the drone's map.
   static constexpr std::uint32_t kForgetRounds = 2;
-  /// More than these are of no drone (onboard's max_map_mb allows 800,000): all are forgotten then.
+  /// More than these are of no drone (400 MB of landmarks): all are forgotten then.
   static constexpr std::size_t kMostLandmarks = 1000000;
 
   /// One datagram, in order. @pre vslam_check calls it good (asserted)

@@ -15,15 +15,21 @@ struct Corner {
   std::uint8_t score = 0;  ///< largest threshold at which the pixel is still a corner, 0..254
 };
 
-/// 512-bit binary descriptor; `words` read as bytes in memory order (little endian) are OpenCV
-/// contrib's FREAK bytes.
-struct alignas(64) Descriptor {
+/// The 512 bits of a binary descriptor; `words` read as bytes in memory order (little endian) are
+/// OpenCV contrib's FREAK bytes.
+struct DescriptorBits {
   std::array<std::uint64_t, 8> words{};  ///< bits 0..63 in the first
 
   /// Whether all 512 bits are the same.
-  bool operator==(const Descriptor& other) const { return words == other.words; }
+  bool operator==(const DescriptorBits& other) const { return words == other.words; }
   /// Whether any bit differs.
-  bool operator!=(const Descriptor& other) const { return words != other.words; }
+  bool operator!=(const DescriptorBits& other) const { return words != other.words; }
+};
+/// A descriptor that has a cache line to itself, as fits arrays that are searched.
+struct alignas(64) Descriptor : DescriptorBits {
+  Descriptor() = default;  ///< zero
+  /// Explicit: it is a copy.
+  explicit Descriptor(const DescriptorBits& bits) : DescriptorBits(bits) {}
 };
 static_assert(sizeof(Descriptor) == 64, "a descriptor is exactly 512 bits");
 

@@ -76,7 +76,7 @@ class Slam {
   const Landmarks& landmarks() const;
   /// Another cap of the map, from the next frame on. @throws ConfigError
   void limitMap(const LandmarkMapConfig& config);
-  /// Takes the memory for max_landmarks, and for what one image adds before some go.
+  /// Takes the memory for LandmarkMapConfig::most(), and for what one image adds before some go.
   void reserveMap();
   /// REP-105: corrects the odometry's drift. Identity until the first correction.
   Eigen::Isometry3d T_map_odom() const;

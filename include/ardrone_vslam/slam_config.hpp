@@ -156,9 +156,19 @@ struct FeatureMapConfig {
   double max_feature_age_s = 10.0;  ///< without a second view
 };
 
+/// What a landmark takes at most, indices and room to grow included (LandmarkMapIndex tests it).
+constexpr int kLandmark_bytes = 400;
+
 /// How large the map may become.
 struct LandmarkMapConfig {
   int max_landmarks = 200000;
+  int max_map_mb = 0;
+
+  /// Landmarks, by both.
+  int most() const {
+    const int by_memory = max_map_mb * (1'000'000 / kLandmark_bytes);
+    return max_map_mb > 0 && by_memory < max_landmarks ? by_memory : max_landmarks;
+  }
 };
 
 template <class Visitor>
@@ -168,6 +178,10 @@ void visitParameters(LandmarkMapConfig& c, Visitor&& visit) {
                       "matched, badly known, one of many in their place",
                       turnFirst(19)},
         c.max_landmarks);
+  visit(ParameterInfo{"max_map_mb", "MB", 0, 10000,
+                      "cap of the memory that landmarks take: 2500 of them each; 0: "
+                      "`max_landmarks` alone"},
+        c.max_map_mb);
 }
 
 /// Who makes the pose: docs/data_path.md.

@@ -26,7 +26,7 @@ void PosePipeline::beginFlight() {
   slam_.emplace(config_, T_base_cam_);
   const CameraIntrinsics& camera = cameraModel().intrinsics();
   auto map = map_.read({camera.width_px, camera.height_px, cameraModel().focalLength_px()},
-                       static_cast<std::size_t>(config_.landmark_map.max_landmarks));
+                       static_cast<std::size_t>(config_.landmark_map.most()));
   if (map) slam_->load(*std::move(map));
   map_.begin(config_, T_base_cam_);
   slam_->reserveMap();

@@ -93,9 +93,7 @@ bool testKernels() {
 }
 
 bool testMemory(const Settings& settings) {
-  const std::size_t all_mb = static_cast<std::size_t>(settings.onboard.working_mb) +
-                             static_cast<std::size_t>(settings.onboard.max_map_mb);
-  const std::size_t bytes = all_mb * 1'000'000 / 8 * 7;  // at once, of what was taken
+  const std::size_t bytes = memory_bytes(settings) / 8 * 7;  // at once, of what was taken
   const std::unique_ptr<std::uint8_t[]> memory(new (std::nothrow) std::uint8_t[bytes]);
   const std::string amount = std::to_string(bytes / 1'000'000) + " MB";
   if (!memory) return report(false, "memory", amount + " in one piece cannot be had");

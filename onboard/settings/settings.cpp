@@ -138,9 +138,15 @@ Settings loadSettings(const std::string& path, const std::vector<std::string>& o
   s.map_file = mapper_node.map_file;
   s.save_map = mapper_node.save_map;
   s.autosave_s = autosavePeriod_s(mapper_node);
-  int& landmarks = s.mapper.landmark_map.max_landmarks;
-  landmarks = std::min(landmarks, s.onboard.max_map_mb * (1000000 / kBytesPerLandmark));
   return s;
+}
+
+std::size_t memory_bytes(const Settings& settings) {
+  const std::uint64_t bytes =
+      static_cast<std::uint64_t>(settings.onboard.working_mb) * 1'000'000 +
+      static_cast<std::uint64_t>(settings.mapper.landmark_map.most()) * kLandmark_bytes;
+  // More than there are addresses cannot be had either.
+  return static_cast<std::size_t>(std::min<std::uint64_t>(bytes, SIZE_MAX));
 }
 
 Eigen::Isometry3d extrinsicsOf(const OnboardConfig& config) {

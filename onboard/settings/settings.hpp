@@ -23,15 +23,14 @@ struct Settings {
 };
 
 /// Reads a configuration file (an empty path: the defaults), then each "section/key=value" of
-/// `overrides`. Keys that only the nodelets use are passed over. Bounds max_landmarks by
-/// max_map_mb.
+/// `overrides`. Keys that only the nodelets use are passed over.
 /// @throws ConfigError listing every fault
 Settings loadSettings(const std::string& path, const std::vector<std::string>& overrides);
 
 /// T_base_cam of camera_position_m and camera_rotation_deg. @throws ConfigError
 Eigen::Isometry3d extrinsicsOf(const OnboardConfig& config);
 
-/// What one landmark may take, indices and room to grow included: 385 to 548 bytes were measured.
-constexpr int kBytesPerLandmark = 1250;
+/// What is taken from the system at the start: working_mb, and for each landmark kLandmark_bytes.
+std::size_t memory_bytes(const Settings& settings);
 
 }  // namespace ardrone_vslam

@@ -109,7 +109,7 @@ void Associator::matchGuided(const FrameView& view, const LandmarkMap& map,
     targets_in_view_.push_back(static_cast<int>(k));
   }
   search_.openWindows(view);
-  const auto descriptorOf = [&](int target) -> const Descriptor& {
+  const auto descriptorOf = [&](int target) -> const DescriptorBits& {
     const int landmark = visible_.index[static_cast<std::size_t>(target)];
     return map.all()[static_cast<std::size_t>(landmark)].descriptor;
   };

@@ -36,7 +36,7 @@ void GlobalMatcher::matchAll(const LandmarkMap& map, std::int64_t unseen_since_n
   for (std::size_t i = 0; i < map.size(); ++i) {
     const Landmark& landmark = map.all()[i];
     if (landmark.last_seen_ns >= unseen_since_ns) continue;
-    landmarks_.push_back(landmark.descriptor);
+    landmarks_.emplace_back(landmark.descriptor);
     index_of_landmark_.push_back(static_cast<int>(i));
   }
   matchExact(queries_, landmarks_, config_, matches_);
@@ -58,7 +58,7 @@ void GlobalMatcher::matchByIndex(LandmarkMap& map, std::int64_t unseen_since_ns)
   }
 }
 
-bool GlobalMatcher::isNearestTo(const Descriptor& landmark, std::size_t query) {
+bool GlobalMatcher::isNearestTo(const DescriptorBits& landmark, std::size_t query) {
   distances_bits_.resize(queries_.size());
   kernels::kernelsInUse().hamming_distances(landmark.words.data(), queries_[0].words.data(),
                                             queries_.size(), distances_bits_.data());

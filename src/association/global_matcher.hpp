@@ -36,7 +36,7 @@ class GlobalMatcher {
  private:
   void matchByIndex(LandmarkMap& map, std::int64_t unseen_since_ns);
   void matchAll(const LandmarkMap& map, std::int64_t unseen_since_ns);
-  bool isNearestTo(const Descriptor& landmark, std::size_t query);
+  bool isNearestTo(const DescriptorBits& landmark, std::size_t query);
 
   MatcherConfig config_;
   int index_probes_;

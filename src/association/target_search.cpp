@@ -20,7 +20,7 @@ void TargetSearch::openWindows(const FrameView& view) {
   windows_.build(view.idealPixels(), view.features().descriptor, taken_);
 }
 
-void TargetSearch::search(int target, const Descriptor& descriptor,
+void TargetSearch::search(int target, const DescriptorBits& descriptor,
                           const Eigen::Vector2f& centre_px, float radius_px) {
   best_of_target_[static_cast<std::size_t>(target)] =
       windows_.search(descriptor, centre_px, radius_px, target);

@@ -33,7 +33,7 @@ class TargetSearch {
   /// The following searches are among the features that are not taken now.
   void openWindows(const FrameView& view);
   /// @param target  above those searched for since openWindows()
-  void search(int target, const Descriptor& descriptor, const Eigen::Vector2f& centre_px,
+  void search(int target, const DescriptorBits& descriptor, const Eigen::Vector2f& centre_px,
               float radius_px);
   /// Of a target that was searched for, after all searches. @return kNobody: none is a match
   int bestFeature(int target) const;

@@ -6,6 +6,7 @@
 #include "kernels/kernels.hpp"
 #include "linear/portable_math.hpp"
 #include "map/landmark_map.hpp"
+#include "matching/growth.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -45,10 +46,10 @@ kernels::ProjectCamera cameraOf(const FrameView& view, const ProjectionLimits& l
 
 template <class Action>
 void LandmarkColumns::forEachColumn(const Action& action) {
-  for (auto* column : {&x_m_, &y_m_, &z_m_, &height_m_, &view_x_, &view_y_, &view_z_, &seen_m2_}) {
+  for (auto* column : {&x_m_, &y_m_, &z_m_, &height_m_, &view_x_, &view_y_, &view_z_, &seen_m2_,
+                       &position_variance_m2_}) {
     action(*column);
   }
-  action(position_variance_m2_);
   action(track_id_);
   action(anchor_id_);
 }
@@ -58,7 +59,10 @@ void LandmarkColumns::reserve(std::size_t count) {
 }
 
 void LandmarkColumns::resize(std::size_t count) {
-  forEachColumn([count](auto& column) { column.resize(count); });
+  forEachColumn([count](auto& column) {
+    growByAnEighth(column, count);
+    column.resize(count);
+  });
 }
 
 void LandmarkColumns::set(std::size_t index, const Landmark& landmark) {
@@ -66,11 +70,11 @@ void LandmarkColumns::set(std::size_t index, const Landmark& landmark) {
   x_m_[index] = offset.x();
   y_m_[index] = offset.y();
   z_m_[index] = offset.z();
-  height_m_[index] = static_cast<float>(landmark.height_m);
-  view_x_[index] = static_cast<float>(landmark.view_direction_map.x());
-  view_y_[index] = static_cast<float>(landmark.view_direction_map.y());
-  view_z_[index] = static_cast<float>(landmark.view_direction_map.z());
-  seen_m2_[index] = static_cast<float>(landmark.seen_distance_m * landmark.seen_distance_m);
+  height_m_[index] = landmark.height_m;
+  view_x_[index] = landmark.view_direction_map.x();
+  view_y_[index] = landmark.view_direction_map.y();
+  view_z_[index] = landmark.view_direction_map.z();
+  seen_m2_[index] = landmark.seen_distance_m * landmark.seen_distance_m;
   position_variance_m2_[index] = landmark.position_variance_m2;
   track_id_[index] = landmark.track_id;
   anchor_id_[index] = landmark.anchor_id;

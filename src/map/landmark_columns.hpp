@@ -56,7 +56,7 @@ class LandmarkColumns {
   /// Landmark::track_id.
   std::uint32_t trackId(std::size_t index) const { return track_id_[index]; }
   /// Landmark::position_variance_m2.
-  double positionVariance_m2(std::size_t index) const { return position_variance_m2_[index]; }
+  float positionVariance_m2(std::size_t index) const { return position_variance_m2_[index]; }
   /// Landmark::anchor_id.
   std::uint32_t anchorId(std::size_t index) const { return anchor_id_[index]; }
   /// From where it was last seen; 0: not known.
@@ -75,7 +75,7 @@ class LandmarkColumns {
   std::vector<float> view_y_;
   std::vector<float> view_z_;
   std::vector<float> seen_m2_;
-  std::vector<double> position_variance_m2_;
+  std::vector<float> position_variance_m2_;
   std::vector<std::uint32_t> track_id_;
   std::vector<std::uint32_t> anchor_id_;
 };

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "map/landmark_worth.hpp"
+#include "matching/growth.hpp"
 
 namespace ardrone_vslam {
 
@@ -15,7 +16,7 @@ LandmarkMap::LandmarkMap(const LandmarkMapConfig& config, const LandmarkIds& ids
 
 void LandmarkMap::reserve() {
   constexpr std::size_t kOfOneImage = 500;
-  const std::size_t landmarks = static_cast<std::size_t>(config_.max_landmarks) + kOfOneImage;
+  const std::size_t landmarks = static_cast<std::size_t>(config_.most()) + kOfOneImage;
   landmarks_.reserve(landmarks);
   index_of_id_.reserve(landmarks);
   columns_.reserve(landmarks);
@@ -28,7 +29,7 @@ std::uint32_t LandmarkMap::add(const Landmark& landmark) {
   index_of_id_.set(id, static_cast<std::uint32_t>(landmarks_.size()));
   landmarks_.push_back(landmark);
   landmarks_.change(landmarks_.size() - 1).id = id;
-  stale_.push_back(0);
+  appendTightly<std::uint8_t>(stale_, 0);
   markStale(landmarks_.size() - 1);
   return id;
 }
@@ -67,7 +68,8 @@ void LandmarkMap::markStale(std::size_t index) {
 
 void LandmarkMap::markStaleForColumns(std::size_t index) {
   std::uint8_t& stale = stale_[index];
-  if ((stale & kStaleColumns) == 0) stale_for_columns_.push_back(index);
+  if ((stale & kStaleColumns) == 0)
+    appendTightly(stale_for_columns_, static_cast<std::uint32_t>(index));
   stale |= kStaleColumns;
 }
 
@@ -75,7 +77,7 @@ void LandmarkMap::markStaleForIndex(std::size_t index) {
   std::uint8_t& stale = stale_[index];
   if ((stale & kStaleIndex) != 0) return;
   stale |= kStaleIndex;
-  stale_for_index_.push_back(landmarks_[index].id);
+  appendTightly(stale_for_index_, landmarks_[index].id);
   if (stale_for_index_.size() <= 2 * landmarks_.size() + kIndexStep) return;
   // Most of it are landmarks that came and went while nobody needed the index.
   const auto is_gone = [this](std::uint32_t id) { return index_of_id_.count(id) == 0; };
@@ -103,7 +105,7 @@ void LandmarkMap::layOutIndex() {
   for (const Landmark& landmark : landmarks_) ids.push_back(static_cast<int>(landmark.id));
   std::vector<Descriptor> centres;
   for (const int id : DescriptorIndex::centresOf(ids))
-    centres.push_back(find(static_cast<std::uint32_t>(id))->descriptor);
+    centres.emplace_back(find(static_cast<std::uint32_t>(id))->descriptor);
   if (centres.empty()) centres.resize(1);
   index_.layOut(centres);
   index_is_laid_out_ = true;
@@ -132,7 +134,7 @@ void LandmarkMap::enter(const Landmark& landmark) {
   const Descriptor* known = index_.find(id);
   if (known != nullptr && *known == landmark.descriptor) return;
   index_.remove(id);
-  index_.insert({id, landmark.descriptor});
+  index_.insert({id, Descriptor(landmark.descriptor)});
 }
 
 DescriptorIndex& LandmarkMap::index() {
@@ -140,13 +142,8 @@ DescriptorIndex& LandmarkMap::index() {
   return index_;
 }
 
-void LandmarkMap::limit(const LandmarkMapConfig& config) {
-  validate(config);
-  config_ = config;
-}
-
 int LandmarkMap::enforceCap() {
-  const auto cap = static_cast<std::size_t>(config_.max_landmarks);
+  const auto cap = static_cast<std::size_t>(config_.most());
   if (landmarks_.size() <= cap) return 0;
   // A tenth of the cap at once, so that a full map does not sort at every frame.
   const std::size_t surplus = landmarks_.size() - cap + cap / 10;

@@ -26,7 +26,10 @@ class LandmarkMap {
   /// Removes by id; unknown ids are ignored. O(1).
   void remove(std::uint32_t id);
   /// Another cap. @throws ConfigError
-  void limit(const LandmarkMapConfig& config);
+  void limit(const LandmarkMapConfig& config) {
+    validate(config);
+    config_ = config;
+  }
   /// Removes the landmarks of leastWorth() until the cap holds. @return how many were removed.
   int enforceCap();
 
@@ -92,9 +95,9 @@ class LandmarkMap {
   LandmarkColumns columns_;
   DescriptorIndex index_;
   bool index_is_laid_out_ = false;
-  std::vector<std::uint8_t> stale_;             // of each landmark, bits of Stale
-  std::vector<std::size_t> stale_for_columns_;  // indices into landmarks_, or beyond its end
-  std::vector<std::uint32_t> stale_for_index_;  // ids, also of landmarks removed since
+  std::vector<std::uint8_t> stale_;               // of each landmark, bits of Stale
+  std::vector<std::uint32_t> stale_for_columns_;  // indices into landmarks_, or beyond its end
+  std::vector<std::uint32_t> stale_for_index_;    // ids, also of landmarks removed since
 };
 
 }  // namespace ardrone_vslam

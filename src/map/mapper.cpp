@@ -12,9 +12,9 @@ namespace {
 void rememberObservation(const FrameView& view, std::size_t feature, Landmark& landmark) {
   landmark.track_id = view.features().track_id[feature];
   landmark.descriptor = view.features().descriptor[feature];
-  landmark.view_direction_map = view.ray(feature).direction_map;
-  landmark.seen_distance_m = (landmark.position_map - view.origin_map()).norm();
-  landmark.height_m = view.elevation(feature) * landmark.seen_distance_m;
+  landmark.view_direction_map = view.ray(feature).direction_map.cast<float>();
+  landmark.seen_distance_m = static_cast<float>((landmark.position_map - view.origin_map()).norm());
+  landmark.height_m = static_cast<float>(view.elevation(feature)) * landmark.seen_distance_m;
   landmark.last_seen_ns = view.features().stamp_ns;
   landmark.times_missed = 0;
   constexpr int kMost = 1'000'000'000;  // a year in view at 30 Hz: more would tell nothing new
@@ -23,9 +23,14 @@ void rememberObservation(const FrameView& view, std::size_t feature, Landmark& l
 
 }  // namespace
 
+double Mapper::sigmaOf_m(const FrameView& view, double variance_then_m2, double depth_m) const {
+  const double sigma_p =
+      portable::hypot(config_.position_sigma_m, view.sigmaSince_m(variance_then_m2));
+  return measurementSigma_m(sigma_p, depth_m, angleSigma_rad(view.focalLength_px()));
+}
+
 void Mapper::refine(const FrameView& view, const std::vector<Association>& matches,
                     LandmarkMap& map) const {
-  const double sigma_a = angleSigma_rad(view.focalLength_px());
   for (const Association& match : matches) {
     const auto feature = static_cast<std::size_t>(match.feature);
     Landmark& landmark = map.at(static_cast<std::size_t>(match.target));
@@ -34,13 +39,11 @@ void Mapper::refine(const FrameView& view, const std::vector<Association>& match
     if (first_ray != nullptr) widenBaseline(view, feature, *first_ray, landmark);
     const double depth = (landmark.position_map - ray.origin_map).dot(ray.direction_map);  // (5.20)
     const Eigen::Vector3d measured = ray.origin_map + depth * ray.direction_map;           // (5.21)
-    const double sigma_p =
-        portable::hypot(config_.position_sigma_m, view.sigmaSince_m(landmark.position_variance_m2));
-    const double sigma = measurementSigma_m(sigma_p, std::abs(depth), sigma_a);  // (5.22)
-    const double variance = landmark.sigma_m * landmark.sigma_m;
-    const double gain = variance / (variance + sigma * sigma);           // (5.30-5.32)
-    landmark.position_map += gain * (measured - landmark.position_map);  // (5.33)
-    landmark.sigma_m = std::sqrt((1 - gain) * variance);                 // (5.34)
+    const double sigma = sigmaOf_m(view, landmark.position_variance_m2, std::abs(depth));  // (5.22)
+    const double variance = double{landmark.sigma_m} * landmark.sigma_m;
+    const double gain = variance / (variance + sigma * sigma);                // (5.30-5.32)
+    landmark.position_map += gain * (measured - landmark.position_map);       // (5.33)
+    landmark.sigma_m = static_cast<float>(std::sqrt((1 - gain) * variance));  // (5.34)
     rememberObservation(view, feature, landmark);
   }
 }
@@ -57,15 +60,12 @@ void Mapper::widenBaseline(const FrameView& view, std::size_t feature, const Ray
   if (!point || point->parallax_rad < config_.baseline_growth * landmark.parallax_rad) return;
   // After a long way round the drift between the two views would turn the map: then the wider
   // baseline gives no better depth.
-  const double sigma_p =
-      portable::hypot(config_.position_sigma_m, view.sigmaSince_m(landmark.position_variance_m2));
-  const double sigma =
-      measurementSigma_m(sigma_p, point->depth_m, angleSigma_rad(view.focalLength_px()));
+  const double sigma = sigmaOf_m(view, landmark.position_variance_m2, point->depth_m);
   const double depth_sigma_m = depthSigma_m(sigma, point->parallax_rad);
   if (depth_sigma_m > landmark.depth_sigma_m) return;
   landmark.position_map = point->position_map;
-  landmark.parallax_rad = point->parallax_rad;
-  landmark.depth_sigma_m = depth_sigma_m;
+  landmark.parallax_rad = static_cast<float>(point->parallax_rad);
+  landmark.depth_sigma_m = static_cast<float>(depth_sigma_m);
 }
 
 void Mapper::remember(const FrameView& view, const std::vector<Association>& matches,
@@ -102,7 +102,6 @@ int Mapper::countFailed(const std::vector<int>& failed, LandmarkMap& map) const 
 int Mapper::triangulateMatches(const FrameView& view, const std::vector<Association>& matches,
                                FeatureMap& features, LandmarkMap& landmarks,
                                std::vector<bool>& used) const {
-  const double sigma_a = angleSigma_rad(view.focalLength_px());
   const double min_parallax_rad = config_.min_parallax_deg * M_PI / 180;
   int made = 0;
   for (const Association& match : matches) {
@@ -121,13 +120,12 @@ int Mapper::triangulateMatches(const FrameView& view, const std::vector<Associat
     if (point->depth_m > config_.max_depth_m) continue;
     used[feature] = true;
     Landmark landmark;
-    const double sigma_p =
-        portable::hypot(config_.position_sigma_m, view.sigmaSince_m(first.position_variance_m2));
     landmark.position_map = point->position_map;
-    landmark.position_variance_m2 = view.positionVariance_m2();
-    landmark.sigma_m = measurementSigma_m(sigma_p, point->depth_m, sigma_a);  // (5.19)
-    landmark.depth_sigma_m = depthSigma_m(landmark.sigma_m, point->parallax_rad);
-    landmark.parallax_rad = point->parallax_rad;
+    const double sigma = sigmaOf_m(view, first.position_variance_m2, point->depth_m);  // (5.19)
+    landmark.position_variance_m2 = static_cast<float>(view.positionVariance_m2());
+    landmark.sigma_m = static_cast<float>(sigma);
+    landmark.depth_sigma_m = static_cast<float>(depthSigma_m(sigma, point->parallax_rad));
+    landmark.parallax_rad = static_cast<float>(point->parallax_rad);
     landmark.first_seen_ns = first.stamp_ns;
     landmark.times_seen = 1;
     rememberObservation(view, feature, landmark);

@@ -55,6 +55,8 @@ class Mapper {
   void storeRest(const FrameView& view, const std::vector<bool>& used, FeatureMap& features) const;
 
  private:
+  /// Of a landmark or of its measurement, across the ray. @param variance_then_m2  see FrameView
+  double sigmaOf_m(const FrameView& view, double variance_then_m2, double depth_m) const;
   /// Depth comes from parallax, which grows while a track goes on; the scalar update across the ray
   /// hardly mends it.
   void widenBaseline(const FrameView& view, std::size_t feature, const Ray& first_ray,

@@ -19,18 +19,18 @@ bool isNonNegative(double value) {
   return value >= 0 && fits(value);
 }
 
-bool hasCovariance(const Eigen::Matrix3d& m) {
-  return isNonNegative(m(0, 0)) && isNonNegative(m(1, 1)) && isNonNegative(m(2, 2)) &&
-         fits(m(0, 1)) && fits(m(0, 2)) && fits(m(1, 2));
+bool hasCovariance(const Symmetric3& covariance) {
+  const auto& [xx, xy, xz, yy, yz, zz] = covariance.upper;
+  return isNonNegative(xx) && isNonNegative(yy) && isNonNegative(zz) && fits(xy) && fits(xz) &&
+         fits(yz);
 }
 
-bool hasUnitLength(const Eigen::Vector3d& direction) {
+bool hasUnitLength(const Eigen::Vector3f& direction) {
   constexpr double kTolerance = 1e-5;  // floats are off by 1e-7
   double squared = 0;
   for (int i = 0; i < 3; ++i) {
     if (!(std::abs(direction[i]) < 2)) return false;
-    const double saved = static_cast<float>(direction[i]);
-    squared += saved * saved;
+    squared += double{direction[i]} * direction[i];
   }
   return std::abs(squared - 1) < 2 * kTolerance;
 }
@@ -72,12 +72,9 @@ std::uint32_t readCount(const MapFileInput& file, const MapSection& section) {
 void readLandmark(std::int64_t stamp_ns, ByteReader& in, Landmark& l) {
   for (std::uint64_t& word : l.descriptor.words) word = in.u64();
   for (int i = 0; i < 3; ++i) l.position_map[i] = in.f64();
-  for (int row = 0; row < 3; ++row) {
-    for (int column = row; column < 3; ++column)
-      l.covariance_m2(row, column) = l.covariance_m2(column, row) = in.f32();
-  }
+  for (double& value : l.covariance_m2.upper) value = in.f32();
   for (int i = 0; i < 3; ++i) l.view_direction_map[i] = in.f32();
-  for (double* value : {&l.seen_distance_m, &l.sigma_m, &l.depth_sigma_m, &l.parallax_rad})
+  for (float* value : {&l.seen_distance_m, &l.sigma_m, &l.depth_sigma_m, &l.parallax_rad})
     *value = in.f32();
   const std::uint32_t anchor = in.u32();
   // The greatest index would come round to 0, which no landmark has: a fault as well.
@@ -117,13 +114,10 @@ const char* landmarkFault(const Landmark& l, std::size_t anchors) {
 void writeLandmark(const Landmark& l, std::int64_t stamp_ns, ByteWriter& out) {
   for (const std::uint64_t word : l.descriptor.words) out.u64(word);
   for (int i = 0; i < 3; ++i) out.f64(l.position_map[i]);
-  for (int row = 0; row < 3; ++row) {
-    for (int column = row; column < 3; ++column)
-      out.f32(static_cast<float>(l.covariance_m2(row, column)));
-  }
-  for (int i = 0; i < 3; ++i) out.f32(static_cast<float>(l.view_direction_map[i]));
-  for (const double value : {l.seen_distance_m, l.sigma_m, l.depth_sigma_m, l.parallax_rad})
-    out.f32(static_cast<float>(value));
+  for (const double value : l.covariance_m2.upper) out.f32(static_cast<float>(value));
+  for (int i = 0; i < 3; ++i) out.f32(l.view_direction_map[i]);
+  for (const float value : {l.seen_distance_m, l.sigma_m, l.depth_sigma_m, l.parallax_rad})
+    out.f32(value);
   out.u32(l.anchor_id - 1);
   out.u32(savedCount(l.times_seen));
   out.u32(savedCount(l.times_failed));

@@ -87,7 +87,7 @@ std::vector<MapObservation> PlaceLook::observe(const ImageFeatures& features, La
     seen.index = static_cast<std::size_t>(match.train);
     seen.bearing_rig = features.bearing_cam[static_cast<std::size_t>(match.query)].cast<double>();
     seen.point_map = map.all()[seen.index].position_map;
-    seen.covariance_m2 = map.all()[seen.index].covariance_m2;
+    seen.covariance_m2 = map.all()[seen.index].covariance_m2.full();
     observations.push_back(seen);
   }
   return observations;

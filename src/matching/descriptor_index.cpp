@@ -5,6 +5,8 @@
 #include <cassert>
 #include <utility>
 
+#include "matching/growth.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -43,9 +45,9 @@ bool DescriptorIndex::isSizeOutOfRange(std::size_t entries) const {
 
 void DescriptorIndex::append(int list, int id, const Descriptor& descriptor) {
   DescriptorList& to = lists_[static_cast<std::size_t>(list)];
-  place_of_id_.set(keyOf(id), {list, static_cast<int>(to.ids.size())});
-  to.ids.push_back(id);
-  to.descriptors.push_back(descriptor);
+  list_of_id_.set(keyOf(id), list);
+  appendTightly(to.ids, id);
+  appendTightly(to.descriptors, descriptor);
 }
 
 void DescriptorIndex::insert(const IndexEntry& entry) {
@@ -65,17 +67,13 @@ void DescriptorIndex::insert(const std::vector<IndexEntry>& entries) {
 }
 
 void DescriptorIndex::remove(int id) {
-  const Place* entry = place_of_id_.find(keyOf(id));
+  const int* entry = list_of_id_.find(keyOf(id));
   if (entry == nullptr) return;
-  const Place hole = *entry;
-  place_of_id_.erase(keyOf(id));
-  DescriptorList& list = lists_[static_cast<std::size_t>(hole.list)];
-  const auto position = static_cast<std::size_t>(hole.position);
-  if (position + 1 != list.ids.size()) {
-    list.ids[position] = list.ids.back();
-    list.descriptors[position] = list.descriptors.back();
-    place_of_id_.set(keyOf(list.ids[position]), hole);
-  }
+  DescriptorList& list = lists_[static_cast<std::size_t>(*entry)];
+  list_of_id_.erase(keyOf(id));
+  const std::size_t position = positionOf(id, list);
+  list.ids[position] = list.ids.back();
+  list.descriptors[position] = list.descriptors.back();
   list.ids.pop_back();
   list.descriptors.pop_back();
   rebuildIfNeeded();
@@ -102,7 +100,7 @@ void DescriptorIndex::layOut(const std::vector<Descriptor>& centres) {
   assert(!centres.empty() && "an index has at least one list");
   centres_ = centres;
   lists_.assign(centres.size(), DescriptorList{});
-  place_of_id_.clear();
+  list_of_id_.clear();
   is_rebuilt_by_itself_ = false;
 }
 
@@ -125,10 +123,15 @@ void DescriptorIndex::rebuild() {
 }
 
 const Descriptor* DescriptorIndex::find(int id) const {
-  const Place* entry = place_of_id_.find(keyOf(id));
+  const int* entry = list_of_id_.find(keyOf(id));
   if (entry == nullptr) return nullptr;
-  const DescriptorList& list = lists_[static_cast<std::size_t>(entry->list)];
-  return &list.descriptors[static_cast<std::size_t>(entry->position)];
+  const DescriptorList& list = lists_[static_cast<std::size_t>(*entry)];
+  return &list.descriptors[positionOf(id, list)];
+}
+
+std::size_t DescriptorIndex::positionOf(int id, const DescriptorList& list) {
+  const auto found = std::find(list.ids.begin(), list.ids.end(), id);
+  return static_cast<std::size_t>(found - list.ids.begin());
 }
 
 }  // namespace ardrone_vslam

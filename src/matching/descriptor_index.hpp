@@ -34,8 +34,8 @@ class DescriptorIndex {
   void insert(const IndexEntry& entry);
   /// The same for many: at most one rebuild.
   void insert(const std::vector<IndexEntry>& entries);
-  /// Ids that are not there are ignored. O(1), but for a rebuild when the size has fallen to an
-  /// eighth.
+  /// Ids that are not there are ignored. O(a list), but for a rebuild when the size has fallen to
+  /// an eighth.
   void remove(int id);
   /// The ids whose descriptors rebuild() of entries with these ids would choose as centres, in its
   /// order. O(ids).
@@ -52,10 +52,10 @@ class DescriptorIndex {
   void rebuild();
 
   /// Number of entries.
-  std::size_t size() const { return place_of_id_.size(); }
+  std::size_t size() const { return list_of_id_.size(); }
   /// Number of inverted lists; so many probes make a search exact.
   int listCount() const { return static_cast<int>(centres_.size()); }
-  /// @return nullptr when there is none of this id; valid until the index is changed
+  /// @return nullptr when there is none of this id; valid until the index is changed. O(a list)
   const Descriptor* find(int id) const;
 
   /// Nearest and second nearest of each query among the lists probed; of equally near entries the
@@ -69,18 +69,15 @@ class DescriptorIndex {
   }
 
  private:
-  struct Place {
-    int list = 0;
-    int position = 0;
-  };
-
   bool isSizeOutOfRange(std::size_t entries) const;
   void rebuildIfNeeded();
   void append(int list, int id, const Descriptor& descriptor);
+  /// Of an id in it.
+  static std::size_t positionOf(int id, const DescriptorList& list);
 
   std::vector<Descriptor> centres_;
   std::vector<DescriptorList> lists_;
-  IdTable<Place> place_of_id_;
+  IdTable<int> list_of_id_;  // its place there is looked for
   bool is_rebuilt_by_itself_ = true;
   ListSearch search_;
 };

@@ -7,7 +7,7 @@
 namespace ardrone_vslam {
 
 /// @return number of bits in which the two descriptors differ, 0..512.
-inline int hammingDistance(const Descriptor& a, const Descriptor& b) {
+inline int hammingDistance(const DescriptorBits& a, const DescriptorBits& b) {
   return kernels::hammingDistance512(a.words.data(), b.words.data());
 }
 

@@ -151,7 +151,7 @@ void WindowSearch::build(const std::vector<Eigen::Vector2f>& places_px,
   }
 }
 
-BestTwo WindowSearch::search(const Descriptor& query, const Eigen::Vector2f& centre_px,
+BestTwo WindowSearch::search(const DescriptorBits& query, const Eigen::Vector2f& centre_px,
                              float radius_px, int number) {
   State& s = *state_;
   const float reach_px = radius_px + kRounding_px;

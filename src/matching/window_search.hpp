@@ -36,7 +36,7 @@ class WindowSearch {
   /// included; of equally near ones the one with the lowest index is the nearest. Cost: one Hamming
   /// distance for each entry in the cells that the circle's square touches.
   /// @param number  of the query, 0 or greater and above those of the queries since build()
-  BestTwo search(const Descriptor& query, const Eigen::Vector2f& centre_px, float radius_px,
+  BestTwo search(const DescriptorBits& query, const Eigen::Vector2f& centre_px, float radius_px,
                  int number);
 
   /// @return number of the query nearest to the entry of all that had it in their circle, the

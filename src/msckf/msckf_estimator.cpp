@@ -110,7 +110,7 @@ SlamState MsckfEstimator::fix(const AssociationResult& matches, const FrameView&
     const auto feature = static_cast<std::size_t>(match.feature);
     const double distance_m = (landmark.position_map - view.origin_map()).norm();
     seen.push_back({T_rig_cam_.linear() * view.features().bearing_cam[feature].cast<double>(),
-                    landmark.position_map, landmark.covariance_m2, landmark.anchor_id,
+                    landmark.position_map, landmark.covariance_m2.full(), landmark.anchor_id,
                     mismatchThreshold_rad(config_.association, view, landmark, distance_m)});
   }
   switch (filter_.fix(seen, view.focalLength_px())) {

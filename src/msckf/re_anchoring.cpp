@@ -31,9 +31,10 @@ bool isSeen(const AnchorCorrection& move, double distance_m, double tolerance_ra
 void AnchorCorrection::apply(Landmark& landmark) const {
   landmark.position_map =
       to_map + stretch * (rotation * Eigen::Vector3d(landmark.position_map - from_map));
-  landmark.view_direction_map = rotation * landmark.view_direction_map;
+  landmark.view_direction_map =
+      (rotation * landmark.view_direction_map.cast<double>()).normalized().cast<float>();
   landmark.covariance_m2 =
-      stretch * stretch * rotation * landmark.covariance_m2 * rotation.transpose();
+      stretch * stretch * rotation * landmark.covariance_m2.full() * rotation.transpose();
   landmark.anchor_id = new_anchor_id;
 }
 

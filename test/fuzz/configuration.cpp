@@ -42,9 +42,6 @@ void requireSame(Config a, Config b) {
   std::map<std::string, std::string> of_b;
   visitParameters(a, ValueCollector{&of_a});
   visitParameters(b, ValueCollector{&of_b});
-  // On the drone it is bounded by the memory that is set aside.
-  of_a.erase("max_landmarks");
-  of_b.erase("max_landmarks");
   for (const auto& [name, value] : of_a)
     require(value == of_b[name], name + " is '" + value + "' and '" + of_b[name] + "'");
 }

@@ -41,8 +41,8 @@ TEST(MapFileGolden, TheFileIsReadAndWrittenAgain) {
   const Landmark& last = map.landmarks[2];
   EXPECT_EQ(last.position_map, Eigen::Vector3d(2.1, 0.2, 0.3));
   EXPECT_EQ(last.descriptor.words[7], 0x0123456789ABCDEFU + 9);
-  EXPECT_EQ(last.covariance_m2(2, 0), -0.001953125);
-  EXPECT_EQ(last.view_direction_map, Eigen::Vector3d(0, 0, -1));
+  EXPECT_EQ(last.covariance_m2.full()(2, 0), -0.001953125);
+  EXPECT_EQ(last.view_direction_map, Eigen::Vector3f(0, 0, -1));
   EXPECT_EQ(last.seen_distance_m, 4.5);
   EXPECT_EQ(last.parallax_rad, 0.0625);
   EXPECT_EQ(last.anchor_id, 1U);

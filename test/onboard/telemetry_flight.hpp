@@ -23,7 +23,7 @@ struct TelemetryFlight {
     for (int i = 0; i < count; ++i) {
       Landmark landmark;
       landmark.position_map = {metres(random), metres(random), metres(random)};
-      landmark.sigma_m = std::abs(metres(random));
+      landmark.sigma_m = static_cast<float>(std::abs(metres(random)));
       landmark.last_seen_ns = features.stamp_ns + 1;  // by the next image
       map.add(landmark);
     }

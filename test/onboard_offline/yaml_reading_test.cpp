@@ -95,9 +95,9 @@ TEST(YamlReading, AConfigurationMeansTheSameAsForReplay) {
     if (byYamlCpp(path).count("tracker") == 0) continue;
     SCOPED_TRACE(path);
     ++files;
-    // The mode is not offered on board; and more room than max_landmarks asks for.
+    // The mode is not offered on board.
     const std::string mode = "mapper/odometry_mode=pose";
-    const Settings onboard = loadSettings(path, {mode, "onboard/max_map_mb=1000"});
+    const Settings onboard = loadSettings(path, {mode});
     const PipelineConfig replay = loadConfig(path, {mode});
     EXPECT_EQ(written(onboard.tracker), written(replay.tracker));
     EXPECT_EQ(written(onboard.mapper), written(replay.mapper));

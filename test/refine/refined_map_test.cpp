@@ -56,7 +56,7 @@ TEST(RefinedMap, LandmarksGoWithTheirAnchors) {
   const SavedMap map = refinedMap(before, twoKeyframes(), refinement);
   EXPECT_TRUE(map.anchors[0].T_map_rig.isApprox(turned(M_PI / 2, {0, 5, 0})));
   EXPECT_TRUE(map.landmarks[0].position_map.isApprox(Eigen::Vector3d(0, 6, 0)));
-  EXPECT_TRUE(map.landmarks[0].view_direction_map.isApprox(Eigen::Vector3d(0, 1, 0)));
+  EXPECT_TRUE(map.landmarks[0].view_direction_map.isApprox(Eigen::Vector3f(0, 1, 0)));
   // The other anchor came after the last keyframe, and goes with the one before.
   EXPECT_TRUE(map.anchors[1].T_map_rig.isApprox(turned(M_PI / 2, {0, 6, 0})));
   EXPECT_TRUE(map.landmarks[1].position_map.isApprox(Eigen::Vector3d(0, 7, 0)));

@@ -25,8 +25,8 @@ SavedMap moved(SavedMap map, const Eigen::Isometry3d& T) {
   }
   for (Landmark& landmark : map.landmarks) {
     landmark.position_map = T * landmark.position_map;
-    landmark.view_direction_map = R * landmark.view_direction_map;
-    landmark.covariance_m2 = R * landmark.covariance_m2 * R.transpose();
+    landmark.view_direction_map = R.cast<float>() * landmark.view_direction_map;
+    landmark.covariance_m2 = R * landmark.covariance_m2.full() * R.transpose();
   }
   return map;
 }
@@ -99,7 +99,8 @@ Eigen::Vector3d JointMaps::offset(const LandmarkPair& pair) const {
 
 /// Of an offset that anchors and move do not explain.
 Eigen::Matrix3d JointMaps::covarianceOf(const LandmarkPair& pair) const {
-  return a_.landmarks[pair.of_a].covariance_m2 + b_.landmarks[pair.of_b].covariance_m2 +
+  return a_.landmarks[pair.of_a].covariance_m2.full() +
+         b_.landmarks[pair.of_b].covariance_m2.full() +
          kOtherView_m * kOtherView_m * Eigen::Matrix3d::Identity();
 }
 
@@ -120,7 +121,8 @@ Eigen::Matrix<double, 3, JointMaps::kMove> JointMaps::byMove(
 /// of them sees it, noise would make both maps smaller.
 Eigen::Vector3d JointMaps::positionOf(const LandmarkPair& pair) const {
   const Landmark& in_a = a_.landmarks[pair.of_a];
-  return in_a.position_map - in_a.covariance_m2 * covarianceOf(pair).inverse() * offset(pair);
+  return in_a.position_map -
+         in_a.covariance_m2.full() * covarianceOf(pair).inverse() * offset(pair);
 }
 
 /// Of b's anchors, whose errors are turned with the map.
@@ -179,8 +181,8 @@ SavedMap JointMaps::corrected(const SavedMap& before, const Eigen::VectorXd& err
                                            errors.segment<kAnchor>(coordinateOf(anchor)));
     const Eigen::Matrix3d R = turnOf(anchor);
     const double stretch = 1 - errors(coordinateOf(anchor) + kAnchor - 1);
-    landmark.view_direction_map = R * landmark.view_direction_map;
-    landmark.covariance_m2 = stretch * stretch * R * landmark.covariance_m2 * R.transpose();
+    landmark.view_direction_map = R.cast<float>() * landmark.view_direction_map;
+    landmark.covariance_m2 = stretch * stretch * R * landmark.covariance_m2.full() * R.transpose();
   }
   for (std::size_t i = 0; i < map.anchors.size(); ++i) {
     Eigen::Isometry3d& T = map.anchors[i].T_map_rig;

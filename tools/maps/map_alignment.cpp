@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kNoDistance_bits = 513;
 
-int distance_bits(const Descriptor& a, const Descriptor& b) {
+int distance_bits(const DescriptorBits& a, const DescriptorBits& b) {
   int bits = 0;
   for (std::size_t i = 0; i < a.words.size(); ++i)
     bits += __builtin_popcountll(a.words[i] ^ b.words[i]);

@@ -45,7 +45,7 @@ Eigen::Matrix3d covarianceOf(const SavedMap& map, const Landmark& landmark) {
   const auto J = byAnchor(map.anchors[anchor], landmark.position_map);
   const auto P = map.anchor_covariance.block<SavedMap::kAnchor, SavedMap::kAnchor>(
       coordinateOf(anchor), coordinateOf(anchor));
-  return landmark.covariance_m2 + J * P * J.transpose();
+  return landmark.covariance_m2.full() + J * P * J.transpose();
 }
 
 }  // namespace ardrone_vslam

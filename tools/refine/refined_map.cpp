@@ -46,8 +46,8 @@ SavedMap refinedMap(SavedMap map, const FlightRecord& record, const Refinement& 
   for (Landmark& landmark : map.landmarks) {
     const Eigen::Isometry3d& T_new_old = moved[landmark.anchor_id - 1];
     const Eigen::Matrix3d& R = T_new_old.linear();
-    landmark.view_direction_map = R * landmark.view_direction_map;
-    landmark.covariance_m2 = R * landmark.covariance_m2 * R.transpose();
+    landmark.view_direction_map = R.cast<float>() * landmark.view_direction_map;
+    landmark.covariance_m2 = R * landmark.covariance_m2.full() * R.transpose();
     const auto found = point_of.find(landmark.id);
     landmark.position_map =
         found == point_of.end() ? T_new_old * landmark.position_map : found->second->position_map;

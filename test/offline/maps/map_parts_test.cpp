@@ -30,7 +30,7 @@ SavedMap threeAnchors() {
       landmark.id = 2 * i + j + 1;
       landmark.anchor_id = i + 1;
       landmark.times_seen = static_cast<int>(landmark.id);
-      landmark.sigma_m = 0.7 - 0.1 * landmark.id;
+      landmark.sigma_m = 0.7F - 0.1F * static_cast<float>(landmark.id);
       landmark.position_map << landmark.id, 0, 1;
       map.landmarks.push_back(landmark);
     }

@@ -85,7 +85,7 @@ class TurningDrone {
                                     T_world_cam.translation(), T_world_cam.linear() * ray_cam);
     if (!range_m) return std::numeric_limits<double>::infinity();
     return std::abs(seen_cam.norm() - *range_m) /
-           std::sqrt(ray_map.dot(landmark.covariance_m2 * ray_map));
+           std::sqrt(ray_map.dot(landmark.covariance_m2.full() * ray_map));
   }
 
   WorldSequence world_;

@@ -105,8 +105,9 @@ TEST(SettingsTest, TheDronesOwnConfigurationIsReadWhole) {
 }
 
 TEST(SettingsTest, TheMapIsBoundedByItsMemory) {
-  EXPECT_EQ(loadSettings("", {"onboard/max_map_mb=3"}).mapper.landmark_map.max_landmarks,
-            3 * 1000000 / kBytesPerLandmark);
+  const Settings s = loadSettings("", {"mapper/max_map_mb=3", "onboard/working_mb=5"});
+  EXPECT_EQ(s.mapper.landmark_map.most(), 7500);
+  EXPECT_EQ(memory_bytes(s), 8'000'000U);
 }
 
 TEST(SettingsTest, EveryFaultIsNamed) {

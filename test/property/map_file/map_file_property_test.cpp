@@ -13,7 +13,7 @@ namespace {
 void expectSame(const Landmark& a, const Landmark& b) {
   EXPECT_EQ(a.descriptor, b.descriptor);
   EXPECT_EQ(a.position_map, b.position_map);
-  EXPECT_EQ(a.covariance_m2, b.covariance_m2);
+  EXPECT_EQ(a.covariance_m2.full(), b.covariance_m2.full());
   EXPECT_EQ(a.view_direction_map, b.view_direction_map);
   EXPECT_EQ(a.seen_distance_m, b.seen_distance_m);
   EXPECT_EQ(a.sigma_m, b.sigma_m);

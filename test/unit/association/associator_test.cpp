@@ -27,7 +27,7 @@ class AssociatorTest : public ::testing::Test {
   int addLandmark(double distance_m, std::uint32_t track_id, const Descriptor& descriptor) {
     Landmark landmark;
     landmark.position_map << distance_m, 0, 0;
-    landmark.view_direction_map = Eigen::Vector3d::UnitX();
+    landmark.view_direction_map = Eigen::Vector3f::UnitX();
     landmark.track_id = track_id;
     landmark.descriptor = descriptor;
     landmarks_.add(landmark);
@@ -105,7 +105,7 @@ TEST_F(AssociatorTest, ThresholdAndWindowGrowWithTheSigmaOfThePose) {
   const double sigma_m = 0.05;
   const double margin_px = 3 * kFocalLength_px * sigma_m / 5;  // 17.1
   const auto matches = [&](double off_px, bool common_drift, double shared_m2) {
-    landmarks_.at(0).position_variance_m2 = shared_m2;
+    landmarks_.at(0).position_variance_m2 = static_cast<float>(shared_m2);
     builder_.lookFrom({0, 0, 0});
     builder_.addPixel(0, off_px, 1, a);
     builder_.view().setPositionVariance(sigma_m * sigma_m, common_drift);
@@ -186,12 +186,16 @@ TEST_F(AssociatorTest, LandmarksBehindOutsideOrSeenFromElsewhereAreNotInView) {
   addLandmark(-5, 0, a);
   addLandmark(5, 0, a);
   landmarks_.at(1).position_map << 5, 10, 0;  // 63 degrees to the left, outside
-  landmarks_.at(1).view_direction_map = landmarks_.at(1).position_map.normalized();
+  landmarks_.at(1).view_direction_map = landmarks_.at(1).position_map.normalized().cast<float>();
   addLandmark(5, 0, a);
-  landmarks_.at(2).view_direction_map << std::cos(61 * M_PI / 180), std::sin(61 * M_PI / 180), 0;
+  const auto seenAt = [](double angle_deg) -> Eigen::Vector3f {
+    const double angle_rad = angle_deg * M_PI / 180;
+    return Eigen::Vector3d(std::cos(angle_rad), std::sin(angle_rad), 0).cast<float>();
+  };
+  landmarks_.at(2).view_direction_map = seenAt(61);
   addLandmark(0, 0, a);  // at the camera itself
   EXPECT_EQ(matchLandmarks().in_view, 0);
-  landmarks_.at(2).view_direction_map << std::cos(59 * M_PI / 180), std::sin(59 * M_PI / 180), 0;
+  landmarks_.at(2).view_direction_map = seenAt(59);
   EXPECT_EQ(matchLandmarks().in_view, 1);
 }
 
@@ -199,7 +203,7 @@ TEST_F(AssociatorTest, LandmarksSeenFromMuchNearerOrFurtherAreNotInView) {
   config_.max_distance_ratio = 4;
   addLandmark(5, 0, builder_.randomDescriptor());
   const auto inView = [this](double seen_distance_m) {
-    landmarks_.at(0).seen_distance_m = seen_distance_m;
+    landmarks_.at(0).seen_distance_m = static_cast<float>(seen_distance_m);
     return matchLandmarks().in_view;
   };
   EXPECT_EQ(inView(1.2), 0);

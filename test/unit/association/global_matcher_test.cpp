@@ -20,6 +20,9 @@ class GlobalMatcherTest : public ::testing::Test {
     landmark.descriptor = descriptor;
     return map_.add(landmark);
   }
+  Descriptor descriptorOf(std::size_t landmark) const {
+    return Descriptor(map_.all()[landmark].descriptor);
+  }
   void addFeature(const Descriptor& descriptor) { builder_.addPixel(0, 0, 0, descriptor); }
 
   std::vector<DescriptorMatch> match(MatchMethod method, const std::vector<bool>& taken = {}) {
@@ -50,7 +53,7 @@ class GlobalMatcherTest : public ::testing::Test {
 
 TEST_F(GlobalMatcherTest, FindsEachFeaturesLandmarkByEitherMethod) {
   for (const std::size_t i : {3U, 77U, 250U, 399U})
-    addFeature(builder_.flipped(map_.all()[i].descriptor, 40));
+    addFeature(builder_.flipped(descriptorOf(i), 40));
   addFeature(builder_.randomDescriptor());
   const auto matches = matchBoth();
   ASSERT_EQ(matches.size(), 4U);
@@ -60,8 +63,8 @@ TEST_F(GlobalMatcherTest, FindsEachFeaturesLandmarkByEitherMethod) {
 }
 
 TEST_F(GlobalMatcherTest, TakenFeaturesAreLeftOut) {
-  addFeature(map_.all()[5].descriptor);
-  addFeature(map_.all()[6].descriptor);
+  addFeature(descriptorOf(5));
+  addFeature(descriptorOf(6));
   const auto matches = matchBoth({true, false});
   ASSERT_EQ(matches.size(), 1U);
   EXPECT_EQ(matches[0].query, 1);
@@ -72,10 +75,10 @@ TEST_F(GlobalMatcherTest, TakenFeaturesAreLeftOut) {
 TEST_F(GlobalMatcherTest, LandmarksSeenSinceThenAreNoCandidates) {
   const Descriptor seen_again = builder_.randomDescriptor();
   addLandmark(seen_again, 8);
-  addLandmark(map_.all()[6].descriptor, 8);  // hides its twin from the index alone
+  addLandmark(descriptorOf(6), 8);  // hides its twin from the index alone
   addFeature(seen_again);
-  addFeature(map_.all()[6].descriptor);
-  addFeature(map_.all()[9].descriptor);
+  addFeature(descriptorOf(6));
+  addFeature(descriptorOf(9));
   GlobalMatcher matcher(config_, index_probes_);
   const std::vector<bool> none_taken(3, false);
   const auto exact = matcher.match(builder_.features(), none_taken, map_, MatchMethod::kExact, 8);
@@ -90,15 +93,15 @@ TEST_F(GlobalMatcherTest, LandmarksSeenSinceThenAreNoCandidates) {
 }
 
 TEST_F(GlobalMatcherTest, AmbiguousAndFarOnesAreNotMatches) {
-  addFeature(builder_.flipped(map_.all()[5].descriptor, config_.max_hamming_bits + 1));
-  addFeature(map_.all()[6].descriptor);
-  addLandmark(map_.all()[6].descriptor);  // a twin
+  addFeature(builder_.flipped(descriptorOf(5), config_.max_hamming_bits + 1));
+  addFeature(descriptorOf(6));
+  addLandmark(descriptorOf(6));  // a twin
   EXPECT_TRUE(matchBoth().empty());
 }
 
 TEST_F(GlobalMatcherTest, CrossCheckKeepsTheNearestFeature) {
-  addFeature(builder_.flipped(map_.all()[5].descriptor, 30));
-  addFeature(builder_.flipped(map_.all()[5].descriptor, 20));
+  addFeature(builder_.flipped(descriptorOf(5), 30));
+  addFeature(builder_.flipped(descriptorOf(5), 20));
   const auto checked = matchBoth();
   ASSERT_EQ(checked.size(), 1U);
   EXPECT_EQ(checked[0].query, 1);
@@ -107,7 +110,7 @@ TEST_F(GlobalMatcherTest, CrossCheckKeepsTheNearestFeature) {
 }
 
 TEST_F(GlobalMatcherTest, FollowsTheMapAsItChanges) {
-  addFeature(map_.all()[5].descriptor);
+  addFeature(descriptorOf(5));
   addFeature(builder_.randomDescriptor());
   EXPECT_EQ(matchBoth().size(), 1U);
   map_.at(7).descriptor = builder_.features().descriptor[1];  // seen anew
@@ -126,8 +129,7 @@ TEST_F(GlobalMatcherTest, FollowsTheMapAsItChanges) {
 
 TEST_F(GlobalMatcherTest, FewProbesFindFewerMatches) {
   for (int i = 0; i < 3600; ++i) addLandmark(builder_.randomDescriptor());
-  for (std::size_t i = 0; i < 4000; i += 10)
-    addFeature(builder_.flipped(map_.all()[i].descriptor, 80));
+  for (std::size_t i = 0; i < 4000; i += 10) addFeature(builder_.flipped(descriptorOf(i), 80));
   const std::size_t with_all = match(MatchMethod::kIndexed).size();
   EXPECT_EQ(with_all, 400U);
   index_probes_ = 4;

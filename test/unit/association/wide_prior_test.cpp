@@ -20,7 +20,7 @@ class WidePriorTest : public ::testing::Test {
       const Descriptor descriptor = builder_.randomDescriptor();
       Landmark landmark;
       landmark.position_map << 5, 0.05 * (i - 20), 0;
-      landmark.view_direction_map = Eigen::Vector3d::UnitX();
+      landmark.view_direction_map = Eigen::Vector3f::UnitX();
       landmark.seen_distance_m = 5;
       landmark.descriptor = descriptor;
       landmarks_.add(landmark);
@@ -70,7 +70,7 @@ TEST_F(WidePriorTest, LargeMapsAreSearchedExactlyUntilTheirIndexIsBuilt) {
   config_.index_from_landmarks = 40;
   Landmark elsewhere;
   elsewhere.position_map << -50, 0, 0;
-  elsewhere.view_direction_map = -Eigen::Vector3d::UnitX();
+  elsewhere.view_direction_map = -Eigen::Vector3f::UnitX();
   elsewhere.seen_distance_m = 5;
   for (int i = 0; i < 2 * LandmarkMap::kIndexStep; ++i) {
     elsewhere.descriptor = builder_.randomDescriptor();

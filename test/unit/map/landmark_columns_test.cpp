@@ -20,11 +20,11 @@ class LandmarkColumnsTest : public ::testing::Test {
     Landmark landmark;
     landmark.position_map = place_map + 10 * random_.normal3();
     const Eigen::Vector3d offset = landmark.position_map - place_map - random_.normal3();
-    landmark.view_direction_map = offset.normalized();
-    landmark.seen_distance_m = offset.norm();
-    landmark.height_m = random_.normal();
+    landmark.view_direction_map = offset.normalized().cast<float>();
+    landmark.seen_distance_m = static_cast<float>(offset.norm());
+    landmark.height_m = static_cast<float>(random_.normal());
     landmark.track_id = static_cast<std::uint32_t>(random_.integer(1, 1000));
-    landmark.position_variance_m2 = random_.uniform();
+    landmark.position_variance_m2 = static_cast<float>(random_.uniform());
     landmark.anchor_id = static_cast<std::uint32_t>(1 + map_.size() % 7);
     return landmark;
   }
@@ -117,7 +117,7 @@ TEST_F(LandmarkColumnsTest, CullByDirectionAndDistance) {
   for (const double distance_m : {2.0, 8.0, 33.0}) {
     Landmark landmark;
     landmark.position_map << distance_m, 0, 0;
-    landmark.view_direction_map << std::cos(0.6), std::sin(0.6), 0;  // 34 degrees off
+    landmark.view_direction_map << std::cos(0.6F), std::sin(0.6F), 0;  // 34 degrees off
     landmark.seen_distance_m = 8;
     map_.add(landmark);
   }

@@ -18,7 +18,7 @@ Landmark landmarkOf(std::uint32_t id) {
   landmark.id = id;
   landmark.position_map = {static_cast<double>(id), 0, 0};
   landmark.seen_distance_m = 2;
-  landmark.sigma_m = 0.01;
+  landmark.sigma_m = 0.01F;
   landmark.times_seen = 10;
   landmark.last_seen_ns = 1000 * kWorthSecond_ns;
   return landmark;
@@ -34,7 +34,7 @@ TEST(LandmarkWorth, TheLessUsedTheOlderAndTheLessKnownGoFirst) {
   std::vector<Landmark> map = mapOf(20);
   map[4].times_seen = 2;
   map[7].last_seen_ns -= 600 * kWorthSecond_ns;
-  map[11].sigma_m = 0.1;
+  map[11].sigma_m = 0.1F;
   std::vector<std::uint32_t> gone = leastWorth(map, 3);
   std::sort(gone.begin(), gone.end());
   EXPECT_EQ(gone, (std::vector<std::uint32_t>{5, 8, 12}));

@@ -62,7 +62,7 @@ TEST_F(MapperTest, FeatureSeenTwiceBecomesALandmark) {
   EXPECT_NEAR(landmark.sigma_m,
               config_.position_sigma_m + depth_m * config_.angle_sigma_px / kFocalLength_px,
               1e-6);  // (5.19)
-  EXPECT_LT((landmark.view_direction_map - from_camera / depth_m).norm(), 1e-6);
+  EXPECT_LT((landmark.view_direction_map.cast<double>() - from_camera / depth_m).norm(), 1e-6);
   EXPECT_GT(landmark.depth_sigma_m, 5 * landmark.sigma_m);
 }
 
@@ -117,7 +117,7 @@ TEST_F(MapperTest, RefinesByAScalarKalmanUpdate) {
   config_.angle_sigma_px = 0.01 * kFocalLength_px;  // sigma_a = 0.01
   Landmark landmark;
   landmark.position_map << 4, 0.3, 0;
-  landmark.sigma_m = 0.08;
+  landmark.sigma_m = 0.08F;
   landmarks_.add(landmark);
   builder_.lookFrom({0, 0, 0});
   builder_.addPoint({7, 0, 0}, 9);  // the measured ray is x
@@ -127,7 +127,7 @@ TEST_F(MapperTest, RefinesByAScalarKalmanUpdate) {
   const double gain = 0.0064 / (0.0064 + sigma * sigma);
   const Landmark& refined = landmarks_.all()[0];
   EXPECT_LT((refined.position_map - Eigen::Vector3d(4, 0.3 * (1 - gain), 0)).norm(), 1e-6);
-  EXPECT_NEAR(refined.sigma_m, std::sqrt((1 - gain) * 0.0064), 1e-9);
+  EXPECT_NEAR(refined.sigma_m, std::sqrt((1 - gain) * 0.0064), 1e-8);
   EXPECT_EQ(refined.track_id, 9U);
   EXPECT_EQ(refined.times_seen, 1);
 }
@@ -137,7 +137,7 @@ TEST_F(MapperTest, UncertainPoseMovesLandmarksLess) {
     LandmarkMap map({});
     Landmark landmark;
     landmark.position_map << 4, 0.3, 0;
-    landmark.sigma_m = 0.08;
+    landmark.sigma_m = 0.08F;
     map.add(landmark);
     builder_.lookFrom({0, 0, 0});
     builder_.addPoint({7, 0, 0}, 9);
@@ -201,7 +201,7 @@ TEST_F(MapperTest, AMatchForgetsTheMisses) {
   config_.drop_unconfirmed_after = 2;
   Landmark landmark;
   landmark.position_map << 4, 0, 0;
-  landmark.sigma_m = 0.1;
+  landmark.sigma_m = 0.1F;
   landmarks_.add(landmark);
   builder_.lookFrom({0, 0, 0});
   builder_.addPoint({4, 0, 0}, 9);

@@ -234,13 +234,15 @@ TEST_F(MapFileWriteTest, LandmarksThatCannotBeReadAgainAreLeftOut) {
   map.landmarks[1].position_map.y() = kNan;
   map.landmarks[2].anchor_id = 3;
   map.landmarks[3].anchor_id = 0;
-  map.landmarks[4].covariance_m2(1, 1) = -1;
-  map.landmarks[5].covariance_m2(0, 2) = 1e39;  // no float
+  Eigen::Matrix3d wrong_m2 = Eigen::Matrix3d::Identity();
+  wrong_m2(0, 2) = 1e39;  // no float
+  map.landmarks[4].covariance_m2 = -Eigen::Matrix3d::Identity();
+  map.landmarks[5].covariance_m2 = wrong_m2;
   map.landmarks[6].view_direction_map.setZero();
-  map.landmarks[7].view_direction_map.setConstant(kInf);
-  map.landmarks[8].sigma_m = kNan;
+  map.landmarks[7].view_direction_map.setConstant(static_cast<float>(kInf));
+  map.landmarks[8].sigma_m = static_cast<float>(kNan);
   map.landmarks[9].seen_distance_m = -1;
-  map.landmarks[10].depth_sigma_m = 1e300;
+  map.landmarks[10].depth_sigma_m = static_cast<float>(kInf);
   EXPECT_EQ(writeMap(path_, map), 2U);
   EXPECT_EQ(readMap(path_).landmarks.size(), 2U);
 }

@@ -39,8 +39,9 @@ inline SavedMap smallMap() {
     landmark.id = 10 * (i + 1);
     for (std::size_t w = 0; w < 8; ++w) landmark.descriptor.words[w] = 0x0123456789ABCDEFU + w + i;
     landmark.position_map = Eigen::Vector3d(0.1, 0.2, 0.3) + i * Eigen::Vector3d::UnitX();
-    landmark.covariance_m2.diagonal().setConstant(0.015625);
-    landmark.covariance_m2(0, 2) = landmark.covariance_m2(2, 0) = -0.001953125;
+    Eigen::Matrix3d covariance_m2 = 0.015625 * Eigen::Matrix3d::Identity();
+    covariance_m2(0, 2) = covariance_m2(2, 0) = -0.001953125;
+    landmark.covariance_m2 = covariance_m2;
     landmark.view_direction_map[static_cast<int>(i)] = -1;
     landmark.seen_distance_m = 4.5;
     landmark.sigma_m = 0.125;
@@ -94,17 +95,15 @@ inline Landmark randomLandmark(RandomSource& random, std::size_t anchors, std::i
   landmark.position_map = 10 * random.normal3();
   Eigen::Matrix3d root;
   for (int i = 0; i < 9; ++i) root(i) = 0.1 * random.normal();
-  landmark.covariance_m2 = (root * root.transpose()).cast<float>().cast<double>();
-  landmark.covariance_m2.triangularView<Eigen::StrictlyLower>() =
-      landmark.covariance_m2.transpose();
-  const Eigen::Vector3d direction = random.normal3().normalized();
-  for (int i = 0; i < 3; ++i) {
+  landmark.covariance_m2 = root * root.transpose();
+  for (double& value : landmark.covariance_m2.upper) {
     // Volatile: GCC 12 leaves the rounding to float and back out, at -O3, in a vector.
-    const volatile float rounded = static_cast<float>(direction[i]);
-    landmark.view_direction_map[i] = rounded;
+    const volatile float rounded = static_cast<float>(value);
+    value = rounded;
   }
-  for (double* value : {&landmark.seen_distance_m, &landmark.sigma_m, &landmark.depth_sigma_m,
-                        &landmark.parallax_rad})
+  landmark.view_direction_map = random.normal3().normalized().cast<float>();
+  for (float* value : {&landmark.seen_distance_m, &landmark.sigma_m, &landmark.depth_sigma_m,
+                       &landmark.parallax_rad})
     *value = static_cast<float>(random.uniform(0, 20));
   landmark.anchor_id = static_cast<std::uint32_t>(random.integer(1, static_cast<int>(anchors)));
   landmark.times_seen = random.integer(1, 1000);

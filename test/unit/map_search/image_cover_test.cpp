@@ -28,10 +28,11 @@ class ImageCoverTest : public ::testing::Test {
       Landmark landmark;
       landmark.position_map << kDepth_m, -right_px / kPointFocalLength_px * kDepth_m,
           -down_px / kPointFocalLength_px * kDepth_m;
-      landmark.view_direction_map = landmark.position_map.normalized();
-      landmark.descriptor = builder_.randomDescriptor();
+      landmark.view_direction_map = landmark.position_map.normalized().cast<float>();
+      const Descriptor descriptor = builder_.randomDescriptor();
+      landmark.descriptor = descriptor;
       map_.add(landmark);
-      if (i < seen) builder_.addPixel(right_px, down_px, kNoTrack, landmark.descriptor);
+      if (i < seen) builder_.addPixel(right_px, down_px, kNoTrack, descriptor);
     }
   }
   double cover() { return ImageCover(AssociationConfig{}).of(builder_.view(), map_); }

@@ -20,7 +20,7 @@ Landmark landmarkAt(std::uint32_t id, const Eigen::Vector3d& position_map) {
   Landmark landmark;
   landmark.id = id;
   landmark.position_map = position_map;
-  landmark.sigma_m = 0.02;
+  landmark.sigma_m = 0.02F;
   return landmark;
 }
 
@@ -177,11 +177,11 @@ TEST_F(LandmarkMarkersTest, OfWhatIsDrawnOneBlockIsSentAgainAndThoseThatLookOthe
   EXPECT_EQ(viewer_.points(), 1000U);
   EXPECT_EQ(update(), 1U);             // the second block
   map_[300].position_map.x() += 0.01;  // less than can be seen
-  map_[700].sigma_m = 0.0215;
+  map_[700].sigma_m = 0.0215F;
   EXPECT_EQ(update(), 1U);  // the third
   map_[300].position_map.x() += 0.02;
   EXPECT_EQ(update(), 2U);  // and the fourth
-  map_[700].sigma_m = 0.05;
+  map_[700].sigma_m = 0.05F;
   EXPECT_EQ(update(), 2U);  // and the first
   map_[10] = map_.back();   // as LandmarkMap removes
   map_.pop_back();
@@ -193,7 +193,7 @@ TEST_F(LandmarkMarkersTest, OfSigmasBeyondTheColoursNothingIsSent) {
   for (Landmark& landmark : map_) landmark.sigma_m = 0;
   update();
   EXPECT_EQ(update(), 1U);
-  for (Landmark& landmark : map_) landmark.sigma_m = 0.005;
+  for (Landmark& landmark : map_) landmark.sigma_m = 0.005F;
   EXPECT_EQ(update(), 1U);
 }
 

@@ -187,7 +187,7 @@ std::vector<Landmark> someMap() {
     Landmark landmark;
     landmark.id = static_cast<std::uint32_t>(7 + i);
     landmark.position_map << i, 2 * i, -i;
-    landmark.sigma_m = 0.01 + 0.3 * i;
+    landmark.sigma_m = 0.01F + 0.3F * static_cast<float>(i);
     landmark.times_seen = 3 + i;
     map.push_back(landmark);
   }
