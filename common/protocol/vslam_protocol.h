@@ -37,7 +37,7 @@ enum {
   VSLAM_OBSERVER_HAS_VARIANCE = 1,
   VSLAM_OBSERVER_HAS_HEIGHT = 2,
   VSLAM_POSE_IS_VALID = 1,
-  /* What frame_budget_ms left this image no time for. */
+  /* What frame_budget_ms left this image no time for, in the order of the core's OptionalWork. */
   VSLAM_POSE_WITHOUT_PLACE_SEARCH = 2,
   VSLAM_POSE_WITHOUT_LANDMARKS = 4,
   VSLAM_POSE_WITHOUT_KEYFRAME = 8
@@ -67,7 +67,7 @@ enum {
   VSLAM_CONTROLLER_SILENT = 34, /* no good record of the observer for half a second */
   VSLAM_NO_OBSERVER = 35,       /* records come, but none for the image's stamp */
   VSLAM_ENDING = 36,            /* the last record before the program ends */
-  VSLAM_OUT_OF_MEMORY = 37      /* the map begins anew: raise working_mb or max_map_mb */
+  VSLAM_OUT_OF_MEMORY = 37      /* the map begins anew: raise working_mb */
 };
 
 /* The controller's estimate of one instant. */

@@ -38,6 +38,10 @@ enum class OptionalWork {
 constexpr std::array<const char*, 3> kOptionalWorkNames{"place_search", "landmarks", "keyframe"};
 /// By OptionalWork.
 using LeftOut = std::bitset<kOptionalWorkNames.size()>;
+/// Whether that work was.
+inline bool isLeftOut(OptionalWork work, const LeftOut& left_out) {
+  return left_out[static_cast<std::size_t>(work)];
+}
 /// A sentence for users, empty where nothing was left out.
 std::string explain(const LeftOut& left_out);
 

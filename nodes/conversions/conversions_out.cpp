@@ -117,8 +117,8 @@ PoseCorrection toCorrectionMessage(const FrameResult& result, const Eigen::Isome
       result.state == SlamState::kLocalised || result.state == SlamState::kTracking ||
       result.state == SlamState::kResting || result.state == SlamState::kRotating ||
       result.state == SlamState::kRelocated;
-  const bool had_no_time = result.left_out[static_cast<std::size_t>(OptionalWork::kLandmarks)] &&
-                           result.left_out[static_cast<std::size_t>(OptionalWork::kKeyframe)];
+  const bool had_no_time = isLeftOut(OptionalWork::kLandmarks, result.left_out) &&
+                           isLeftOut(OptionalWork::kKeyframe, result.left_out);
   message.corrected = is_by_camera && !had_no_time;
   return message;
 }
@@ -140,7 +140,7 @@ sensor_msgs::PointCloud2 toCloud(const Landmarks& landmarks, const std::string& 
   for (const Landmark& landmark : landmarks) {
     for (int axis = 0; axis < 3; ++axis)
       xyzd[axis] = static_cast<float>(landmark.position_map[axis]);
-    xyzd[3] = static_cast<float>(landmark.sigma_m);
+    xyzd[3] = landmark.sigma_m;
     seen_id[0] = static_cast<std::uint32_t>(landmark.times_seen);
     seen_id[1] = landmark.id;
     ++xyzd;

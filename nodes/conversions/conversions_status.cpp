@@ -58,7 +58,7 @@ void toStatus(SlamState state, const LeftOut& left_out, Status& status) {
                                state == SlamState::kRotating ||
                                state == SlamState::kTooFewLandmarks;
   // That no landmark was found says nothing when none was looked for.
-  const bool has_looked = !left_out[static_cast<std::size_t>(OptionalWork::kLandmarks)];
+  const bool has_looked = !isLeftOut(OptionalWork::kLandmarks, left_out);
   status.reason =
       state == SlamState::kLocalised || (is_by_landmarks && !has_looked) ? "" : explain(state);
 }

@@ -16,11 +16,7 @@ Eigen::Isometry3d toIsometry(const double (&position_m)[3], const double (&quate
 }
 
 LeftOut leftOutOf(const VslamPose& pose) {
-  LeftOut left_out;
-  left_out[0] = (pose.flags & VSLAM_POSE_WITHOUT_PLACE_SEARCH) != 0;
-  left_out[1] = (pose.flags & VSLAM_POSE_WITHOUT_LANDMARKS) != 0;
-  left_out[2] = (pose.flags & VSLAM_POSE_WITHOUT_KEYFRAME) != 0;
-  return left_out;
+  return LeftOut(pose.flags / VSLAM_POSE_WITHOUT_PLACE_SEARCH);  // higher bits are cut off
 }
 
 void setState(std::uint8_t state, const char* name, const char* reason, Status& status) {
@@ -73,7 +69,7 @@ void toStatus(const VslamPose& pose, Status& status) {
     case VSLAM_OUT_OF_MEMORY:
       setState(Status::OUT_OF_MEMORY, "out_of_memory",
                "the memory that vslam_onboard took at its start does not suffice, and the map "
-               "begins anew: raise `working_mb` or `max_map_mb`",
+               "begins anew: raise `working_mb`",
                status);
       break;
     case VSLAM_ENDING:

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <sys/socket.h>
 
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -44,13 +43,12 @@ AnswerOutput::AnswerOutput(const OnboardConfig& config)
 }
 
 void AnswerOutput::sendPose(const FrameResult& result, const Counters& counters) {
+  static_assert(VSLAM_POSE_WITHOUT_KEYFRAME == VSLAM_POSE_WITHOUT_PLACE_SEARCH
+                                                   << static_cast<int>(OptionalWork::kKeyframe),
+                "the flags are LeftOut's bits");
   VslamPose pose{};
-  pose.flags = VSLAM_POSE_IS_VALID;
-  constexpr std::array<std::uint32_t, kOptionalWorkNames.size()> kWithout{
-      VSLAM_POSE_WITHOUT_PLACE_SEARCH, VSLAM_POSE_WITHOUT_LANDMARKS, VSLAM_POSE_WITHOUT_KEYFRAME};
-  for (std::size_t i = 0; i < kWithout.size(); ++i) {
-    if (result.left_out[i]) pose.flags |= kWithout[i];
-  }
+  pose.flags = VSLAM_POSE_IS_VALID + static_cast<std::uint32_t>(result.left_out.to_ulong()) *
+                                         VSLAM_POSE_WITHOUT_PLACE_SEARCH;
   pose.state = static_cast<std::uint32_t>(result.state);
   pose.stamp_ns = result.stamp_ns;
   put(result.T_map_base, pose.position_m, pose.quaternion);

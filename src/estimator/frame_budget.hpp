@@ -24,7 +24,7 @@ class FrameBudget {
   bool take(OptionalWork work);
   /// Does nothing if the work was not taken from this image's time.
   void done(OptionalWork work);
-  bool hasLeftOut(OptionalWork work) const { return left_out_[static_cast<std::size_t>(work)]; }
+  bool hasLeftOut(OptionalWork work) const { return isLeftOut(work, left_out_); }
   /// What this image had no time for.
   const LeftOut& leftOut() const { return left_out_; }
 
