@@ -72,17 +72,20 @@ class Campaign:
         return None if found_s is None else (found_s, summary["fused_ate_rmse_m"], out)
 
 
-def way_of_map(run, trajectory):
-    """What lays the path of the map's own flight on the truth."""
-    pairs = associate(read_tum(os.path.join(run, trajectory)), read_tum(os.path.join(run, "truth.tum")), SAME_STAMP_S)
-    return best_alignment(pairs.estimate.positions_m, pairs.truth.positions_m, with_scale=False)
+def read_pairs(run):
+    """Poses and truth. The truth begins where the place was found."""
+    return associate(read_tum(os.path.join(run, "fused.tum")), read_tum(os.path.join(run, "truth.tum")), SAME_STAMP_S)
 
 
-def error_in_map_m(run, alignment):
-    """RMSE in the map's own frame. The truth begins where the place was found."""
-    pairs = associate(read_tum(os.path.join(run, "fused.tum")), read_tum(os.path.join(run, "truth.tum")), SAME_STAMP_S)
-    off_m = alignment.apply(pairs.estimate).positions_m - pairs.truth.positions_m
-    return math.sqrt((off_m**2).sum(axis=1).mean())
+def add_errors_in_map(tries, flights):
+    """RMSE in the map's own frame: by the one rotation and translation that lay all flights in this map on the truth."""
+    if not flights:
+        return
+    way = best_alignment(*(np.concatenate([getattr(flights[i], kind).positions_m for i in sorted(flights)]) for kind in ("estimate", "truth")),
+                         with_scale=False)
+    for i, pairs in flights.items():
+        off_m = way.apply(pairs.estimate).positions_m - pairs.truth.positions_m
+        tries[i]["error_in_map_m"] = math.sqrt((off_m**2).sum(axis=1).mean())
 
 
 def starts_of(count, seed):
@@ -94,22 +97,26 @@ def starts_of(count, seed):
 def in_one_room(campaign, starts, pool):
     """Another flight in the map of the first one, as flown and refined."""
     campaign.make_map("first", ROOM, 1, MAP_S, refines=True)
-    ways = {"first": way_of_map(campaign.path("first_run"), "fused.tum"),
-            "first_refined": way_of_map(campaign.path("first_refined_run"), "refined.tum")}
+    flights = {"first": {}, "first_refined": {}}
 
     def try_start(i):
         flight = f"start_{i}"
         campaign.render(flight, ROOM, 1, FLIGHT_S, 100 + i, starts[i])
         results = {}
-        for name, way in ways.items():
+        for name, pairs in flights.items():
             found = campaign.look(flight, name, 100 + i)
-            results[name] = found and {"found_s": found[0], "error_m": found[1], "error_in_map_m": error_in_map_m(found[2], way)}
+            results[name] = found and {"found_s": found[0], "error_m": found[1]}
+            if found and found[1] <= WRONG_M:
+                pairs[i] = read_pairs(found[2])
             shutil.rmtree(campaign.path(f"{flight}_in_{name}"))
         shutil.rmtree(campaign.path(flight))
         return results
 
     tries = show("start", pool.map(try_start, range(len(starts))), len(starts))
-    return {name: [one[name] for one in tries] for name in ways}
+    tries = {name: [one[name] for one in tries] for name in flights}
+    for name, pairs in flights.items():
+        add_errors_in_map(tries[name], pairs)
+    return tries
 
 
 def in_rooms_alike(campaign, rooms, starts_in_each, pool):

@@ -32,7 +32,7 @@ class MapCampaign(TestWithFolder):
             for one in tries:
                 self.assertLess(one["found_s"], 6)
                 self.assertLess(one["error_m"], 0.3)
-                self.assertLess(one["error_in_map_m"], 0.3)
+                self.assertLess(one["error_in_map_m"], 0.1)
 
 
 if __name__ == "__main__":
