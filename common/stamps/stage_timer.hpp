@@ -25,21 +25,23 @@ class StageTimer {
   /// @return a hook that refers to this timer
   StageHook hook() {
     return [this](Stage next) {
-      if (stage_ != Stage::kIdle) times_ms_[static_cast<std::size_t>(stage_)] += since_ms(begun_);
+      const Clock::time_point now = Clock::now();
+      if (stage_ != Stage::kIdle)
+        times_ms_[static_cast<std::size_t>(stage_)] += in_ms(now - begun_);
       stage_ = next;
-      begun_ = Clock::now();
+      begun_ = now;
     };
   }
   /// Of what comes after this call.
   static FrameClock clock() {
-    return [begun = Clock::now()] { return since_ms(begun); };
+    return [begun = Clock::now()] { return in_ms(Clock::now() - begun); };
   }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  static double since_ms(Clock::time_point then) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - then).count();
+  static double in_ms(Clock::duration time) {
+    return std::chrono::duration<double, std::milli>(time).count();
   }
 
   StageTimes_ms& times_ms_;
