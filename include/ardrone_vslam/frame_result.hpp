@@ -41,7 +41,8 @@ enum class SlamState {
   kTooFewLandmarks,  ///< thesis: fewer matches than `min_landmarks`
   kFixRejected,      ///< the landmarks' position failed its gate and corrected nothing
   kOdometryOnly,     ///< `estimator: odometry`
-  kNotFinite,        ///< a number overflowed: the pose is not to be used, the map is to begin anew
+  kNotFinite,        ///< a number overflowed: the pose is not to be used; Slam::process() says what
+                     ///< follows
   kTracking,         ///< MSCKF: tracks correct the pose, no place seen before is in view
   kResting,          ///< MSCKF: the image is still and holds the position
   kRotating,         ///< MSCKF: the camera turns on the spot, the image holds the position

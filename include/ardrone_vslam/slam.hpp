@@ -33,9 +33,9 @@ class Slam {
   ~Slam();
 
   /// One frame. Stamps must ascend and the odometry state must be for the image's stamp (asserted).
-  /// At the first frame map equals odom. After kNotFinite every further answer may be that. With
-  /// another OdometryState::start than before, MSCKF looks for the flight in its own map, as after
-  /// load().
+  /// At the first frame map equals odom. With another OdometryState::start than before, and after
+  /// kNotFinite, MSCKF looks for the flight in its own map, as after load(). After kNotFinite the
+  /// other estimators begin the map anew.
   /// @param clock  of this frame, for `frame_budget_ms`; empty: nothing is left out
   const FrameResult& process(const ImageFeatures& features, const OdometryState& odometry,
                              const StageHook& hook = {}, const FrameClock& clock = {});
@@ -47,12 +47,9 @@ class Slam {
 
   /// The next frame is another camera's, on the same base (or the camera's calibration is another
   /// one): the map goes on, and pose and odometry with it. Its features must have new tracks.
+  /// `extrinsics_sigma_deg` is the error of each.
   /// @throws std::invalid_argument with the extrinsicsFault
-  /// @pre canChangeCamera() (asserted)
   void changeCamera(const Eigen::Isometry3d& T_base_cam);
-
-  /// False with `extrinsics_sigma_deg`, which is the error of one camera's extrinsics.
-  bool canChangeCamera() const;
 
   /// The flight takes place in this map, where it is looked for from the first frame on. Until it
   /// is found (FrameResult::state kSearchingMap) the pose is beside a map of its own, and its

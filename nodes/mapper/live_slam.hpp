@@ -28,7 +28,7 @@ class LiveSlam {
   /// As useCamera() was told last.
   const CameraIdentity& camera() const { return camera_; }
   const Eigen::Isometry3d& T_base_cam() const { return T_base_cam_; }
-  /// Makes the Slam, or has it change the camera. @pre without a map, or Slam::canChangeCamera()
+  /// Makes the Slam, or has it change the camera.
   /// @param base, frame  names of the drone's and the camera's frames in tf
   void useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam,
                  const std::string& base, const std::string& frame);

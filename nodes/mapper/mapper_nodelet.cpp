@@ -158,12 +158,8 @@ void MapperNodelet::useCamera(const CameraIdentity& camera, const Eigen::Isometr
     const std::string change =
         "the camera changed from " + slam_->camera().text() + " to " + camera.text();
     slam_->countCameraChange();
-    if (slam_->slam().canChangeCamera()) {
-      if (warnings_.allowsEvent()) NODELET_INFO_STREAM(change << ": the map goes on");
-      odometry_->watch().changeCamera();
-    } else {
-      beginMapAnew(change + ", and extrinsics_sigma_deg is of one camera");
-    }
+    if (warnings_.allowsEvent()) NODELET_INFO_STREAM(change << ": the map goes on");
+    odometry_->watch().changeCamera();
   }
   slam_->useCamera(camera, T_base_cam, odometry_->frames().base, frame);
 }
@@ -178,8 +174,8 @@ void MapperNodelet::processFrame(const FrameMatcher::Frame& frame) {
   if (result.state == SlamState::kDistrusted && slam_->setup().fault().empty())
     warnings_.limited(explain(result.state));
   if (result.state == SlamState::kNotFinite) {  // answered by its status alone
-    status_->publishAnswer(result, *frame.features);
-    return beginMapAnew(explain(result.state));  // last: it ends the life of the result
+    warnings_.limited(explain(result.state));
+    return status_->publishAnswer(result, *frame.features);
   }
   odometry_->watch().seeImage(slam_->features(), frame.odometry.T_odom_base * slam_->T_base_cam());
   const Frames& frames = odometry_->frames();

@@ -32,7 +32,9 @@ void PosePipeline::beginFlight() {
   slam_->reserveMap();
 }
 
-void PosePipeline::beginAnew() {
+void PosePipeline::startOver() {
+  forgetFrame();
+  observer_.clear();
   result_ = nullptr;
   ++restarts_;
   map_.beginAnew();
@@ -45,12 +47,6 @@ void PosePipeline::beginAnew() {
   }
 }
 
-void PosePipeline::startOver() {
-  forgetFrame();
-  observer_.clear();
-  beginAnew();
-}
-
 void PosePipeline::startOverEmpty() {
   slam_.reset();
   map_.giveUp();
@@ -60,11 +56,7 @@ void PosePipeline::startOverEmpty() {
 bool PosePipeline::track(const Frame& frame) {
   const StampGuard::Answer stamp = stamps_.check(frame.stamp_ns);
   if (stamp == StampGuard::Answer::kNotAfter || stamp == StampGuard::Answer::kAlone) return false;
-  if (stamp == StampGuard::Answer::kRestart) {
-    startOver();
-  } else if (result_ != nullptr && result_->state == SlamState::kNotFinite) {
-    beginAnew();
-  }
+  if (stamp == StampGuard::Answer::kRestart) startOver();
   const std::int64_t begun_ns = clock_ns(CLOCK_PROCESS_CPUTIME_ID);
   tracker_.process(frame.image, frame.stamp_ns, features_);
   waiting_since_ns_ = begun_ns;

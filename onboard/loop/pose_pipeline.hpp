@@ -60,7 +60,6 @@ class PosePipeline {
 
  private:
   void beginFlight();
-  void beginAnew();
   void startOver();
 
   SlamConfig config_;

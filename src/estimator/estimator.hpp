@@ -89,8 +89,6 @@ class Estimator {
   /// What is known of the set-up at the next frame. While it has a fault the pose is the
   /// odometry's; what the camera said since it was last confirmed is taken back, where that can be.
   virtual void heed(const SetupFinding& finding) = 0;
-  /// Whether changeCamera() may be called.
-  virtual bool canChangeCamera() const { return true; }
   /// Where the flight is in a loaded map, of which it then goes on; between predict() and
   /// correct(). Uses both up. @pre the estimator keeps anchors, as faultOfMaps() asks for
   virtual void enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameView& view,

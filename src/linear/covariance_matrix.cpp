@@ -24,8 +24,12 @@ void CovarianceMatrix::insert(int at, int count) {
     std::copy_backward(from + at, from + old_size, to + size_);
     if (to != from) std::copy(from, from + at, to);
   }
-  all().middleRows(at, count).setZero();
-  all().middleCols(at, count).setZero();
+  clear(at, count);
+}
+
+void CovarianceMatrix::clear(int first, int count) {
+  all().middleRows(first, count).setZero();
+  all().middleCols(first, count).setZero();
 }
 
 void CovarianceMatrix::remove(int first, int count) {

@@ -28,6 +28,8 @@ class CovarianceMatrix {
   void insert(int at, int count);
   /// O(size * those behind).
   void remove(int first, int count);
+  /// Zero again. O(size * count).
+  void clear(int first, int count);
   /// Makes the coordinates from `to` the same variables as those from `from`. O(size * count).
   void copy(int from, int to, int count);
 

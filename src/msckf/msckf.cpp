@@ -38,6 +38,7 @@ void Msckf::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   T_rig_cam_ = T_base_cam;
   tracks_.changeCamera(T_rig_cam_.linear());
   zero_motion_.beginAnew(state_);
+  state_.beginExtrinsics(squared(radians(config_.odometry.extrinsics_sigma_deg)));
 }
 
 void Msckf::enterMap(const MapEntry& entry, const LoadedAnchors& loaded) {

@@ -24,10 +24,6 @@ MsckfEstimator::MsckfEstimator(const SlamConfig& config, const Eigen::Isometry3d
       locator_(LocatorConfig{}),
       mapper_(config.mapper) {}
 
-bool MsckfEstimator::canChangeCamera() const {
-  return config_.msckf.odometry.extrinsics_sigma_deg == 0;
-}
-
 void MsckfEstimator::heed(const SetupFinding& finding) {
   unconfirmed_.heed(finding);
   filter_.heed(finding);

@@ -28,7 +28,6 @@ class MsckfEstimator final : public Estimator {
                        FrameBudget& budget) override;
   Estimate estimate() const override;
   void heed(const SetupFinding& finding) override;
-  bool canChangeCamera() const override;
   void enterMap(MapEntry&& entry, SavedMap&& loaded, const FrameView& view,
                 LandmarkMap& map) override;
   bool shift(const Revisit& revisit, const FrameView& view, LandmarkMap& map) override;

@@ -33,12 +33,7 @@ void Slam::heed(const SetupFinding& finding) {
   state_->estimator->heed(finding);
 }
 
-bool Slam::canChangeCamera() const {
-  return state_->estimator->canChangeCamera();
-}
-
 void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
-  assert(canChangeCamera() && "an estimated error of the extrinsics is one camera's");
   refuse(extrinsicsFault(T_base_cam), "the camera's mounting: ");
   state_->view.changeCamera();
   state_->camera_in_use.T_base_cam = T_base_cam;
@@ -100,8 +95,7 @@ const FrameResult& Slam::process(const ImageFeatures& features, const OdometrySt
     if (hook) hook(stage);
   };
   enter(Stage::kLocalise);
-  if (state_->step_watch.isNewStart(odometry) && faultOfMaps(state_->config).empty())
-    state_ = state_->flyAgain();
+  if (state_->isOver(odometry)) state_ = state_->flyAgain();
   State& s = *state_;
   s.budget.begin(clock);
   Estimator& estimator = *s.estimator;

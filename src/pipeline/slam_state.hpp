@@ -53,11 +53,19 @@ struct Slam::State {
     saved.all_but_landmarks.camera = camera_in_use.of_map;
     return saved;
   }
+  /// Whether the flight cannot go on from where it was.
+  bool isOver(const OdometryState& odometry) const {
+    const bool is_new_start =
+        config.estimator == EstimatorKind::kMsckf && step_watch.isNewStart(odometry);
+    return is_new_start || result.state == SlamState::kNotFinite;
+  }
   /// Another flight in the map so far, if there is one: where the drone is now is not known.
   std::unique_ptr<State> flyAgain() const {
     auto next = std::make_unique<State>(config, camera_in_use.T_base_cam);
+    if (config.estimator != EstimatorKind::kMsckf) return next;
     const bool is_own = !search || search->isOwn();
     SavedMap so_far = search ? search->map() : save().map();
+    if (!so_far.anchor_covariance.allFinite()) return next;
     if (!is_own || so_far.landmarks.size() >= kFewestFixLandmarks)
       next->search = std::make_unique<MapSearch>(std::move(so_far), config, is_own);
     return next;

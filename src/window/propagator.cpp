@@ -61,9 +61,8 @@ void Propagator::returnTo(const Eigen::Isometry3d& T_map_odom, WindowState& stat
   inflation_ = inflation_of_state_ = 1;
   learned_.reset();
 
+  state.covariance_.clear(kBias, 3);
   auto P = state.covariance_.all();
-  P.middleRows<3>(kBias).setZero();
-  P.middleCols<3>(kBias).setZero();
   P.diagonal().segment<3>(kBias).setConstant(learned_.bias.variance());
   P.block<3, 3>(to, to) += jump_m * jump_m.transpose();
   const Eigen::Matrix3d rotation_variance = rotation_rad * rotation_rad.transpose();

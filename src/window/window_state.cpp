@@ -31,6 +31,12 @@ void WindowState::beginFloor(double height_m, double variance_m2) {
   covariance_.all()(kFloor, kFloor) += variance_m2;
 }
 
+void WindowState::beginExtrinsics(double variance_rad2) {
+  R_base_rig_.setIdentity();
+  covariance_.clear(kExtrinsics, 3);
+  covariance_.all().diagonal().segment<3>(kExtrinsics).setConstant(variance_rad2);
+}
+
 void WindowState::removeFrame(std::size_t frame) {
   covariance_.remove(frameCoordinate(frame), kFrame);
   frames_.erase(frames_.begin() + static_cast<std::ptrdiff_t>(frame));
@@ -56,10 +62,8 @@ void WindowState::removeAnchor(std::size_t anchor) {
 }
 
 Eigen::Isometry3d WindowState::T_map_base() const {
-  Eigen::Isometry3d T_map_base = Eigen::Isometry3d::Identity();
-  T_map_base.linear() = newest().R_map_rig * R_base_rig_.transpose();
-  T_map_base.translation() = newest().position_map;
-  return T_map_base;
+  const Eigen::Isometry3d at_base(Eigen::Translation3d(newest().position_map));
+  return at_base * Eigen::Isometry3d(newest().R_map_rig * R_base_rig_.transpose());
 }
 
 Matrix6d WindowState::baseCovariance() const {

@@ -27,9 +27,8 @@ namespace ardrone_vslam {
 /// A frame's attitude is that of the rig: base, turned by the error of the extrinsics, so that the
 /// configured T_base_cam is exactly T_rig_cam. Only the prediction and who asks for the pose need
 /// to know of that error. Axes of map; attitude errors are rotation vectors on the left, R_true =
-/// exp(error) R.
-///
-/// Propagator begins it and adds frames; what follows here are its measurements and its layout.
+/// exp(error) R. Propagator begins it and adds frames; what follows here are its measurements and
+/// its layout.
 ///
 /// One camera sees no scale: all tracks leave the window's dilation open. Two things keep
 /// rounds of linearisation from closing it: what errs along the way does so by a multiple of the
@@ -55,6 +54,9 @@ class WindowState {
   /// The floor is where a height above it, measured at the newest frame, says; what was known of
   /// another floor is forgotten.
   void beginFloor(double height_m, double variance_m2);
+
+  /// The next frame is another camera's: nothing is known of the error of its extrinsics, per axis.
+  void beginExtrinsics(double variance_rad2);
 
   /// The camera stands where it stood at a frame: the newest position is taken from there instead
   /// of from the odometry's increments, which leave no trace.
@@ -107,7 +109,6 @@ class WindowState {
   }
 
  private:
-  // Classes of their own, as they have one job each and the state would be too large with them.
   friend class Propagator;   // writes mean and covariance by the odometry
   friend class MapEntrance;  // moves them within a map, or into one
 

@@ -66,14 +66,13 @@ class Mapper {
   void useCamera(const Features& features) {
     const CameraIdentity camera = cameraOf(features);
     if (slam_.hasMap() && camera == slam_.camera()) return;
-    if (slam_.hasMap() && !slam_.slam().canChangeCamera()) slam_.endMap();
     slam_.useCamera(camera, test::forwardExtrinsics(), "base", camera.frame);
   }
 
   void process(const FrameMatcher::Frame& frame) {
     const FrameResult& result =
         slam_.process(*frame.features, frame.odometry, matcher_.odometries());
-    if (result.state == SlamState::kNotFinite) return slam_.endMap();
+    if (result.state == SlamState::kNotFinite) return;
     require(isFinite(result), "a pose is finite, or said to be none");
     require(slam_.slam().T_map_odom().matrix().allFinite(), "and so is what goes to tf");
     for (const Landmark& landmark : slam_.slam().landmarks())

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <array>
 #include <functional>
 
 #include "support/point_flight.hpp"
@@ -30,6 +31,7 @@ PointWorld room(std::uint64_t seed) {
 }
 
 using WhichCamera = std::function<bool(std::size_t)>;  // of a frame: whether it is the bottom one
+using Turns = std::array<Eigen::Matrix3f, 2>;          // of what the front and the bottom one see
 
 struct SwitchedRun : FlightRun {
   std::vector<bool> is_bottom;
@@ -37,7 +39,8 @@ struct SwitchedRun : FlightRun {
 
 SwitchedRun fly(std::uint64_t seed, const Flight& flight,
                 const std::vector<OdometryState>& odometry, const SlamConfig& config,
-                const WhichCamera& is_bottom) {
+                const WhichCamera& is_bottom,
+                const Turns& turns = {Eigen::Matrix3f::Identity(), Eigen::Matrix3f::Identity()}) {
   PointWorld world = room(seed);
   bool was_bottom = is_bottom(0);
   Slam slam(config, was_bottom ? test::bottomExtrinsics() : frontExtrinsics());
@@ -51,8 +54,9 @@ SwitchedRun fly(std::uint64_t seed, const Flight& flight,
     }
     was_bottom = bottom;
     run.is_bottom.push_back(bottom);
-    run.results.push_back(slam.process(
-        world.look(flight[i].T_map_base * T_base_cam, flight[i].stamp_ns), odometry[i]));
+    ImageFeatures seen = world.look(flight[i].T_map_base * T_base_cam, flight[i].stamp_ns);
+    for (Eigen::Vector3f& bearing : seen.bearing_cam) bearing = turns[bottom ? 1 : 0] * bearing;
+    run.results.push_back(slam.process(seen, odometry[i]));
   }
   run.landmarks = slam.landmarks();
   return run;
@@ -150,14 +154,33 @@ TEST(CameraSwitch, TheLeverOfEachCameraIsItsOwn) {
   EXPECT_LT(rmse_m(flight, run, 0), 0.016);  // measured: 0.0105
 }
 
+TEST(CameraSwitch, EachCameraHasAnErrorOfItsOwnExtrinsics) {
+  const Flight flight = test::lapsFlight(kLapFrames, kLaps, 10);
+  const auto turned = [](float rad, const Eigen::Vector3f& axis) {
+    return Eigen::AngleAxisf(rad, axis.normalized()).toRotationMatrix();
+  };
+  const Turns turns = {turned(0.02F, {1, 2, 3}), turned(0.02F, {-2, 1, -1})};
+  double taken_for_exact_m = 0;
+  double estimated_m = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const auto odometry = test::observe(flight, {}, seed);
+    SlamConfig config = test::configForDrift();
+    taken_for_exact_m += rmse_m(flight, fly(seed, flight, odometry, config, inSecondLap, turns), 0);
+    config.msckf.odometry.extrinsics_sigma_deg = 1;
+    const SwitchedRun run = fly(seed, flight, odometry, config, inSecondLap, turns);
+    estimated_m += rmse_m(flight, run, 0);
+    for (std::size_t i = 2 * kLapFrames; i < flight.size(); ++i)
+      EXPECT_EQ(run.results[i].state, SlamState::kLocalised) << seed << " frame " << i;
+  }
+  // Measured: 0.64, as much as with one error for both; 0.84 were the second camera's taken for the
+  // first one's.
+  EXPECT_LT(estimated_m, 0.74 * taken_for_exact_m);
+}
+
 TEST(CameraSwitch, AnAbsurdMountingIsRefusedAndNothingChanges) {
   Slam slam(test::configForDrift(), frontExtrinsics());
   EXPECT_THROW(slam.changeCamera(Eigen::Translation3d(1000, 0, 0) * test::bottomExtrinsics()),
                std::invalid_argument);
-  SlamConfig with_extrinsics = test::configForDrift();
-  with_extrinsics.msckf.odometry.extrinsics_sigma_deg = 0.3;
-  EXPECT_FALSE(Slam(with_extrinsics, frontExtrinsics()).canChangeCamera());
-  EXPECT_TRUE(slam.canChangeCamera());
 }
 
 }  // namespace

@@ -98,6 +98,36 @@ TEST_F(SlamStates, NotFiniteIsNamedAndLeavesTheMapAlone) {
     EXPECT_FALSE(isFinite(result));
     EXPECT_EQ(result.landmark_matches, 0) << "not those of the image before";
     EXPECT_EQ(slam.landmarks().size(), landmarks);
+    EXPECT_EQ(slam.process(look(41), odometry_[41]).state, SlamState::kBuildingMap);
+    EXPECT_TRUE(slam.landmarks().empty()) << "the thesis's map begins anew";
+  }
+}
+
+TEST_F(SlamStates, AfterWhatWasNotFiniteTheFlightIsFoundInItsMap) {
+  constexpr std::size_t kBad = 260;
+  flight_ = test::lapsFlight(200, 2, 10);
+  odometry_ = test::observeExactly(flight_);
+  const double kLargest = std::numeric_limits<double>::max();
+  for (const double bad : {std::nan(""), kLargest, -kLargest}) {
+    Slam slam(test::configForDrift(), test::forwardExtrinsics());
+    for (std::size_t i = 0; i < kBad; ++i) slam.process(look(i), odometry_[i]);
+    const std::size_t landmarks = slam.landmarks().size();
+    OdometryState overflowing = odometry_[kBad];
+    overflowing.T_odom_base.translation().setConstant(bad);
+    EXPECT_EQ(slam.process(look(kBad), overflowing).state, SlamState::kNotFinite) << bad;
+    std::size_t found = 0;
+    for (std::size_t i = kBad + 1; i < flight_.size(); ++i) {
+      const FrameResult result = slam.process(look(i), odometry_[i]);
+      ASSERT_TRUE(isFinite(result)) << bad << " frame " << i;
+      if (result.state == SlamState::kSearchingMap) continue;
+      if (found == 0) found = i;
+      EXPECT_LT((result.T_map_base.translation() - flight_[i].T_map_base.translation()).norm(),
+                0.02)
+          << bad << " frame " << i;
+    }
+    EXPECT_GT(found, kBad + 1) << bad;
+    EXPECT_LT(found, kBad + 10) << bad;
+    EXPECT_GE(slam.landmarks().size(), landmarks) << bad;
   }
 }
 

@@ -2,7 +2,6 @@
 #include "run/offline_run.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace ardrone_vslam {
@@ -25,9 +24,6 @@ void BackEnd::load(const SavedMap& map) {
 }
 
 void BackEnd::changeCamera(const Eigen::Isometry3d& T_base_cam) {
-  if (!slam_.canChangeCamera())
-    throw std::runtime_error(
-        "the images are of several cameras, and extrinsics_sigma_deg is of one: set it to 0");
   slam_.changeCamera(T_base_cam);
   if (recorder_) recorder_->useCamera(T_base_cam);
   T_base_cam_ = T_base_cam;

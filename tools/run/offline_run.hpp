@@ -100,7 +100,6 @@ class BackEnd {
   void load(const SavedMap& map);
   /// RunResult::record is wanted. Before the first frame
   void record() { recorder_.emplace(config_, T_base_cam_); }
-  /// @throws std::runtime_error when the camera changes and extrinsics_sigma_deg forbids it
   /// @return what the image has cost, front end included [ms]
   double process(const TrackedFrame& frame);
   /// @param is_finished  no frame will follow: the record goes along
