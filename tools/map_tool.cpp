@@ -141,6 +141,7 @@ int refineMap(const Options& /*o*/) {
 }
 #else
 int refineMap(const Options& o) {
+  checkWritable(o.out);
   const SavedMap map = readMap(o.map, WithFlight::kYes);
   if (map.flight.keyframes.empty())
     throw MapFileError(
@@ -200,7 +201,7 @@ void addOptions(CLI::App& app, Options& o) {
       ->check(CLI::Range(0, 1'000'000'000));
   prune->add_option("--most-sigma-m", o.rules.most_sigma_m, "keep what is known so well [m]")
       ->check(numberWithin(0.0, 1e9));
-  prune->add_option("--most", o.rules.most, "keep so many: those that were seen most often")
+  prune->add_option("--most", o.rules.most, "keep so many: those that are worth most")
       ->check(CLI::Range(1, 1'000'000'000));
   addOut(prune, o);
   CLI::App* crop = addCommand(app, "crop", "keeps what lies within a box", o);

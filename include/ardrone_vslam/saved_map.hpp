@@ -37,7 +37,7 @@ struct SavedMap {
 
   std::string frame_id = "map";       ///< that the positions are in
   std::int64_t stamp_ns = 0;          ///< of the last image that it was made of
-  MapCamera camera;                   ///< that saw it last
+  std::vector<MapCamera> cameras;     ///< that saw it, each once; a file has at least one
   std::vector<MapAnchor> anchors;     ///< oldest first
   Eigen::MatrixXd anchor_covariance;  ///< of all anchors, kAnchor coordinates each
   std::vector<Landmark> landmarks;    ///< `anchor_id` is 1 + the index into `anchors`
@@ -102,8 +102,10 @@ enum class WithFlight { kNo, kYes };
 /// @throws MapFileError naming the file, what is wrong and what to do
 SavedMap readMap(const std::string& path, WithFlight with_flight = WithFlight::kNo);
 
-/// What tells the camera of a map from another one (another calibration of one camera is the same);
-/// empty when nothing does.
-std::string cameraDifference(const MapCamera& of_map, const MapCamera& other);
+/// What tells a camera from those of a map; empty when it is one of them, be it with another
+/// calibration.
+std::string cameraDifference(const std::vector<MapCamera>& of_map, const MapCamera& other);
+/// Unless it is there.
+void addCamera(const MapCamera& camera, std::vector<MapCamera>& cameras);
 
 }  // namespace ardrone_vslam

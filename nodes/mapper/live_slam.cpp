@@ -13,7 +13,7 @@ constexpr std::size_t kMostOfFlight_bytes = 32'000'000;
 std::string differenceOf(const SavedMap& map, const CameraIdentity& camera) {
   const MapCamera now{static_cast<int>(camera.width_px), static_cast<int>(camera.height_px),
                       camera.focal_length_px};
-  return cameraDifference(map.camera, now);
+  return cameraDifference(map.cameras, now);
 }
 
 }  // namespace

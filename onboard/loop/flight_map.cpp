@@ -66,7 +66,7 @@ std::optional<SavedMap> FlightMap::read(const MapCamera& camera, std::size_t mos
   const std::string& path = files_.loaded;
   if (path.empty()) return std::nullopt;
   SavedMap map = readMap(path);
-  const std::string other = cameraDifference(map.camera, camera);
+  const std::string other = cameraDifference(map.cameras, camera);
   if (!other.empty()) throw MapFileError(path + ": " + other);
   if (map.landmarks.size() > most_landmarks)
     throw MapFileError(path + ": the map has " + std::to_string(map.landmarks.size()) +

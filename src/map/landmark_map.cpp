@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "map/landmark_worth.hpp"
+#include "ardrone_vslam/landmark_worth.hpp"
 #include "matching/growth.hpp"
 
 namespace ardrone_vslam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "map/landmark_worth.hpp"
+#include "ardrone_vslam/landmark_worth.hpp"
 
 #include <algorithm>
 #include <array>

@@ -23,7 +23,7 @@ SavedMap readUnnamed(const std::string& path, WithFlight with_flight) {
     part({bytes.data(), bytes.size()}, map);
   };
   read(kInfoTag, readInfo);
-  read(kCameraTag, readCamera);
+  read(kCameraTag, readCameras);
   read(kAnchorsTag, readAnchors);
   readLandmarks(file, table.find(kLandmarksTag), map);
   if (table.search(kMadeTag) != nullptr) read(kMadeTag, readMade);

@@ -18,7 +18,7 @@ struct SmallSection {
 /// Sizes of all sections, which stand before their contents.
 struct Layout {
   SmallSection info{kInfoTag, {}};
-  SmallSection camera{kCameraTag, {}};
+  SmallSection cameras{kCameraTag, {}};
   SmallSection made{kMadeTag, {}};  // without bytes: none
   std::uint64_t anchors = 0;
   std::uint64_t landmarks = 0;
@@ -29,13 +29,13 @@ struct Layout {
   std::uint32_t sections() const { return 5U + (hasMade() ? 1U : 0U) + (flight > 0 ? 1U : 0U); }
   std::uint64_t fileSize() const {
     return kMapHeaderSize + sections() * kSectionFrame + info.payload.size() +
-           camera.payload.size() + made.payload.size() + anchors + landmarks + flight + kEnd;
+           cameras.payload.size() + made.payload.size() + anchors + landmarks + flight + kEnd;
   }
 };
 
 /// @return the fault, and what helps
 std::string mapFault(const SavedMap& map) {
-  std::string fault = cameraFault(map.camera);
+  std::string fault = camerasFault(map.cameras);
   if (!fault.empty()) return fault;
   fault = infoFault(map);
   if (fault.empty()) fault = anchorsFault(map);
@@ -60,7 +60,7 @@ Layout layoutOf(const SavedMap& map, std::size_t landmarks, const std::string& m
   Layout layout;
   if (madeFault(made_by).empty()) layout.made.payload.text(made_by);
   writeInfo(map, layout.info.payload);
-  writeCamera(map.camera, layout.camera.payload);
+  writeCameras(map.cameras, layout.cameras.payload);
   layout.anchors = anchorsSize(map.anchors.size());
   layout.landmarks = 4 + std::uint64_t{kLandmarkRecord} * landmarks;
   if (!map.flight.keyframes.empty() && flightFault(map.flight).empty())
@@ -123,7 +123,7 @@ std::size_t writeAll(const std::string& path, const SavedMap& map, const std::st
   MapFileOutput file(path);
   file.header(layout.sections());
   writeSmall(layout.info, file);
-  writeSmall(layout.camera, file);
+  writeSmall(layout.cameras, file);
   if (layout.hasMade()) writeSmall(layout.made, file);
   writeAnchorsSection(map, layout.anchors, file);
   writeLandmarksSection(map, count, layout.landmarks, file);

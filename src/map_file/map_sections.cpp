@@ -10,6 +10,7 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr std::size_t kCameraSize = 16;
+constexpr std::size_t kMostCameras = 100;
 
 bool isControl(char c) {
   const auto code = static_cast<unsigned char>(c);
@@ -29,6 +30,12 @@ std::string textFault(const std::string& what, const std::string& text) {
   if (std::any_of(text.begin(), text.end(), isControl))
     return what + " (" + shown(text) + ") has characters that cannot be printed";
   return {};
+}
+
+bool isSame(const MapCamera& a, const MapCamera& b) {
+  constexpr double kSameFocal = 0.05;  // calibrations of one camera differ by less
+  return a.width_px == b.width_px && a.height_px == b.height_px &&
+         std::abs(a.focal_length_px - b.focal_length_px) <= kSameFocal * a.focal_length_px;
 }
 
 std::string textOf(const MapCamera& c) {
@@ -86,37 +93,51 @@ void readInfo(ByteReader in, SavedMap& map) {
   if (!fault.empty()) refuseSection(kInfoTag, fault);
 }
 
-void writeCamera(const MapCamera& camera, ByteWriter& out) {
-  out.u32(static_cast<std::uint32_t>(camera.width_px));
-  out.u32(static_cast<std::uint32_t>(camera.height_px));
-  out.f64(camera.focal_length_px);
+void writeCameras(const std::vector<MapCamera>& cameras, ByteWriter& out) {
+  for (const MapCamera& camera : cameras) {
+    out.u32(static_cast<std::uint32_t>(camera.width_px));
+    out.u32(static_cast<std::uint32_t>(camera.height_px));
+    out.f64(camera.focal_length_px);
+  }
 }
 
-void readCamera(ByteReader in, SavedMap& map) {
-  if (in.remaining() != kCameraSize) refuseSection(kCameraTag, "its size does not fit");
-  // Beyond an int they are negative.
-  map.camera.width_px = static_cast<int>(in.u32());
-  map.camera.height_px = static_cast<int>(in.u32());
-  map.camera.focal_length_px = in.f64();
-  const std::string fault = cameraFault(map.camera);
+void readCameras(ByteReader in, SavedMap& map) {
+  if (in.remaining() % kCameraSize != 0) refuseSection(kCameraTag, "its size does not fit");
+  map.cameras.resize(in.remaining() / kCameraSize);
+  for (MapCamera& camera : map.cameras) {
+    // Beyond an int they are negative.
+    camera.width_px = static_cast<int>(in.u32());
+    camera.height_px = static_cast<int>(in.u32());
+    camera.focal_length_px = in.f64();
+  }
+  const std::string fault = camerasFault(map.cameras);
   if (!fault.empty()) refuseSection(kCameraTag, fault);
 }
 
-std::string cameraFault(const MapCamera& camera) {
-  if (camera.width_px <= 0 || camera.height_px <= 0) return "the image size is not positive";
-  if (!(camera.focal_length_px > 0) || !std::isfinite(camera.focal_length_px))
-    return "the focal length is not positive";
+std::string camerasFault(const std::vector<MapCamera>& cameras) {
+  if (cameras.empty()) return "there is no camera";
+  if (cameras.size() > kMostCameras) return "there are more than 100 cameras";
+  for (const MapCamera& camera : cameras) {
+    if (camera.width_px <= 0 || camera.height_px <= 0) return "the image size is not positive";
+    if (!(camera.focal_length_px > 0) || !std::isfinite(camera.focal_length_px))
+      return "the focal length is not positive";
+  }
   return {};
 }
 
-std::string cameraDifference(const MapCamera& of_map, const MapCamera& other) {
-  constexpr double kSameFocal = 0.05;  // calibrations of one camera differ by less
-  const double difference_px = std::abs(of_map.focal_length_px - other.focal_length_px);
-  if (of_map.width_px == other.width_px && of_map.height_px == other.height_px &&
-      difference_px <= kSameFocal * of_map.focal_length_px)
-    return {};
-  return "the map was made with another camera (" + textOf(of_map) + "; now " + textOf(other) +
+std::string cameraDifference(const std::vector<MapCamera>& of_map, const MapCamera& other) {
+  std::string cameras;
+  for (const MapCamera& camera : of_map) {
+    if (isSame(camera, other)) return {};
+    cameras += (cameras.empty() ? "" : " or ") + textOf(camera);
+  }
+  return "the map was made with another camera (" + cameras + "; now " + textOf(other) +
          "): use a map of this camera";
+}
+
+void addCamera(const MapCamera& camera, std::vector<MapCamera>& cameras) {
+  const auto is_it = [&camera](const MapCamera& other) { return isSame(other, camera); };
+  if (std::none_of(cameras.begin(), cameras.end(), is_it)) cameras.push_back(camera);
 }
 
 }  // namespace ardrone_vslam

@@ -54,8 +54,8 @@ std::size_t anchorsSize(std::size_t anchors);  ///< bytes of the section
 
 void writeInfo(const SavedMap& map, ByteWriter& out);
 /// What cannot be; empty when it can.
-std::string cameraFault(const MapCamera& camera);
-void writeCamera(const MapCamera& camera, ByteWriter& out);
+std::string camerasFault(const std::vector<MapCamera>& cameras);
+void writeCameras(const std::vector<MapCamera>& cameras, ByteWriter& out);
 /// Without their covariance.
 void writeAnchors(const std::vector<MapAnchor>& anchors, ByteWriter& out);
 /// The covariance from its first entry to the diagonal.
@@ -65,7 +65,7 @@ void writeCovarianceRow(const Eigen::MatrixXd& covariance, Eigen::Index row, Byt
 
 /// Frame and stamp.
 void readInfo(ByteReader in, SavedMap& map);
-void readCamera(ByteReader in, SavedMap& map);
+void readCameras(ByteReader in, SavedMap& map);
 /// Program and version.
 void readMade(ByteReader in, SavedMap& map);
 /// With their covariance.

@@ -4,35 +4,26 @@
 #include <algorithm>
 #include <array>
 
+#include "map_update/image_parts.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
-constexpr int kColumns = 4;
-constexpr int kRows = 3;
 constexpr int kFewestInCell = 4;
 // From another side, in other light, most landmarks of the right place are not found, either.
 constexpr double kRecognised = 0.1;
 
-std::size_t cellOf(const Eigen::Vector2f& ideal_px, const FrameView& view) {
-  const Eigen::Array2f size_px = view.upper_px() - view.lower_px();
-  const Eigen::Array2f share = (ideal_px - view.lower_px()).array() / size_px;
-  const auto column = std::clamp(static_cast<int>(share.x() * kColumns), 0, kColumns - 1);
-  const auto row = std::clamp(static_cast<int>(share.y() * kRows), 0, kRows - 1);
-  return static_cast<std::size_t>(kColumns) * static_cast<std::size_t>(row) +
-         static_cast<std::size_t>(column);
-}
-
 }  // namespace
 
 double ImageCover::of(const FrameView& view, LandmarkMap& map) {
-  std::array<int, kColumns * kRows> visible{};
-  std::array<int, kColumns * kRows> found{};
+  std::array<int, kImageParts> visible{};
+  std::array<int, kImageParts> found{};
   associator_.matchLandmarks(view, map, matches_);
-  const auto countIn = [&](std::array<int, kColumns * kRows>& cells, int landmark) {
+  const auto countIn = [&](std::array<int, kImageParts>& cells, int landmark) {
     const Eigen::Vector3d& point = map.all()[static_cast<std::size_t>(landmark)].position_map;
     Eigen::Vector2f ideal_px;
     if (view.idealPixel((point - view.origin_map()).normalized(), 0, ideal_px))
-      ++cells[cellOf(ideal_px, view)];
+      ++cells[partOf(ideal_px, view)];
   };
   for (const Association& match : matches_.matches) {
     countIn(visible, match.target);

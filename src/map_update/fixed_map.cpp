@@ -18,7 +18,7 @@ FixedMap::FixedMap(SavedMap& map, MapEntry& entry) {
   anchors_ = std::make_shared<const std::vector<std::uint32_t>>(std::move(anchors));
   entry.anchor = 0;
   map_.frame_id = map.frame_id;
-  map_.camera = map.camera;
+  map_.cameras = map.cameras;
   map_.anchors.assign(1, {});
   map_.anchors.swap(map.anchors);
   map_.anchor_covariance.setZero(SavedMap::kAnchor, SavedMap::kAnchor);

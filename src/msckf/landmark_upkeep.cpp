@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "linear/scalars.hpp"
+#include "map_update/image_parts.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -104,28 +105,31 @@ void followTracks(const FrameView& view, const std::vector<Association>& matches
 std::vector<int> takeFailed(const AssociationResult& matches,
                             const std::vector<Association>& trusted,
                             const std::vector<ObservationVerdict>& verdicts, bool is_relocated,
-                            LandmarkMap& map) {
-  // A place is in view when some of its landmarks are found; behind a wall none of them is.
+                            const FrameView& view, LandmarkMap& map) {
+  // A place is in view when some of its landmarks are found there: behind a wall, or a part of the
+  // image that somebody hides, none of them is.
   constexpr int kOneIn = 10;
-  const auto anchorOf = [&map](int target) {
-    return map.all()[static_cast<std::size_t>(target)].anchor_id;
+  const auto placeOf = [&](int target) {
+    const Landmark& landmark = map.all()[static_cast<std::size_t>(target)];
+    const std::uint64_t anchor_id = landmark.anchor_id;
+    return anchor_id * (kImageParts + 1) + partWith(landmark.position_map, view);
   };
-  std::vector<std::uint32_t> found;  // the places, as often as landmarks of them were
-  std::vector<std::uint32_t> missed;
+  std::vector<std::uint64_t> found;  // the places, as often as landmarks of them were
+  std::vector<std::uint64_t> missed;
   found.reserve(trusted.size());
   missed.reserve(matches.missed.size());
-  for (const Association& match : trusted) found.push_back(anchorOf(match.target));
-  for (const int target : matches.missed) missed.push_back(anchorOf(target));
+  for (const Association& match : trusted) found.push_back(placeOf(match.target));
+  for (const int target : matches.missed) missed.push_back(placeOf(target));
   std::sort(found.begin(), found.end());
   std::sort(missed.begin(), missed.end());
-  const auto countIn = [](const std::vector<std::uint32_t>& sorted, std::uint32_t place) {
+  const auto countIn = [](const std::vector<std::uint64_t>& sorted, std::uint64_t place) {
     const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), place);
     return last - first;
   };
   std::vector<int> failed;
   failed.reserve(matches.missed.size() + matches.matches.size());
   for (const int target : matches.missed) {
-    const std::uint32_t place = anchorOf(target);
+    const std::uint64_t place = placeOf(target);
     const auto found_here = countIn(found, place);
     if (kOneIn * found_here >= found_here + countIn(missed, place)) failed.push_back(target);
   }

@@ -34,14 +34,14 @@ void applyCorrections(const std::vector<AnchorCorrection>& corrections, const Fr
 /// Where the map is not to change: matched landmarks only learn which track is theirs.
 void followTracks(const FrameView& view, const std::vector<Association>& matches, LandmarkMap& map);
 
-/// Landmarks that this frame speaks against: not found though others of their place are, or off an
-/// accepted fix. The latter are no longer counted as seen in it.
+/// Landmarks that this frame speaks against: not found though others of their place and part of the
+/// image are, or off an accepted fix. The latter are no longer counted as seen in it.
 /// @param verdicts  of the matches
 /// @param is_relocated  the frame's fix is a relocation: most matches are simply wrong
 /// @return indices into map.all()
 std::vector<int> takeFailed(const AssociationResult& matches,
                             const std::vector<Association>& trusted,
                             const std::vector<ObservationVerdict>& verdicts, bool is_relocated,
-                            LandmarkMap& map);
+                            const FrameView& view, LandmarkMap& map);
 
 }  // namespace ardrone_vslam

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "association/associator.hpp"
+#include "map_update/image_parts.hpp"
 #include "msckf/map_snapshot.hpp"
 
 namespace ardrone_vslam {
@@ -191,13 +192,14 @@ void MsckfEstimator::changeLandmarks(const AssociationResult& matches,
     const Landmark& landmark = map.all()[static_cast<std::size_t>(match.target)];
     filter_.assignLandmark(landmark.track_id, landmark.id);
   }
+  const ImageParts known = knownParts(view, trusted_, config_.msckf.fix_min_age_s, map);
   const bool is_relocated = state_ == SlamState::kRelocated;
   changes.removed_landmarks += mapper_.countFailed(
-      takeFailed(matches, trusted_, filter_.verdicts(), is_relocated, map), map);
+      takeFailed(matches, trusted_, filter_.verdicts(), is_relocated, view, map), map);
   for (const UsedTrack& one : used) {
     if (const Landmark* landmark = map.find(one.track.landmark_id)) {
       renew(one, view, config_.msckf, *landmark, map);
-    } else if (isWellKnown(one, view)) {
+    } else if (isWellKnown(one, view) && !isSeenIn(known, view, one.point.position_map)) {
       filter_.assignLandmark(one.track.track_id, map.add(landmarkOf(one, view)));
       unconfirmed_.add(view.features().stamp_ns);
       ++changes.new_landmarks;

@@ -36,7 +36,7 @@ void Slam::heed(const SetupFinding& finding) {
 void Slam::changeCamera(const Eigen::Isometry3d& T_base_cam) {
   refuse(extrinsicsFault(T_base_cam), "the camera's mounting: ");
   state_->view.changeCamera();
-  state_->camera_in_use.T_base_cam = T_base_cam;
+  state_->cameras.T_base_cam = T_base_cam;
   state_->revisits.changeCamera();
   state_->estimator->changeCamera(T_base_cam);
 }

@@ -17,17 +17,17 @@
 
 namespace ardrone_vslam {
 
-/// The camera in use.
-struct CameraInUse {
+/// The camera in use, and all that have seen the map.
+struct Cameras {
   Eigen::Isometry3d T_base_cam;
-  MapCamera of_map;  ///< as the last frame had it
+  std::vector<MapCamera> of_map;
 };
 
 /// What Slam keeps from one image to the next.
 struct Slam::State {
   State(const SlamConfig& c, const Eigen::Isometry3d& T)
       : config(c),
-        camera_in_use{T, {}},
+        cameras{T, {}},
         estimator(makeEstimator(c, T)),
         associator(c.association),
         map(c.landmark_map),
@@ -35,7 +35,7 @@ struct Slam::State {
         budget(c.frame_budget_ms) {}
 
   SlamConfig config;
-  CameraInUse camera_in_use;
+  Cameras cameras;
   OdometryStepWatch step_watch;
   std::unique_ptr<Estimator> estimator;
   FrameView view;
@@ -50,7 +50,7 @@ struct Slam::State {
   FrameResult result;
   MapSnapshot save() const {
     MapSnapshot saved = estimator->save(map);
-    saved.all_but_landmarks.camera = camera_in_use.of_map;
+    saved.all_but_landmarks.cameras = cameras.of_map;
     return saved;
   }
   /// Whether the flight cannot go on from where it was.
@@ -61,7 +61,8 @@ struct Slam::State {
   }
   /// Another flight in the map so far, if there is one: where the drone is now is not known.
   std::unique_ptr<State> flyAgain() const {
-    auto next = std::make_unique<State>(config, camera_in_use.T_base_cam);
+    auto next = std::make_unique<State>(config, cameras.T_base_cam);
+    next->cameras = cameras;
     if (config.estimator != EstimatorKind::kMsckf) return next;
     const bool is_own = !search || search->isOwn();
     SavedMap so_far = search ? search->map() : save().map();
@@ -78,8 +79,9 @@ struct Slam::State {
     double revisit_m = 0;
     if (search) {
       if (!isFinite(estimator->estimate())) return 0;
-      auto entry = search->see(features, camera.T_map_cam, camera_in_use.T_base_cam, budget);
+      auto entry = search->see(features, camera.T_map_cam, cameras.T_base_cam, budget);
       if (!entry) return 0;
+      for (const MapCamera& one : search->map().cameras) addCamera(one, cameras.of_map);
       estimator->enterMap(std::move(*entry), search->takeMap(), view, map);
       search.reset();
     } else {
@@ -109,7 +111,7 @@ struct Slam::State {
     if (step) result.odometry_step_m = step->jump_odom_m.norm();
   }
   void noteFeatures(const ImageFeatures& features) {
-    camera_in_use.of_map = {features.width_px, features.height_px, features.focal_length_px};
+    addCamera({features.width_px, features.height_px, features.focal_length_px}, cameras.of_map);
     ardrone_vslam::noteFeatures(features, result);
     noteMatches(matches, result);
     result.landmarks = static_cast<int>(map.size());

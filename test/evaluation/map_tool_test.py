@@ -51,7 +51,7 @@ class MapTool(TestWithFolder):
     def test_info_and_verify(self):
         facts = self.facts("first.vmap")
         self.assertGreater(facts["landmarks"], 200)
-        self.assertEqual(facts["camera"]["width_px"], 640)
+        self.assertEqual(facts["cameras"][0]["width_px"], 640)
         self.assertLess(facts["anchor_sigma_m"]["90 %"], 1)
         self.assertIn(f"landmarks: {facts['landmarks']}\n", self.told("info", self.path("first.vmap")))
         self.assertIn("sound", self.told("verify", self.path("first.vmap")))

@@ -28,7 +28,7 @@ TEST(MapFileGolden, TheFileIsReadAndWrittenAgain) {
   const SavedMap map = readMap(kGolden);
   EXPECT_EQ(map.frame_id, "house");
   EXPECT_EQ(map.stamp_ns, 1'000'000'000'000);
-  EXPECT_EQ(cameraDifference(map.camera, mapCamera()), "");
+  EXPECT_EQ(cameraDifference(map.cameras, mapCamera()), "");
   ASSERT_EQ(map.anchors.size(), 2U);
   EXPECT_EQ(map.anchors[1].stamp_ns, 950'000'000'000);
   EXPECT_EQ(map.anchors[1].T_map_rig.translation(), Eigen::Vector3d(1, -2.5, 0.75));

@@ -177,6 +177,36 @@ TEST(CameraSwitch, EachCameraHasAnErrorOfItsOwnExtrinsics) {
   EXPECT_LT(estimated_m, 0.74 * taken_for_exact_m);
 }
 
+TEST(CameraSwitch, TheMapIsOfBothCamerasAlsoInALaterFlight) {
+  const Flight flight = test::lapsFlight(kLapFrames, 2, 10);
+  const auto odometry = test::observeExactly(flight);
+  PointWorld world = room(1);
+  const auto look = [&](std::size_t frame, const Eigen::Isometry3d& T_base_cam, int width_px) {
+    ImageFeatures seen = world.look(flight[frame].T_map_base * T_base_cam, flight[frame].stamp_ns);
+    seen.width_px = width_px;
+    return seen;
+  };
+  Slam first(test::configForDrift(), frontExtrinsics());
+  for (std::size_t i = 0; i < kLapFrames; ++i)
+    first.process(look(i, frontExtrinsics(), 640), odometry[i]);
+  first.changeCamera(test::bottomExtrinsics());
+  world.changeCamera();
+  first.process(look(kLapFrames, test::bottomExtrinsics(), 320), odometry[kLapFrames]);
+  SavedMap map = first.save().map();
+  ASSERT_EQ(map.cameras.size(), 2U);
+  EXPECT_EQ(map.cameras[0].width_px, 640);
+  EXPECT_EQ(map.cameras[1].width_px, 320);
+
+  Slam second(test::configForDrift(), frontExtrinsics());
+  second.load(std::move(map));
+  std::size_t frame = kLapFrames + 20;
+  do {
+    second.process(look(frame, frontExtrinsics(), 640), odometry[frame]);
+  } while (second.isSearching() && ++frame < flight.size());
+  EXPECT_LT(frame, kLapFrames + 40);
+  EXPECT_EQ(second.save().map().cameras.size(), 2U);
+}
+
 TEST(CameraSwitch, AnAbsurdMountingIsRefusedAndNothingChanges) {
   Slam slam(test::configForDrift(), frontExtrinsics());
   EXPECT_THROW(slam.changeCamera(Eigen::Translation3d(1000, 0, 0) * test::bottomExtrinsics()),

@@ -50,7 +50,10 @@ SavedMap together(const JointMaps& joint, const std::vector<LandmarkPair>& pairs
 }  // namespace
 
 std::string mergeFault(const SavedMap& a, const SavedMap& b) {
-  if (!cameraDifference(a.camera, b.camera).empty())
+  const auto is_of_a = [&a](const MapCamera& camera) {
+    return cameraDifference(a.cameras, camera).empty();
+  };
+  if (std::none_of(b.cameras.begin(), b.cameras.end(), is_of_a))
     return "they are of two cameras (map_tool info): landmarks look otherwise to another one";
   if (a.anchors.size() + b.anchors.size() > kMostMergedAnchors)
     return "they have more than " + std::to_string(kMostMergedAnchors) +

@@ -2,8 +2,8 @@
 #include "maps/map_parts.hpp"
 
 #include <algorithm>
-#include <tuple>
 
+#include "ardrone_vslam/landmark_worth.hpp"
 #include "ardrone_vslam/rotation.hpp"
 
 namespace ardrone_vslam {
@@ -23,13 +23,12 @@ SavedMap prune(const SavedMap& map, const PruneRules& rules) {
     return landmark.times_seen >= rules.least_seen && landmark.sigma_m <= rules.most_sigma_m;
   });
   if (part.landmarks.size() <= rules.most) return part;
-  const auto is_better = [](const Landmark& a, const Landmark& b) {
-    return std::tuple(-a.times_seen, a.sigma_m, a.id) < std::tuple(-b.times_seen, b.sigma_m, b.id);
-  };
-  std::vector<Landmark> best = part.landmarks;
-  const auto end = best.begin() + static_cast<std::ptrdiff_t>(rules.most);
-  std::nth_element(best.begin(), end, best.end(), is_better);
-  return partOf(part, [&](const Landmark& landmark) { return is_better(landmark, *end); });
+  std::vector<std::uint32_t> spare =
+      leastWorth(Landmarks(part.landmarks), part.landmarks.size() - rules.most);
+  std::sort(spare.begin(), spare.end());
+  return partOf(part, [&spare](const Landmark& landmark) {
+    return !std::binary_search(spare.begin(), spare.end(), landmark.id);
+  });
 }
 
 Eigen::Matrix<double, 3, SavedMap::kAnchor> byAnchor(const MapAnchor& anchor,

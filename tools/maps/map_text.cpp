@@ -39,9 +39,10 @@ Json factsOf(const SavedMap& map) {
   facts["made_by"] = map.made_by;
   facts["frame"] = map.frame_id;
   facts["stamp_ns"] = map.stamp_ns;
-  facts["camera"] = {{"width_px", map.camera.width_px},
-                     {"height_px", map.camera.height_px},
-                     {"focal_length_px", map.camera.focal_length_px}};
+  for (const MapCamera& camera : map.cameras)
+    facts["cameras"].push_back({{"width_px", camera.width_px},
+                                {"height_px", camera.height_px},
+                                {"focal_length_px", camera.focal_length_px}});
   std::size_t views = 0;
   for (const Keyframe& keyframe : map.flight.keyframes) views += keyframe.views.size();
   facts["keyframes"] = map.flight.keyframes.size();

@@ -10,7 +10,7 @@ SavedMap loadMap(const std::string& path, const CameraIntrinsics& camera,
   SavedMap map = readMap(path);
   const double focal_length_px = std::sqrt(camera.fx_px * camera.fy_px);
   std::string fault =
-      cameraDifference(map.camera, {camera.width_px, camera.height_px, focal_length_px});
+      cameraDifference(map.cameras, {camera.width_px, camera.height_px, focal_length_px});
   if (fault.empty()) fault = faultOfMaps(config, map.landmarks.size());
   if (!fault.empty()) throw MapFileError(path + ": " + fault);
   return map;

@@ -167,9 +167,9 @@ TEST(MapMerge, AMapIsFoundInItsMovedCopyExactly) {
 
 TEST(MapMerge, MapsOfTwoCamerasOrWithTooManyAnchorsAreRefused) {
   SavedMap a;
-  a.camera = {640, 360, 560};
+  a.cameras = {{640, 360, 560}};
   SavedMap b = a;
-  b.camera.width_px = 320;
+  b.cameras[0].width_px = 320;
   EXPECT_NE(mergeFault(a, b).find("two cameras"), std::string::npos);
   EXPECT_THROW(merge(a, b, {}), MapFileError);
   b = a;

@@ -15,7 +15,7 @@ namespace {
 /// Three anchors with two landmarks each, seen 1, 2 ... 6 times, known to 0.6, 0.5 ... 0.1 m.
 SavedMap threeAnchors() {
   SavedMap map;
-  map.camera = {640, 360, 560};
+  map.cameras = {{640, 360, 560}};
   const int size = 3 * SavedMap::kAnchor;
   const Eigen::VectorXd numbers = Eigen::VectorXd::LinSpaced(size, 1, size);
   map.anchor_covariance = numbers * numbers.transpose();

@@ -19,6 +19,11 @@ DRONES = {
     "tello": ("/tello/camera/image_raw", "/tello/camera/camera_info", "/tello/odom", "map"),
     "mavros": ("/camera/image_raw", "/camera/camera_info", "/mavros/local_position/odom", "vslam_map"),
 }
+# All launch files that start a mapper, and the arguments that each must have.
+STARTS_A_MAPPER = {
+    "vslam": ("camera:=/front", "odometry:=/odom"), "camera": ("odometry:=/odom",), "replay": ("bag:=flight.bag",), "ardrone": (),
+    **{drone: () for drone in DRONES},
+}
 SET_BY_LAUNCH = {"arguments", "driver_arguments", "tf_prefix"}
 # Arguments that the drivers' own launch files have, of those that ours hand on.
 DRIVERS = {
@@ -95,6 +100,17 @@ class OtherDronesLaunchTest(unittest.TestCase):
             self.assertEqual((params["mapper/map_file"], params["mapper/localise_only"]), ("house.vmap", True))
             unknown = [name for name in params if name not in SET_BY_LAUNCH and tuple(name.split("/")) not in known]
             self.assertEqual(unknown, [], drone)
+
+    def test_localise_only_overrides_the_configuration_both_ways(self):
+        with tempfile.TemporaryDirectory() as folder:
+            config = pathlib.Path(folder, "drone.yaml")
+            config.write_text("mapper:\n  localise_only: true\n")
+            for name, arguments in STARTS_A_MAPPER.items():
+                for given, expected in [("", True), ("false", False)] + [("true", True), ("1", True)] * (name == "vslam"):
+                    with self.subTest(name, given=given):
+                        params = params_of(load(name, *arguments, f"config:={config}", f"localise_only:={given}", "map:=house.vmap", "autosave_s:=5"))
+                        self.assertIs(params["mapper/localise_only"], expected)
+                        self.assertEqual((params["mapper/map_file"], params["mapper/autosave_s"]), ("house.vmap", 5))
 
     def test_cameras_mounting_is_sent_where_the_driver_sends_none(self):
         def sent(config):

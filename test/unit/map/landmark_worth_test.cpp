@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a full map can spare.
-#include "map/landmark_worth.hpp"
+#include "ardrone_vslam/landmark_worth.hpp"
 
 #include <gtest/gtest.h>
 

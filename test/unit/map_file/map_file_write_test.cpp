@@ -46,6 +46,23 @@ class MapFileWriteTest : public ::testing::Test {
   std::string path_ = folder_.file("house.vmap");
 };
 
+TEST_F(MapFileWriteTest, AMapIsOfAllCamerasThatSawIt) {
+  SavedMap map = smallMap();
+  addCamera({640, 360, 561.5}, map.cameras);
+  addCamera({640, 360, 561.5 * 1.049}, map.cameras);
+  EXPECT_EQ(map.cameras.size(), 1U) << "another calibration";
+  addCamera({320, 240, 270}, map.cameras);
+  writeMap(path_, map);
+  const std::vector<MapCamera> cameras = readMap(path_).cameras;
+  ASSERT_EQ(cameras.size(), 2U);
+  EXPECT_EQ(cameraDifference(cameras, {640, 360, 561.5 / 1.049}), "");
+  EXPECT_EQ(cameraDifference(cameras, {320, 240, 270}), "");
+  EXPECT_NE(cameraDifference(cameras, {640, 240, 270})
+                .find("another camera (640 x 360 px, focal length 561.5 px or 320 x 240 px, focal "
+                      "length 270 px; now 640 x 240 px, focal length 270 px)"),
+            std::string::npos);
+}
+
 TEST_F(MapFileWriteTest, NothingElseIsLeftInTheFolder) {
   folder_.write("house.vmap.part", "of a flight that ended early");
   EXPECT_EQ(writeMap(path_, smallMap()), 3U);
@@ -269,7 +286,10 @@ TEST_F(MapFileWriteTest, AgesAndCountsStayWithinTheirBounds) {
 TEST_F(MapFileWriteTest, AMapThatCouldNotBeReadAgainIsRefused) {
   using Change = void (*)(SavedMap&);
   const std::pair<Change, const char*> cases[] = {
-      {[](SavedMap& m) { m.camera.focal_length_px = kNan; }, "the focal length is not positive"},
+      {[](SavedMap& m) { m.cameras[0].focal_length_px = kNan; },
+       "the focal length is not positive"},
+      {[](SavedMap& m) { m.cameras.clear(); }, "there is no camera"},
+      {[](SavedMap& m) { m.cameras.resize(101, m.cameras[0]); }, "more than 100 cameras"},
       {[](SavedMap& m) { m.frame_id.clear(); }, "the name of the frame has 0 characters"},
       {[](SavedMap& m) { m.frame_id = "a\nb"; }, "the name of the frame (a?b)"},
       {[](SavedMap& m) { m.stamp_ns = -1; }, "the stamp is negative"},

@@ -24,7 +24,7 @@ inline SavedMap smallMap() {
   SavedMap map;
   map.frame_id = "house";
   map.stamp_ns = 1'000'000'000'000;
-  map.camera = mapCamera();
+  map.cameras = {mapCamera()};
   map.anchors.resize(2);
   map.anchors[0].stamp_ns = 900'000'000'000;
   map.anchors[1].stamp_ns = 950'000'000'000;
@@ -117,8 +117,8 @@ inline SavedMap randomMap(RandomSource& random, int most_anchors = 12, int most_
   SavedMap map;
   map.frame_id = "map_" + std::to_string(random.integer(0, 1000));
   map.stamp_ns = static_cast<std::int64_t>(4e18 * random.uniform());
-  map.camera = mapCamera();
-  map.camera.focal_length_px = random.uniform(100, 900);
+  map.cameras = {mapCamera()};
+  map.cameras[0].focal_length_px = random.uniform(100, 900);
   const int anchors = random.integer(0, most_anchors);
   for (int i = 0; i < anchors; ++i) {
     MapAnchor anchor;
