@@ -175,13 +175,11 @@ class OnboardBridge(unittest.TestCase):
         table = self.out / "packed" / "landmarks.csv"
         subprocess.run([rospy.get_param("~map_tool"), "export", self.out / "packed" / "flight.vmap", "--out", table], check=True)
         rows = np.loadtxt(table, delimiter=",", skiprows=1)
-        at = {int(row[0]): row[1:4] for row in rows}
-        apart_m = [np.linalg.norm(point[:3] - at[i]) for i, point in zip(ids, floats) if i in at]
-        print(f"{len(ids)} landmarks in the cloud, {len(at)} in the map, {len(apart_m)} in both; apart: median "
-              f"{np.median(apart_m):.1e} m, 95 % {np.percentile(apart_m, 95):.1e} m")
-        # The map goes on changing after a landmark was sent.
-        self.assertGreater(len(apart_m), 0.8 * len(at))
-        self.assertGreater(len(apart_m), 0.8 * len(ids))
+        # A file numbers its landmarks anew. The map goes on changing after a landmark was sent.
+        apart_m = [np.linalg.norm(rows[:, 1:4] - point[:3], axis=1).min() for point in floats]
+        print(f"{len(ids)} landmarks in the cloud, {len(rows)} in the map; apart: median {np.median(apart_m):.1e} m, "
+              f"95 % {np.percentile(apart_m, 95):.1e} m")
+        self.assertLess(abs(len(ids) - len(rows)), 0.2 * len(rows))
         self.assertLess(np.median(apart_m), 0.01)
         self.assertEqual(points_shown(self.all("landmark_markers")), cloud.width)
         texts = {message.markers[0].text.split(",")[0].split("\n")[0] for message in self.all("state_markers")}
