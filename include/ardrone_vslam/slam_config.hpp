@@ -146,7 +146,7 @@ struct MapperConfig {
   int drop_unconfirmed_after = 5;  ///< images in view without a match, when seen at most twice
   /// So many failures for every time it was seen: not found while others of its place are, or off
   /// an accepted fix.
-  double drop_failing_ratio = 2;
+  double drop_failing_ratio = 3;
 };
 
 /// How many features wait for depth, and how long. No parameters: a camera that moves gives a
