@@ -41,8 +41,7 @@ enum class SlamState {
   kTooFewLandmarks,  ///< thesis: fewer matches than `min_landmarks`
   kFixRejected,      ///< the landmarks' position failed its gate and corrected nothing
   kOdometryOnly,     ///< `estimator: odometry`
-  kNotFinite,        ///< a number overflowed: the pose is not to be used; Slam::process() says what
-                     ///< follows
+  kNotFinite,        ///< a number overflowed: no pose to be used; Slam::process() goes on anew
   kTracking,         ///< MSCKF: tracks correct the pose, no place seen before is in view
   kResting,          ///< MSCKF: the image is still and holds the position
   kRotating,         ///< MSCKF: the camera turns on the spot, the image holds the position

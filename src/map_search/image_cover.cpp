@@ -21,9 +21,8 @@ double ImageCover::of(const FrameView& view, LandmarkMap& map) {
   associator_.matchLandmarks(view, map, matches_);
   const auto countIn = [&](std::array<int, kImageParts>& cells, int landmark) {
     const Eigen::Vector3d& point = map.all()[static_cast<std::size_t>(landmark)].position_map;
-    Eigen::Vector2f ideal_px;
-    if (view.idealPixel((point - view.origin_map()).normalized(), 0, ideal_px))
-      ++cells[partOf(ideal_px, view)];
+    const std::size_t part = partWith(point, view);
+    if (part < cells.size()) ++cells[part];
   };
   for (const Association& match : matches_.matches) {
     countIn(visible, match.target);

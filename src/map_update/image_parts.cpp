@@ -29,8 +29,7 @@ std::size_t partWith(const Eigen::Vector3d& position_map, const FrameView& view)
 ImageParts knownParts(const FrameView& view, const std::vector<Association>& matches,
                       double fix_min_age_s, const LandmarkMap& map) {
   constexpr int kFewest = 4;
-  constexpr double kShare =
-      0.2;  // of the features there; with fewer, a place is found again seldom
+  constexpr double kShare = 0.2;  // of its features; with fewer a place is seldom found again
   std::array<int, kImageParts> features{};
   std::array<int, kImageParts> found{};
   for (const Eigen::Vector2f& px : view.idealPixels()) ++features[partOf(px, view)];

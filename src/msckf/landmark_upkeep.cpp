@@ -106,13 +106,12 @@ std::vector<int> takeFailed(const AssociationResult& matches,
                             const std::vector<Association>& trusted,
                             const std::vector<ObservationVerdict>& verdicts, bool is_relocated,
                             const FrameView& view, LandmarkMap& map) {
-  // A place is in view when some of its landmarks are found there: behind a wall, or a part of the
-  // image that somebody hides, none of them is.
+  // Behind a wall none of a place's landmarks is found; where somebody hides it, none in that part.
   constexpr int kOneIn = 10;
+  constexpr std::uint64_t kParts = kImageParts + 1;  // and none
   const auto placeOf = [&](int target) {
     const Landmark& landmark = map.all()[static_cast<std::size_t>(target)];
-    const std::uint64_t anchor_id = landmark.anchor_id;
-    return anchor_id * (kImageParts + 1) + partWith(landmark.position_map, view);
+    return std::uint64_t{landmark.anchor_id} * kParts + partWith(landmark.position_map, view);
   };
   std::vector<std::uint64_t> found;  // the places, as often as landmarks of them were
   std::vector<std::uint64_t> missed;
@@ -120,18 +119,23 @@ std::vector<int> takeFailed(const AssociationResult& matches,
   missed.reserve(matches.missed.size());
   for (const Association& match : trusted) found.push_back(placeOf(match.target));
   for (const int target : matches.missed) missed.push_back(placeOf(target));
+  const std::vector<std::uint64_t> place_of_missed = missed;
   std::sort(found.begin(), found.end());
   std::sort(missed.begin(), missed.end());
-  const auto countIn = [](const std::vector<std::uint64_t>& sorted, std::uint64_t place) {
-    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), place);
-    return last - first;
+  const auto countIn = [](const auto& sorted, std::uint64_t first, std::uint64_t last) {
+    return std::upper_bound(sorted.begin(), sorted.end(), last) -
+           std::lower_bound(sorted.begin(), sorted.end(), first);
+  };
+  const auto isInView = [&](std::uint64_t first, std::uint64_t last) {
+    return (kOneIn - 1) * countIn(found, first, last) >= countIn(missed, first, last);
   };
   std::vector<int> failed;
   failed.reserve(matches.missed.size() + matches.matches.size());
-  for (const int target : matches.missed) {
-    const std::uint64_t place = placeOf(target);
-    const auto found_here = countIn(found, place);
-    if (kOneIn * found_here >= found_here + countIn(missed, place)) failed.push_back(target);
+  for (std::size_t i = 0; i < missed.size(); ++i) {
+    const std::uint64_t place = place_of_missed[i];
+    const std::uint64_t anchor = place - place % kParts;
+    if (isInView(place, place) && isInView(anchor, anchor + kImageParts))
+      failed.push_back(matches.missed[i]);
   }
   for (std::size_t i = 0; i < matches.matches.size(); ++i) {
     if (verdicts[i] != ObservationVerdict::kContradicts) continue;

@@ -192,10 +192,11 @@ void MsckfEstimator::changeLandmarks(const AssociationResult& matches,
     const Landmark& landmark = map.all()[static_cast<std::size_t>(match.target)];
     filter_.assignLandmark(landmark.track_id, landmark.id);
   }
-  const ImageParts known = knownParts(view, trusted_, config_.msckf.fix_min_age_s, map);
-  const bool is_relocated = state_ == SlamState::kRelocated;
-  changes.removed_landmarks += mapper_.countFailed(
-      takeFailed(matches, trusted_, filter_.verdicts(), is_relocated, view, map), map);
+  ImageParts known;
+  if (!used.empty()) known = knownParts(view, trusted_, config_.msckf.fix_min_age_s, map);
+  const std::vector<int> failed =
+      takeFailed(matches, trusted_, filter_.verdicts(), state_ == SlamState::kRelocated, view, map);
+  changes.removed_landmarks += mapper_.countFailed(failed, map);
   for (const UsedTrack& one : used) {
     if (const Landmark* landmark = map.find(one.track.landmark_id)) {
       renew(one, view, config_.msckf, *landmark, map);

@@ -159,11 +159,11 @@ void FlightRecorder::see(const ImageFeatures& features, const OdometryState& odo
                          const FrameResult& result, const Landmarks& landmarks) {
   State& s = *state_;
   if (s.steps.isNewStart(odometry) || result.state == SlamState::kSearchingMap ||
-      result.revisit_m > 0) {
+      result.state == SlamState::kNotFinite || result.revisit_m > 0) {
     s.record = {};
     s.record.is_whole = false;
   }
-  if (!s.record.is_whole || s.is_full || result.state == SlamState::kNotFinite) return;
+  if (!s.record.is_whole || s.is_full) return;
   s.follow(odometry);
   s.takeHeight(odometry, result.height);
   if (!result.is_keyframe) return;

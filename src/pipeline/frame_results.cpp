@@ -112,9 +112,8 @@ const char* explain(SlamState state) {
       return "hardly a corner goes on from image to image: it is dark, over-exposed, blurred or "
              "without texture; the pose goes on by the odometry's way";
     case SlamState::kNotFinite:
-      return "the pose is not finite and is not published; the flight is looked for in its map "
-             "from "
-             "the next image on: check odometry, calibration and mounting for absurd values";
+      return "the pose is not finite and is not published; next the flight is looked for in its "
+             "map: check odometry, calibration and mounting for absurd values";
   }
   return "";
 }

@@ -50,7 +50,7 @@ def check_map_saving(program, folder):
     rows = re.findall(r"^\| (\d.*) \|$", page, re.M)
     assert len(rows) == 1, page
     landmarks, _, _, frames, *times, file_mb = rows[0].split(" | ")
-    assert 2700 < int(landmarks) <= 3000 and int(frames) > 0 and all(float(time) >= 0 for time in times), page
+    assert int(landmarks) == 3000 and int(frames) > 0 and all(float(time) >= 0 for time in times), page
     assert 0.1 < float(file_mb) < 3, page
     assert not any(folder.iterdir()), "the map is left there"
 

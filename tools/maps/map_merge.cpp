@@ -19,6 +19,7 @@ SavedMap together(const JointMaps& joint, const std::vector<LandmarkPair>& pairs
   const SavedMap& b = joint.b();
   const auto first_of_b = static_cast<std::uint32_t>(map.anchors.size());
   map.stamp_ns = std::max(map.stamp_ns, b.stamp_ns);
+  for (const MapCamera& camera : b.cameras) addCamera(camera, map.cameras);
   map.anchors.insert(map.anchors.end(), b.anchors.begin(), b.anchors.end());
   map.anchor_covariance = joint.anchorCovariance();
   std::vector<Landmark> of_b = b.landmarks;
