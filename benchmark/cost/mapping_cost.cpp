@@ -96,11 +96,12 @@ Cost costOf(const Scene& scene, EstimatorKind estimator) {
 }
 
 /// A map of so many landmarks around the place where an image is matched: what remains of a long
-/// flight, of which only those near the camera can be in view.
+/// flight, of which only those near the camera can be in view. And, as `map_ms`, what the image
+/// costs in which such a map is full (once for each tenth of max_landmarks that is made anew).
 Cost costOfMap(const Scene& scene, int landmarks) {
   RandomSource random(7);
   LandmarkMapConfig map_config;
-  map_config.max_landmarks = 10000000;
+  map_config.max_landmarks = landmarks;
   LandmarkMap map(map_config);
   PointWorld descriptors(8);
   // 12 a metre of street, as KITTI 00's 45,000 on 3.7 km; the streets form a square grid.
@@ -140,6 +141,14 @@ Cost costOfMap(const Scene& scene, int landmarks) {
   cost.landmarks = landmarks;
   cost.associate_ms = quantile(times_ms, 0.5);
   cost.in_view = quantile(in_view, 0.5);
+  map.add(map.all().front());
+  StageTimes_ms stage_ms{};
+  StageCpu cpu(stage_ms);
+  const StageHook hook = cpu.hook();
+  hook(Stage::kMap);
+  map.enforceCap();
+  hook(Stage::kIdle);
+  cost.map_ms = stage_ms[static_cast<std::size_t>(Stage::kMap)];
   return cost;
 }
 

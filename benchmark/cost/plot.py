@@ -54,10 +54,10 @@ def table(rows):
         cells = [" / ".join(f"{row[f'{stage}_ms']:.2f}" for stage in STAGES) for row in (a, b)]
         lines.append(f"| {a['features']:.0f} | {a['in_view']:.0f}, {b['in_view']:.0f} | {cells[0]} | {cells[1]} | "
                      f"{b['tracks']:.0f} |")
-    lines += ["", "| landmarks in the map | in view | association [ms] |", "|---|---|---|"]
+    lines += ["", "| landmarks in the map | in view | association [ms] | the image in which it is full [ms] |", "|---|---|---|---|"]
     for row in rows:
         if row["series"] == "map":
-            lines.append(f"| {row['landmarks']:,.0f} | {row['in_view']:.0f} | {row['associate_ms']:.2f} |")
+            lines.append(f"| {row['landmarks']:,.0f} | {row['in_view']:.0f} | {row['associate_ms']:.2f} | {row['map_ms']:.1f} |")
     return "\n".join(lines)
 
 

@@ -71,8 +71,8 @@ class Slam {
 
   /// The map, up to the last frame.
   const Landmarks& landmarks() const;
-  /// Another cap of the map, from the next frame on. @throws ConfigError
-  void limitMap(const LandmarkMapConfig& config);
+  /// Another cap of the map, and budget, from the next frame on. @throws ConfigError
+  void limit(const LandmarkMapConfig& landmark_map, const FrameBudgetConfig& frame_budget);
   /// Takes the memory for LandmarkMapConfig::most(), and for what one image adds before some go.
   void reserveMap();
   /// REP-105: corrects the odometry's drift. Identity until the first correction.

@@ -144,9 +144,9 @@ struct MapperConfig {
   double min_parallax_deg = 1.0;   ///< between first and present view: less tells no depth
   double baseline_growth = 1.2;    ///< a young landmark is triangulated again at so much parallax
   int drop_unconfirmed_after = 5;  ///< images in view without a match, when seen at most twice
-  /// So many failures for every time it was seen: not found while others of its place are, or off
-  /// an accepted fix.
-  double drop_failing_ratio = 3;
+  /// So many failures for every time it was seen and two more: not found while others of its place
+  /// are, or off an accepted fix.
+  double drop_failing_ratio = 2;
 };
 
 /// How many features wait for depth, and how long. No parameters: a camera that moves gives a
@@ -184,6 +184,22 @@ void visitParameters(LandmarkMapConfig& c, Visitor&& visit) {
         c.max_map_mb);
 }
 
+/// How long an image may take.
+struct FrameBudgetConfig {
+  double frame_budget_ms = 0;
+};
+
+template <class Visitor>
+void visitParameters(FrameBudgetConfig& c, Visitor&& visit) {
+  visit(
+      ParameterInfo{
+          "frame_budget_ms", "ms", 0, 10000,
+          "longest time for an image: in the mapper from its features on, in vslam_onboard "
+          "processor time from the tracker on. What does not fit is left out in this "
+          "order: search for the place, landmarks, keyframe; `status` tells. 0: no bound"},
+      c.frame_budget_ms);
+}
+
 /// Who makes the pose: docs/data_path.md.
 enum class EstimatorKind {
   kThesis,   ///< ThesisFilter
@@ -200,7 +216,7 @@ struct SlamConfig {
   EstimatorKind estimator = EstimatorKind::kMsckf;
   bool planar = false;
   NumberOrAuto image_time_offset_s;
-  double frame_budget_ms = 0;
+  FrameBudgetConfig frame_budget;
   OdometryBufferConfig odometry;
   OdometryAdapterConfig odometry_adapter;
   HeightInputConfig height_input;
@@ -241,13 +257,7 @@ void visitParameters(SlamConfig& c, Visitor&& visit) {
           "thesis all z are zero, for a front camera when height and tilt are unknown",
           turnFirst(6)},
       c.planar);
-  visit(
-      ParameterInfo{
-          "frame_budget_ms", "ms", 0, 10000,
-          "longest time for an image: in the mapper from its features on, in vslam_onboard "
-          "processor time from the tracker on. What does not fit is left out in this "
-          "order: search for the place, landmarks, keyframe; `status` tells. 0: no bound"},
-      c.frame_budget_ms);
+  visitParameters(c.frame_budget, visit);
   visitParameters(c.odometry, visit);
   visitParameters(c.odometry_adapter, visit);
   visitParameters(c.height_input, visit);

@@ -58,12 +58,13 @@ void LiveSlam::lookNear(const PlaceHint& hint) {
   slam_->lookNear(hint);
 }
 
-void LiveSlam::limitMap(const LandmarkMapConfig& config) {
+void LiveSlam::limit(const LandmarkMapConfig& landmark_map, const FrameBudgetConfig& frame_budget) {
   SlamConfig limited = config_;
-  limited.landmark_map = config;
+  limited.landmark_map = landmark_map;
+  limited.frame_budget = frame_budget;
   const std::string fault = faultOfMaps(limited, loaded_ ? loaded_->landmarks.size() : 0);
   if (loaded_ && !fault.empty()) throw std::invalid_argument(fault);
-  if (slam_) slam_->limitMap(config);
+  if (slam_) slam_->limit(landmark_map, frame_budget);
   config_ = limited;
 }
 

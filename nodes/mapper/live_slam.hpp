@@ -44,7 +44,7 @@ class LiveSlam {
   void lookNear(const PlaceHint& hint);
   /// Of the map in use and of later ones.
   /// @throws std::invalid_argument where landmarks of a map that is not to be changed would go
-  void limitMap(const LandmarkMapConfig& config);
+  void limit(const LandmarkMapConfig& landmark_map, const FrameBudgetConfig& frame_budget);
   void countCameraChange() { ++counts_.camera_changes; }
   void endMap();
 

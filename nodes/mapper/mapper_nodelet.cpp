@@ -117,7 +117,7 @@ void MapperNodelet::start() {
   odometry_->subscribe(nh);
   features_->subscribe(nh, settings().node.queue_size);
   parameters_->offer([this](const MapperChanges& changes) {
-    slam_->limitMap(changes.landmark_map);
+    slam_->limit(changes.landmark_map, changes.frame_budget);
     outputs_->change(changes.outputs);
   });
 }

@@ -24,7 +24,8 @@ MapperParameters::MapperParameters(const ros::NodeHandle& private_nh, Warnings& 
 }
 
 void MapperParameters::offer(ParameterChanges<MapperChanges>::Use use) {
-  const MapperChanges now{at_start_.slam.landmark_map, at_start_.node.outputs};
+  const MapperChanges now{at_start_.slam.landmark_map, at_start_.slam.frame_budget,
+                          at_start_.node.outputs};
   changes_ = std::make_unique<ParameterChanges<MapperChanges>>(private_nh_, now, warnings_,
                                                                std::move(use));
 }

@@ -20,12 +20,14 @@ struct MapperSettings {
 /// What of it may change in flight.
 struct MapperChanges {
   LandmarkMapConfig landmark_map;
+  FrameBudgetConfig frame_budget;
   OutputsConfig outputs;
 };
 
 template <class Visitor>
 void visitParameters(MapperChanges& c, Visitor&& visit) {
   visitParameters(c.landmark_map, visit);
+  visitParameters(c.frame_budget, visit);
   visitParameters(c.outputs, visit);
 }
 

@@ -17,6 +17,8 @@ class FrameBudget {
  public:
   /// @param budget_ms  for a whole image; 0: without bound
   explicit FrameBudget(double budget_ms = 0) : budget_ms_(budget_ms) {}
+  /// Another one, from the next begin() on.
+  void limit(double budget_ms) { budget_ms_ = budget_ms; }
 
   /// A new image. @param clock  of this image, used until the next begin(); empty: without bound
   void begin(const FrameClock& clock);

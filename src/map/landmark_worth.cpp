@@ -2,7 +2,6 @@
 #include "ardrone_vslam/landmark_worth.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -13,8 +12,9 @@ constexpr double kHalfWorth_s = 120;      // not seen for so long
 constexpr double kHalfWorthSigma = 0.02;  // of the distance
 constexpr double kCell = 0.1;             // of the distance
 
-/// A cube of space: exponent of its side, and place.
-using Cell = std::array<double, 4>;
+/// A cube of space: the exponent of its side in ten bits, and eighteen for each coordinate. Cubes
+/// that lie 2^18 sides apart are taken for one.
+using Cell = std::uint64_t;
 
 struct Candidate {
   Cell cell;
@@ -29,10 +29,13 @@ double distanceOf(const Landmark& landmark) {
 Cell cellOf(const Landmark& landmark) {
   int exponent = 0;
   std::frexp(kCell * distanceOf(landmark), &exponent);
-  const auto at = [&](int axis) {
-    return std::floor(std::ldexp(landmark.position_map[axis], -exponent));
-  };
-  return {static_cast<double>(exponent), at(0), at(1), at(2)};
+  Cell cell = static_cast<Cell>(exponent);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double place =
+        std::fmod(std::floor(std::ldexp(landmark.position_map[axis], -exponent)), 1 << 18);
+    cell = cell << 18 | (static_cast<Cell>(static_cast<std::int64_t>(place)) & 0x3FFFF);
+  }
+  return cell;
 }
 
 double worthOf(const Landmark& landmark, std::int64_t now_ns) {

@@ -88,11 +88,12 @@ int Mapper::countMissed(const std::vector<int>& missed, LandmarkMap& map) const 
 }
 
 int Mapper::countFailed(const std::vector<int>& failed, LandmarkMap& map) const {
+  constexpr int kPresumed = 2;  // times seen: one was not seen often enough to be judged
   std::vector<std::uint32_t> dropped;
   for (const int index : failed) {
     const int times_failed = map.addFailure(static_cast<std::size_t>(index));
     const Landmark& landmark = map.all()[static_cast<std::size_t>(index)];
-    if (times_failed > config_.drop_failing_ratio * landmark.times_seen)
+    if (times_failed > config_.drop_failing_ratio * (kPresumed + landmark.times_seen))
       dropped.push_back(landmark.id);
   }
   for (const std::uint32_t id : dropped) map.remove(id);

@@ -28,16 +28,34 @@ class Draws {
   std::uint32_t state_ = 12345;
 };
 
-/// Variance of the angle across the ray, per axis, between a measured ray and a landmark.
-inline double acrossVariance_rad2(const MapObservation& observation,
-                                  const Eigen::Vector3d& direction_map, double distance_m,
-                                  double sigma_a, double slack_rad) {
-  const double own_m2 = observation.covariance_m2.trace() -
-                        direction_map.dot(observation.covariance_m2 * direction_map);
-  return sigma_a * sigma_a + slack_rad * slack_rad + own_m2 / (distance_m * distance_m);
+/// Of the angles between a measured ray and a landmark, across the ray.
+/// @param along, beside  unit, across the landmark's direction and each other
+/// @param slack_rad  sigma of the attitude
+inline Eigen::Matrix2d acrossCovariance_rad2(const MapObservation& observation,
+                                             const Eigen::Vector3d& along,
+                                             const Eigen::Vector3d& beside, double distance_m,
+                                             double sigma_a, double slack_rad) {
+  Eigen::Matrix<double, 3, 2> axes;
+  axes << along, beside;
+  axes /= distance_m;
+  return (sigma_a * sigma_a + slack_rad * slack_rad) * Eigen::Matrix2d::Identity() +
+         axes.transpose() * observation.covariance_m2 * axes;
 }
 
-/// Squared deviations between a ray and a landmark seen from a camera position.
+/// The product of its two sigmas.
+/// @param offset  of the landmark from the camera
+inline double acrossSigmas_rad2(const MapObservation& observation, const Eigen::Vector3d& offset,
+                                double sigma_a, double slack_rad) {
+  const Eigen::Vector3d along = offset.unitOrthogonal();
+  const Eigen::Vector3d beside = offset.normalized().cross(along);
+  return std::sqrt(
+      acrossCovariance_rad2(observation, along, beside, offset.norm(), sigma_a, slack_rad)
+          .determinant());
+}
+
+/// Squared deviations between a ray and a landmark seen from a camera position; where they are more
+/// than kInlier, a lower bound. A landmark's depth was known worse than its direction: seen from
+/// elsewhere, it may be far off along one axis, and not along the other.
 inline double offRay(const MapObservation& observation, const Eigen::Vector3d& ray_map,
                      const Eigen::Vector3d& camera_map, double sigma_a, double slack_rad) {
   const Eigen::Vector3d offset = observation.point_map - camera_map;
@@ -45,8 +63,17 @@ inline double offRay(const MapObservation& observation, const Eigen::Vector3d& r
   constexpr double kFar = 1e9;
   if (!(ray_map.dot(offset) > 0)) return kFar;
   const Eigen::Vector3d direction = offset / distance_m;
-  return ray_map.cross(direction).squaredNorm() /
-         acrossVariance_rad2(observation, direction, distance_m, sigma_a, slack_rad);
+  const Eigen::Vector3d normal = ray_map.cross(direction);  // its length is the angle's sine
+  const double squared_rad2 = normal.squaredNorm();
+  // Along no axis is the variance more than of all axes together.
+  const double at_least =
+      squared_rad2 / (sigma_a * sigma_a + slack_rad * slack_rad +
+                      observation.covariance_m2.trace() / (distance_m * distance_m));
+  if (at_least >= kInlier || squared_rad2 == 0) return at_least;
+  const Eigen::Vector3d beside = normal / std::sqrt(squared_rad2);
+  const Eigen::Matrix2d covariance_rad2 = acrossCovariance_rad2(
+      observation, beside.cross(direction), beside, distance_m, sigma_a, slack_rad);
+  return squared_rad2 * covariance_rad2(1, 1) / covariance_rad2.determinant();
 }
 
 /// The camera position from which two landmarks are seen along two rays, nearly.

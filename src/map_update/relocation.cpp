@@ -105,8 +105,7 @@ Clone Relocator::refined(Clone pose) const {
   for (const double slack_rad : {attitude_rad_, 0.5 * attitude_rad_, kSlack_rad, kSlack_rad}) {
     Matrix6d matrix = Matrix6d::Zero();
     Vector6d vector = Vector6d::Zero();
-    const double attitude_weight = 1 / (attitude_rad_ * attitude_rad_);
-    Eigen::Vector3d weights = Eigen::Vector3d::Constant(attitude_weight);
+    Eigen::Vector3d weights = Eigen::Vector3d::Constant(1 / (attitude_rad_ * attitude_rad_));
     if (heading_ == Heading::kUnknown) weights.z() = 0;
     matrix.diagonal().tail<3>() = weights;
     vector.tail<3>() = weights.cwiseProduct(rotationVectorOf(R_prior * pose.R_map_rig.transpose()));
@@ -172,9 +171,8 @@ double Relocator::shareByChance(const Clone& pose) const {
   double by_window = 0;
   for (const MapObservation& s : observations_) {
     const Eigen::Vector3d offset = s.point_map - camera;
-    const double variance =
-        acrossVariance_rad2(s, offset.normalized(), offset.norm(), sigma_a_, kSlack_rad);
-    by_window += std::min(1.0, kInlier * variance / (s.window_rad * s.window_rad));
+    const double sigmas_rad2 = acrossSigmas_rad2(s, offset, sigma_a_, kSlack_rad);
+    by_window += std::min(1.0, kInlier * sigmas_rad2 / (s.window_rad * s.window_rad));
   }
   // .. but corners and landmarks stand in groups: so often do the same ones agree in other pairs.
   constexpr std::size_t kRounds = 20;

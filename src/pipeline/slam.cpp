@@ -72,9 +72,10 @@ const Landmarks& Slam::landmarks() const {
   return state_->map.all();
 }
 
-void Slam::limitMap(const LandmarkMapConfig& config) {
-  state_->map.limit(config);
-  state_->config.landmark_map = config;
+void Slam::limit(const LandmarkMapConfig& landmark_map, const FrameBudgetConfig& frame_budget) {
+  state_->map.limit(landmark_map);
+  state_->config.landmark_map = landmark_map;
+  state_->budget.limit(frame_budget.frame_budget_ms);
 }
 
 void Slam::reserveMap() {

@@ -32,7 +32,7 @@ struct Slam::State {
         associator(c.association),
         map(c.landmark_map),
         revisits(c),
-        budget(c.frame_budget_ms) {}
+        budget(c.frame_budget.frame_budget_ms) {}
 
   SlamConfig config;
   Cameras cameras;

@@ -37,8 +37,8 @@ class MapperAllocation : public ::testing::Test {
 
   static SlamConfig config() {
     SlamConfig config;
-    config.landmark_map.max_landmarks = 2000;  // more than there are
-    config.frame_budget_ms = 1000;             // there is always time, but that is asked
+    config.landmark_map.max_landmarks = 2000;    // more than there are
+    config.frame_budget.frame_budget_ms = 1000;  // there is always time, but that is asked
     return config;
   }
 

@@ -16,7 +16,7 @@ test::FlightRun flyWithin(double budget_ms) {
   const std::vector<OdometryState> odometry = test::observe(flight, {}, 1);
   test::PointWorld world = test::pointRoom(1);
   SlamConfig config = test::configForDrift();
-  config.frame_budget_ms = budget_ms;
+  config.frame_budget.frame_budget_ms = budget_ms;
   Slam slam(config, test::forwardExtrinsics());
   test::FlightRun flown;
   const std::vector<ImageFeatures> frames = test::film(world, flight);

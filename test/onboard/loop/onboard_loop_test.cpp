@@ -41,7 +41,7 @@ TEST_F(OnboardLoopTest, AnswersEachImageOfAFileFromAFileOfRecords) {
 TEST_F(OnboardLoopTest, AnswersSayWhatTheirImagesHadNoTimeFor) {
   writeFile(file("observer"), records());
   settings_.onboard.observer = file("observer");
-  settings_.mapper.frame_budget_ms = 1e-3;
+  settings_.mapper.frame_budget.frame_budget_ms = 1e-3;
   OnboardLoop loop(settings_, stop_.ends[0]);
   EXPECT_TRUE(loop.run());
   const auto answers = poses();

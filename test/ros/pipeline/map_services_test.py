@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """A map is saved, the map begins anew, and in the loaded one the drone is found from another origin and heading of its
-odometry."""
+odometry; so is the next flight, which leaves the file as it is."""
 import json
 import math
 import os
@@ -13,6 +13,7 @@ import unittest
 
 import rospy
 import rostest
+from ardrone_vslam.msg import Status
 from ardrone_vslam.srv import MapFile
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from std_srvs.srv import Trigger
@@ -51,6 +52,12 @@ class TurnedDrone(Drone):
         return message
 
 
+def status_of(drone):
+    """After its newest image."""
+    stamp = drone.stamp()
+    return drone.status.wait(lambda status: status.header.stamp == stamp)
+
+
 def call(service, kind, *arguments):
     name = "/vslam/mapper/" + service
     rospy.wait_for_service(name, TIMEOUT_S)
@@ -67,8 +74,7 @@ class MapServicesTest(unittest.TestCase):
         cls.clicks = rospy.Publisher("/initialpose", PoseWithCovarianceStamped, queue_size=1, latch=False)
 
     def status(self):
-        stamp = self.drone.stamp()
-        return self.drone.status.wait(lambda status: status.header.stamp == stamp)
+        return status_of(self.drone)
 
     def test_1_there_must_be_a_map_and_a_name(self):
         for name, part in (("house.vmap", "no landmark to save"), ("../house.vmap", "out of reach"), ("/tmp/house.vmap", "out of reach"),
@@ -158,6 +164,41 @@ class MapServicesTest(unittest.TestCase):
         subprocess.run(["rosrun", "nodelet", "nodelet", "unload", "/vslam/mapper", "/vslam/manager"], check=True, timeout=TIMEOUT_S)
         self.assertEqual(landmarks_in(KEPT), landmarks)
         self.assertGreater(landmarks_in(KEPT + ".before"), 0, "the map before the reset is gone")
+
+    def launch(self, ns, *arguments):
+        """Another flight beside the first one's. @return its drone, which the nodelets hear"""
+        flight = subprocess.Popen(["roslaunch", "ardrone_vslam", "vslam.launch", "ns:=" + ns, *arguments])
+        self.addCleanup(flight.wait, TIMEOUT_S)
+        self.addCleanup(flight.terminate)
+        rospy.wait_for_message(f"/{ns}/status", Status, 2 * TIMEOUT_S)  # one a second without an image
+        drone = TurnedDrone(vslam="/" + ns)
+        drone.connect()
+        drone.mount_camera()
+        return drone
+
+    def test_6_the_next_flight_leaves_it_as_it_is(self):
+        with open(KEPT, "rb") as file:
+            kept = file.read()
+        drone = self.launch("next", "map:=kept.vmap", "localise_only:=true", "save_map:=kept.vmap", "autosave_s:=1")
+        drone.is_turned, drone.steps = True, 10
+        drone.fly(1)
+        self.assertEqual(status_of(drone).state_name, "searching_map")
+        pose = drone.fly(20)[-1].pose.pose
+        self.assertEqual(status_of(drone).landmarks, landmarks_in(KEPT))
+        self.assertLess(abs(pose.position.y - drone.position_m()), 2 * STEP_M)
+        self.assertIsNotNone(drone.fly(80)[-1])  # out of what is mapped
+        self.assertEqual(status_of(drone).landmarks, landmarks_in(KEPT))
+        time.sleep(2)  # in which it would have been saved
+        with open(KEPT, "rb") as file:
+            self.assertEqual(file.read(), kept)
+
+    def test_7_a_map_of_another_camera_stops_a_flight_before_it_begins(self):
+        drone = self.launch("other", "map:=other.vmap")
+        stamp = drone.next()
+        drone.send(drone.odometry(), drone.image(), drone.info())
+        self.assertIsNone(drone.answered(stamp, 2))
+        status = drone.status.wait(lambda status: status.state_name == "waiting_for_extrinsics" and "camera" in status.reason)
+        self.assertIn("another camera (640 x 360 px", status.reason)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from drone import TIMEOUT_S, Drone  # noqa: E402
 
 OF_TRACKER = {"features_per_frame": 1000, "cell_size_px": 80, "threshold_min": 8, "track_search_radius_px": 80.0}
-OF_MAPPER = {"max_landmarks": 200000, "max_map_mb": 0, "transform_tolerance_s": 0.2, "publish_tf": True}
+OF_MAPPER = {"max_landmarks": 200000, "max_map_mb": 0, "frame_budget_ms": 0.0, "transform_tolerance_s": 0.2, "publish_tf": True}
 
 
 def values_of(client):
@@ -69,7 +69,16 @@ class ParameterChangesTest(unittest.TestCase):
         self.mapper.update_configuration({"max_landmarks": 200000, "publish_tf": True})
         self.assertEqual(self.status_after(1).changed_parameters, "")
 
-    def test_3_what_cannot_be_is_refused(self):
+    def test_3_a_budget_begins_and_ends(self):
+        self.mapper.update_configuration({"frame_budget_ms": 0.001})
+        during = self.status_after(30)
+        self.assertEqual(during.left_out[2], "keyframe")
+        self.assertGreater(during.left_out_count[2], 5)
+        self.mapper.update_configuration({"frame_budget_ms": 0})
+        left_out = self.status_after(1).left_out_count
+        self.assertEqual(self.status_after(30).left_out_count, left_out)
+
+    def test_4_what_cannot_be_is_refused(self):
         self.assert_refused(self.tracker, {"features_per_frame": 30, "threshold_min": 40}, "threshold_min is 40 but must be between 1 and 35")
         self.assert_refused(self.mapper, {"max_landmarks": 1}, "max_landmarks is 1 but must be between 10 and 10000000")
         self.assertGreater(self.status_after(5).features, 50)  # not 30

@@ -223,10 +223,10 @@ TEST_F(MapperTest, DropsWhatFailsMuchMoreOftenThanItIsSeen) {
   const std::uint32_t seldom_id = landmarks_.add(seldom);
   const std::uint32_t often_id = landmarks_.add(often);
   const Mapper mapper(config_);
-  for (int i = 0; i < 6; ++i) EXPECT_EQ(mapper.countFailed({0, 1}, landmarks_), 0) << i;
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(mapper.countFailed({0, 1}, landmarks_), 0) << i;
   EXPECT_EQ(mapper.countFailed({0, 1}, landmarks_), 1);
   EXPECT_EQ(landmarks_.find(seldom_id), nullptr);
-  for (int i = 7; i < 60; ++i) EXPECT_EQ(mapper.countFailed({0}, landmarks_), 0) << i;
+  for (int i = 11; i < 64; ++i) EXPECT_EQ(mapper.countFailed({0}, landmarks_), 0) << i;
   EXPECT_NE(landmarks_.find(often_id), nullptr);
   EXPECT_EQ(mapper.countFailed({0}, landmarks_), 1);
   EXPECT_EQ(landmarks_.size(), 0U);
