@@ -15,11 +15,10 @@ void FeaturesTopic::subscribe(ros::NodeHandle& nh, int queue_size) {
 
 void FeaturesTopic::onFeatures(const FeaturesConstPtr& features) {
   has_come_ = true;
-  images_dropped_ = features->images_dropped;
-  images_dropped_queue_ = features->images_dropped_queue;
-  images_without_camera_info_ = features->images_without_camera_info;
   gaps_.see(features->header.seq);
-  if (accept(*features)) calls_.take(features);
+  if (!accept(*features)) return;
+  accepted_ = features;
+  calls_.take(features);
 }
 
 bool FeaturesTopic::accept(const Features& features) {
@@ -52,9 +51,12 @@ bool FeaturesTopic::endSecond() {
 }
 
 void FeaturesTopic::fill(Status& status) const {
-  status.images_dropped = images_dropped_;
-  status.images_dropped_queue = images_dropped_queue_;
-  status.images_without_camera_info = images_without_camera_info_;
+  if (accepted_) {
+    status.images_dropped = accepted_->images_dropped;
+    status.images_dropped_queue = accepted_->images_dropped_queue;
+    status.images_without_camera_info = accepted_->images_without_camera_info;
+    status.changed_parameters = accepted_->changed_parameters;
+  }
   status.dropped_bad_message = dropped_bad_message_;
   status.dropped_stamp = dropped_stamp_;
   status.dropped_queue = gaps_.lost();

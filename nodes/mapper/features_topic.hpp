@@ -38,9 +38,7 @@ class FeaturesTopic {
   Calls calls_;
   StampGuard stamps_;
   GapCounter gaps_;
-  Features::_images_dropped_type images_dropped_ = 0;  // by the tracker, as it says
-  Features::_images_dropped_queue_type images_dropped_queue_ = 0;
-  Features::_images_without_camera_info_type images_without_camera_info_ = 0;
+  FeaturesConstPtr accepted_;  // the newest, with what the tracker says of itself
   std::uint64_t dropped_bad_message_ = 0;
   std::uint64_t dropped_stamp_ = 0;
   bool has_come_ = false;  // within this second

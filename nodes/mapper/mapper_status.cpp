@@ -56,7 +56,9 @@ void MapperStatus::publish(Status& status) {
   status.ranges_refused = parts_.heights.refused();
   status.heights_missing = parts_.heights.input().missing();
   status.heights_tilted = parts_.heights.input().tilted();
-  status.changed_parameters = parts_.parameters.changed();
+  const std::string changed = parts_.parameters.changed();
+  if (!changed.empty() && !status.changed_parameters.empty()) status.changed_parameters += ' ';
+  status.changed_parameters += changed;
   publisher_.publish(status);
   latest_ = status;
 }

@@ -108,6 +108,7 @@ void TrackerNodelet::publish(const GreyImage& image, const std_msgs::Header& hea
   const ImageQueue::Counts counts = images_->counts();
   message->images_dropped_queue = counts.overflowed;
   message->images_without_camera_info = counts.without_info;
+  message->changed_parameters = changes_->changed();
   // A gap tells of a lost message.
   message->header.seq = static_cast<std::uint32_t>(status_->countProcessed());
   features_pub_.publish(FeaturesConstPtr(message));  // to const: no copy within the manager

@@ -136,8 +136,9 @@ def rows_of_folders(arguments, settings):
             continue
         odometry = _odometry_row(run, odometries, f"odometry of {name}", settings)
         is_truth = run.summary.get("profile") == "truth"  # nothing to compare with, as in replay
+        in_loaded_map = run.summary.get("map_found_s") is not None  # whose scale is not this odometry's
         for row in its_rows:
-            compare_with_odometry(row, None if is_truth else odometry, run.summary.get("odometry_scale_error"))
+            compare_with_odometry(row, None if is_truth else odometry, None if in_loaded_map else run.summary.get("odometry_scale_error"))
     if len(odometries) == 1:
         odometries[0].name = odometries[0].numbers["name"] = "odometry"
     notes_of_odometries(odometries)

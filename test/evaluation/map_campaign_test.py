@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A little of scripts/map_campaign: flights are found in the maps of their own rooms, and in no other one's."""
+"""A little of scripts/map_campaign and map_again: flights are found in the maps of their own rooms, and in no other one's."""
 import json
 import os
 import subprocess
@@ -33,6 +33,24 @@ class MapCampaign(TestWithFolder):
                 self.assertLess(one["found_s"], 6)
                 self.assertLess(one["error_m"], 0.3)
                 self.assertLess(one["error_in_map_m"], 0.1)
+
+    def test_flights_again_in_the_maps_of_others(self):
+        made = subprocess.run([f"{PROGRAMS}/make_world", "laps", "--seconds", "12", "--rate", "10", "--out", self.path("laps")],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        done = subprocess.run([sys.executable, "-B", CAMPAIGN.with_name("map_again.py"), self.path("laps"), "--programs", PROGRAMS,
+                               "--work", self.path("again"), "--json", self.path("again.json"), "--seeds", "0:1", "--jobs", "2",
+                               "--", "--set", "features_per_frame=200"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        with open(self.path("again.json"), encoding="utf-8") as file:
+            tries = json.load(file)
+        self.assertEqual(len(tries), 2)
+        for one in tries:
+            for kind in ("flown", "refined"):
+                again, = one[kind]
+                self.assertLess(again["map_found_s"], 6)
+                self.assertLess(again["map_scale_removed_m"], 0.3)
+                self.assertNotEqual(again["map_scale_removed_m"], again["fused_ate_rmse_m"])
 
 
 if __name__ == "__main__":

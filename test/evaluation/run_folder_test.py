@@ -91,6 +91,18 @@ class RunFolderTest(unittest.TestCase):
         self.assertIn(f": {told}(RMSE).\n", self.numbers(folder)[1])
         self.assertNotIn("It helped", self.numbers(f"{self.runs}/msckf")[1])
 
+    def test_a_flight_in_a_loaded_map_has_the_scale_of_the_map(self):
+        folder = self.copied("summary.json", "fused.tum", "odometry.tum", "truth.tum")
+        for found_s, is_known in ((None, True), (1.5, False)):
+            with open(f"{folder}/summary.json") as file:
+                summary = json.load(file)
+            summary["map_found_s"] = found_s
+            with open(f"{folder}/summary.json", "w") as file:
+                json.dump(summary, file)
+            estimate = self.numbers(folder)[0]["trajectories"][1]
+            self.assertIsNotNone(estimate["ratio"])
+            self.assertEqual(estimate["ratio_scale_removed"] is not None, is_known)
+
     def test_all_plots_are_drawn(self):
         page = self.page(f"{self.runs}/msckf/seed_1")[1]
         self.assertEqual(page.count("<img "), 12)

@@ -15,7 +15,7 @@ namespace {
 const SerialLayout& featuresLayout() {
   constexpr std::uint32_t kStart = 12;    // sequence number and stamp
   constexpr std::uint32_t kSize = 3 * 4;  // width, height, focal length
-  constexpr std::uint32_t kEnd = 3 * 4 + 3 * 8;
+  constexpr std::uint32_t kCounts = 3 * 4 + 3 * 8;
   static const SerialLayout kLayout{false,
                                     {{kStart, 1},
                                      {kSize, 4},
@@ -27,7 +27,7 @@ const SerialLayout& featuresLayout() {
                                      {0, 1},
                                      {0, 4},
                                      {0, 4},
-                                     {kEnd, 0}}};
+                                     {kCounts, 1}}};
   return kLayout;
 }
 

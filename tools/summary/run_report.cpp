@@ -59,6 +59,20 @@ void addNees(const RunEvaluation& e, Json& summary) {
           : Json(static_cast<double>(outside) / static_cast<double>(nees_values.size()));
 }
 
+/// None in a loaded map: its scale is that of the odometry it was made with.
+void addScaleRemoved(const RunResult& run, const RunEvaluation& e, bool drifts, Json& summary) {
+  for (const char* key : {"odometry_ate_rmse_scale_removed_m", "fused_ate_rmse_scale_removed_m",
+                          "ratio_scale_removed"})
+    summary[key] = nullptr;
+  if (e.truth.empty() || run.is_in_loaded_map) return;
+  const Trajectory truth = scaled(e.truth, run.scale_error);
+  const double odometry_m = summarise(positionErrors_m(e.odometry_at_truth, truth)).rmse_m;
+  const double fused_m = summarise(positionErrors_m(e.fused_at_truth, truth)).rmse_m;
+  summary["odometry_ate_rmse_scale_removed_m"] = orNull(odometry_m);
+  summary["fused_ate_rmse_scale_removed_m"] = orNull(fused_m);
+  if (drifts) summary["ratio_scale_removed"] = orNull(fused_m / odometry_m);
+}
+
 void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& label, Json& summary) {
   const ErrorSummary fused = summarise(finite(e.fused_error_m));
   const ErrorSummary odometry = summarise(finite(e.odometry_error_m));
@@ -71,14 +85,7 @@ void addErrors(const RunResult& run, const RunEvaluation& e, const RunLabel& lab
   summary["fused_error_max_m"] = ifKnown(fused.max_m);
   summary["ratio"] = drifts ? ifKnown(fused.rmse_m / odometry.rmse_m) : Json(nullptr);
 
-  const Trajectory truth = scaled(e.truth, run.scale_error);
-  const double fused_scaled =
-      known ? summarise(positionErrors_m(e.fused_at_truth, truth)).rmse_m : 0;
-  const double odometry_scaled =
-      known ? summarise(positionErrors_m(e.odometry_at_truth, truth)).rmse_m : 0;
-  summary["odometry_ate_rmse_scale_removed_m"] = ifKnown(odometry_scaled);
-  summary["fused_ate_rmse_scale_removed_m"] = ifKnown(fused_scaled);
-  summary["ratio_scale_removed"] = drifts ? ifKnown(fused_scaled / odometry_scaled) : Json(nullptr);
+  addScaleRemoved(run, e, drifts, summary);
   summary["fused_ate_rmse_aligned_m"] = ifKnown(alignedRmse_m(e.fused_at_truth, e.truth));
   summary["odometry_scale_error"] = run.scale_error;
   addRefinement(run, e.truth, summary);

@@ -164,6 +164,11 @@ TEST(RunReport, ScaleErrorThatWasDrawnIsRemoved) {
   EXPECT_NEAR(summary["fused_ate_rmse_scale_removed_m"], 0, 1e-12);
   EXPECT_NEAR(summary["odometry_ate_rmse_scale_removed_m"], 0.2, 1e-12);
   EXPECT_NEAR(summary["ratio_scale_removed"], 0, 1e-12);
+  run.is_in_loaded_map = true;
+  const Json in_map = summaryOf(run, evaluate(run, straightTruth()), {"s", "wheel", 1, "thesis"});
+  for (const char* key : {"fused_ate_rmse_scale_removed_m", "odometry_ate_rmse_scale_removed_m",
+                          "ratio_scale_removed"})
+    EXPECT_TRUE(in_map[key].is_null()) << key << ": the map has a scale of its own";
 }
 
 TEST(RunReport, ThePageNamesEveryKeyOfTheSummary) {

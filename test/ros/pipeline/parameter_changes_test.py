@@ -62,12 +62,12 @@ class ParameterChangesTest(unittest.TestCase):
         after = self.status_after(30)
         self.assertLessEqual(after.features, 100)
         self.assertLessEqual(after.landmarks, 50)
-        self.assertEqual(after.changed_parameters, "max_landmarks=50 publish_tf=false")
+        self.assertEqual(after.changed_parameters, "features_per_frame=100 max_landmarks=50 publish_tf=false")
         self.assertEqual((after.restarts, after.camera_changes), (0, 0))
         self.assertEqual(rospy.get_param("/vslam/mapper/max_landmarks"), 50)
         self.assertIsNotNone(self.drone.log.wait(lambda log: log.msg.endswith("changed in flight: features_per_frame=100")))
         self.mapper.update_configuration({"max_landmarks": 200000, "publish_tf": True})
-        self.assertEqual(self.status_after(1).changed_parameters, "")
+        self.assertEqual(self.status_after(1).changed_parameters, "features_per_frame=100")
 
     def test_3_a_budget_begins_and_ends(self):
         self.mapper.update_configuration({"frame_budget_ms": 0.001})
