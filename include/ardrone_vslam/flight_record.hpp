@@ -61,7 +61,7 @@ struct FlightRecord {
   MsckfConfig config;
   SharedBlocks<Keyframe, 16> keyframes;  ///< oldest first
   /// False, and then nothing else is here: the flight began anew on its way, or was looked for in a
-  /// map, or found elsewhere in its own, or the camera's mounting is not taken as exact.
+  /// map, or found elsewhere in its own.
   bool is_whole = true;
 };
 

@@ -37,6 +37,9 @@ auto noiseOf(Config& c) {
 constexpr std::size_t kNoise =
     4 + 8 * std::tuple_size_v<decltype(noiseOf(std::declval<MsckfConfig&>()))>;
 
+/// Behind the keyframes, where it is not 0: files of earlier versions end there.
+constexpr std::size_t kExtrinsics = 8;
+
 bool isAmount(double value) {
   return std::isfinite(value) && value >= 0;
 }
@@ -129,6 +132,8 @@ std::string flightFault(const FlightRecord& flight) {
     if (!isAmount(*noise[i]) || (i < kPositive && *noise[i] == 0))
       return "the noise of the flight is negative, or not finite";
   }
+  if (!isAmount(flight.config.odometry.extrinsics_sigma_deg))
+    return "the noise of the extrinsics is negative, or not finite";
   const Keyframe* before = nullptr;
   for (const Keyframe& keyframe : flight.keyframes) {
     const std::string fault = keyframeFault(keyframe, before);
@@ -152,6 +157,7 @@ std::uint32_t LandmarkNumbers::of(std::uint32_t landmark_id) {
 
 std::uint64_t flightSize(const FlightRecord& flight) {
   std::uint64_t size = kNoise + kKeyframe * flight.keyframes.size();
+  if (flight.config.odometry.extrinsics_sigma_deg > 0) size += kExtrinsics;
   for (const Keyframe& keyframe : flight.keyframes) {
     size += kView * keyframe.views.size() + kLandmark * keyframe.landmarks.size() +
             kPassed * keyframe.passed.size();
@@ -191,6 +197,11 @@ void writeKeyframe(const Keyframe& k, LandmarkNumbers& numbers, ByteWriter& out)
   }
 }
 
+void writeFlightTail(const FlightRecord& flight, ByteWriter& out) {
+  const double sigma_deg = flight.config.odometry.extrinsics_sigma_deg;
+  if (sigma_deg > 0) out.f64(sigma_deg);
+}
+
 void readFlight(ByteReader in, SavedMap& map) {
   FlightRecord& flight = map.flight;
   for (double* value : noiseOf(flight.config)) *value = in.f64();
@@ -199,6 +210,7 @@ void readFlight(ByteReader in, SavedMap& map) {
     refuseSection(kFlightTag, "it has more keyframes than fit into it");
   flight.keyframes.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) flight.keyframes.push_back(readKeyframe(in));
+  if (in.remaining() == kExtrinsics) flight.config.odometry.extrinsics_sigma_deg = in.f64();
   if (in.isShort() || in.remaining() > 0) refuseSection(kFlightTag, "its size does not fit");
   const std::string fault = flightFault(flight);
   if (!fault.empty()) refuseSection(kFlightTag, fault);

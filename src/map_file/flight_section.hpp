@@ -27,9 +27,10 @@ class LandmarkNumbers {
 
 std::uint64_t flightSize(const FlightRecord& flight);  ///< bytes of the section
 
-/// All but the keyframes.
+/// What comes before the keyframes, and behind them.
 void writeFlightHead(const FlightRecord& flight, ByteWriter& out);
 void writeKeyframe(const Keyframe& keyframe, LandmarkNumbers& numbers, ByteWriter& out);
+void writeFlightTail(const FlightRecord& flight, ByteWriter& out);
 
 /// Into map.flight. @throws MapFileError when the section's bytes cannot be right
 void readFlight(ByteReader in, SavedMap& map);

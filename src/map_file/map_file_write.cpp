@@ -106,6 +106,7 @@ void writeFlightSection(const FlightRecord& flight, const std::vector<std::uint3
     writeKeyframe(keyframe, numbers, file.buffer());
     file.pass();
   }
+  writeFlightTail(flight, file.buffer());
   file.end();
 }
 

@@ -146,7 +146,6 @@ FlightRecorder::FlightRecorder(const SlamConfig& config, const Eigen::Isometry3d
   state_->T_base_cam = T_base_cam;
   state_->most_bytes = most_bytes;
   state_->record.config = config.msckf;
-  state_->record.is_whole = config.msckf.odometry.extrinsics_sigma_deg == 0;
 }
 
 FlightRecorder::~FlightRecorder() = default;

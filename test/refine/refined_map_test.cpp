@@ -48,9 +48,15 @@ FlightRecord twoKeyframes() {
   return record;
 }
 
-TEST(RefinedMap, LandmarksGoWithTheirAnchors) {
+Refinement refinementOf(const Eigen::Isometry3d& first, const Eigen::Isometry3d& second) {
   Refinement refinement;
-  refinement.T_map_base = {turned(M_PI / 2, {0, 4, 0}), turned(M_PI / 2, {0, 6, 0})};
+  refinement.T_map_base = {first, second};
+  refinement.R_base_rig.assign(2, Eigen::Matrix3d::Identity());
+  return refinement;
+}
+
+TEST(RefinedMap, LandmarksGoWithTheirAnchors) {
+  Refinement refinement = refinementOf(turned(M_PI / 2, {0, 4, 0}), turned(M_PI / 2, {0, 6, 0}));
   SavedMap before = twoAnchors();
   before.flight = twoKeyframes();
   const SavedMap map = refinedMap(before, twoKeyframes(), refinement);
@@ -65,8 +71,7 @@ TEST(RefinedMap, LandmarksGoWithTheirAnchors) {
 }
 
 TEST(RefinedMap, LandmarksWithAPointAreThere) {
-  Refinement refinement;
-  refinement.T_map_base = {turned(0, {0, 0, 0}), turned(0, {2, 0, 0})};
+  Refinement refinement = refinementOf(turned(0, {0, 0, 0}), turned(0, {2, 0, 0}));
   std::vector<TrackPoint3d>& points = refinement.points;
   points.resize(3);
   points[0].landmark_id = 2;
@@ -81,8 +86,7 @@ TEST(RefinedMap, LandmarksWithAPointAreThere) {
 }
 
 TEST(RefinedMap, HasTheCovarianceOfTheRefinement) {
-  Refinement refinement;
-  refinement.T_map_base = {turned(0, {0, 0, 0}), turned(0, {2, 0, 0})};
+  Refinement refinement = refinementOf(turned(0, {0, 0, 0}), turned(0, {2, 0, 0}));
   refinement.anchor_covariance = 0.5 * Eigen::MatrixXd::Identity(14, 14);
   SavedMap before = twoAnchors();
   before.anchor_covariance(6, 6) = 0.25;
@@ -96,8 +100,7 @@ TEST(RefinedMap, HasTheCovarianceOfTheRefinement) {
 }
 
 TEST(RefinedMap, WhatIsNotInTheRecordGoesWithTheAnchorBefore) {
-  Refinement refinement;
-  refinement.T_map_base = {turned(0, {0, 3, 0}), turned(0, {2, 3, 0})};
+  Refinement refinement = refinementOf(turned(0, {0, 3, 0}), turned(0, {2, 3, 0}));
   SavedMap before = twoAnchors();
   before.anchors[0].stamp_ns = 40;  // too early
   const SavedMap early = refinedMap(before, twoKeyframes(), refinement);
@@ -106,6 +109,14 @@ TEST(RefinedMap, WhatIsNotInTheRecordGoesWithTheAnchorBefore) {
   before.anchors[1].stamp_ns = 60;  // in a gap
   const SavedMap gap = refinedMap(before, twoKeyframes(), refinement);
   EXPECT_TRUE(gap.anchors[1].T_map_rig.translation().isApprox(Eigen::Vector3d(1, 3, 0)));
+}
+
+TEST(RefinedMap, AnchorsAreTurnedByTheErrorOfTheExtrinsics) {
+  Refinement refinement = refinementOf(turned(0, {0, 3, 0}), turned(0, {2, 3, 0}));
+  refinement.R_base_rig.assign(2, turned(M_PI / 2, {0, 0, 0}).linear());
+  const SavedMap map = refinedMap(twoAnchors(), twoKeyframes(), refinement);
+  EXPECT_TRUE(map.anchors[0].T_map_rig.isApprox(turned(M_PI / 2, {1, 3, 0})));  // between the two
+  EXPECT_TRUE(map.landmarks[0].position_map.isApprox(Eigen::Vector3d(1, 4, 0)));
 }
 
 TEST(RefinedMap, WithoutKeyframesItStaysAsItIs) {

@@ -122,6 +122,26 @@ TEST(Refinement, HeightsTellTheScale) {
   EXPECT_NEAR(scaleOf(flight, refine(flight.record)), 1, 0.01);
 }
 
+TEST(Refinement, ExtrinsicsThatAreOffAreFound) {
+  FlightErrors errors;
+  errors.corner_px = 0.5;
+  RecordedFlight flight{errors};
+  const Eigen::Vector3d off_rad(0.01, -0.015, 0.02);
+  auto& keyframes = flight.record.keyframes;
+  for (std::size_t k = 0; k < keyframes.size(); ++k) {
+    Eigen::Isometry3d& T_base_cam = keyframes.change(k).T_base_cam;
+    T_base_cam = Eigen::Isometry3d(rotationOf(off_rad)).inverse() * T_base_cam;
+  }
+  const double taken_as_exact_m = flight.rmse_m(refine(flight.record).T_map_base);
+  flight.record.config.odometry.extrinsics_sigma_deg = 1;
+  // With that of the default a slow way sideways is as likely as a turned camera.
+  flight.record.config.odometry.velocity_bias_m_s = 0.002;
+  const Refinement refined = refine(flight.record);
+  EXPECT_LT(flight.rmse_m(refined.T_map_base), 0.2 * taken_as_exact_m);  // 0.09 measured
+  for (const Eigen::Matrix3d& R_base_rig : refined.R_base_rig)
+    EXPECT_LT((rotationVectorOf(R_base_rig) - off_rad).norm(), 0.005);  // 0.0037 measured
+}
+
 TEST(Refinement, TellsHowFarItIs) {
   const RecordedFlight flight{FlightErrors{}};
   std::vector<double> shares;

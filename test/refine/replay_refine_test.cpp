@@ -59,8 +59,6 @@ TEST_F(ReplayRefine, TheWholeFlightKnowsMoreThanItsParts) {
 TEST_F(ReplayRefine, WhatItCannotRefineItSays) {
   EXPECT_NE(replay("--refine --estimator thesis"), 0);
   EXPECT_NE(told().find("--refine: needs the keyframes of estimator: msckf"), std::string::npos);
-  EXPECT_NE(replay("--refine --set mapper/extrinsics_sigma_deg=1"), 0);
-  EXPECT_NE(told().find("set extrinsics_sigma_deg to 0"), std::string::npos);
 }
 
 }  // namespace

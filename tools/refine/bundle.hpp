@@ -4,18 +4,18 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Geometry>
-#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include "ardrone_vslam/flight_record.hpp"
+#include "refine/bundle_odometry.hpp"
 #include "refine/track_points.hpp"
 
 namespace ardrone_vslam {
 
 /// The least squares problem of a whole flight: poses of its keyframes, slow errors of its
-/// odometry, heights of its floors, and the points that it saw.
+/// odometry and of the cameras' extrinsics, heights of its floors, and the points that it saw.
 class Bundle {
  public:
   /// @param record  must outlive this. @pre it has a keyframe
@@ -27,38 +27,33 @@ class Bundle {
   /// Leaves out views that are off by more, and points that too few are left of.
   void drop(double most_sigmas);
 
+  /// BundleOdometry has it.
+  Eigen::Matrix3d R_base_rig(std::size_t keyframe) const { return odometry_.R_base_rig(keyframe); }
   Eigen::Isometry3d T_map_base(std::size_t keyframe) const;
   std::vector<TrackPoint3d> points() const;
   /// Of the odometry's scale error, and of position [m] and attitude (a rotation vector, axes of
-  /// map) [rad] of each of these keyframes. To be called last: views are weighed by all that they
-  /// share from then on. @throws std::runtime_error when nothing tells it
+  /// map) [rad] of the rig at each of these keyframes. To be called last: views are weighed by all
+  /// that they share from then on. @throws std::runtime_error when nothing tells it
   /// @param keyframes  each once
   Eigen::MatrixXd covariance(const std::vector<std::size_t>& keyframes);
   std::size_t views() const;                        ///< that count
   std::size_t dropped() const { return dropped_; }  ///< and those left out
 
  private:
-  using Vector = std::array<double, 3>;
   struct View {
     ceres::ResidualBlockId residual;
     std::unique_ptr<ceres::LossFunctionWrapper> weight;
   };
 
-  void addOdometry();
-  void addStep(std::size_t to);
-  void addHeights();
   void addViews();
   void weighViews(double most_common_px);
   std::vector<double*> pointBlocks();
-  void add(ceres::CostFunction* cost, std::initializer_list<double*> of);
 
   const FlightRecord& record_;
   ceres::LossFunctionWrapper loss_;
   ceres::Problem problem_;
-  std::vector<std::array<double, 6>> poses_;  // errors beside the record's poses, see residuals.hpp
-  std::vector<Vector> biases_, attitudes_;    // of the odometry at the keyframes
-  std::vector<double> floors_map_m_;
-  double scale_error_ = 0;
+  KeyframeErrors poses_;
+  BundleOdometry odometry_;
   std::vector<TrackPoint3d> points_;
   std::vector<std::vector<View>> views_of_;  // of each point
   std::size_t dropped_ = 0;

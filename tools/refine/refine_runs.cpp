@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ardrone_vslam/rotation.hpp"
 #include "program/progress_line.hpp"
 #include "refine/refined_map.hpp"
 #include "refine/refined_path.hpp"
@@ -27,6 +28,8 @@ void refineRun(RunResult& run, const RefinementProgress& progress) {
   refined.points = refinement.points.size();
   refined.views = refinement.views;
   refined.views_left_out = refinement.views_left_out;
+  if (!refinement.R_base_rig.empty())
+    refined.extrinsics_error_rad = rotationVectorOf(refinement.R_base_rig.back());
   if (run.map) run.map = refinedMap(std::move(*run.map), run.record, refinement);
   refined.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -36,8 +39,6 @@ void refineRun(RunResult& run, const RefinementProgress& progress) {
 std::string faultOfRefining(const SlamConfig& config) {
   if (config.estimator != EstimatorKind::kMsckf)
     return "--refine: needs the keyframes of estimator: msckf";
-  if (config.msckf.odometry.extrinsics_sigma_deg > 0)
-    return "--refine: takes the camera's mounting as exact; set extrinsics_sigma_deg to 0";
   return "";
 }
 

@@ -28,13 +28,13 @@ SavedMap refinedMap(SavedMap map, const FlightRecord& record, const Refinement& 
   for (const TrackPoint3d& point : refinement.points) point_of[point.landmark_id] = &point;
   point_of.erase(0);
 
-  const PosesByStamp T_map_base_at = refinedPoses(record, refinement);
+  const PosesByStamp T_map_rig_at = refinedPoses(record, refinement);
   std::vector<Eigen::Isometry3d> moved;  // T_new_old of the anchors
   moved.reserve(map.anchors.size());
   bool are_all_known = true;
   for (MapAnchor& anchor : map.anchors) {
-    const auto found = T_map_base_at.find(anchor.stamp_ns);
-    if (found != T_map_base_at.end()) {
+    const auto found = T_map_rig_at.find(anchor.stamp_ns);
+    if (found != T_map_rig_at.end()) {
       moved.emplace_back(found->second * anchor.T_map_rig.inverse());
     } else {
       are_all_known = false;

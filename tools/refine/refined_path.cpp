@@ -66,7 +66,8 @@ PosesByStamp refinedPoses(const FlightRecord& record, const Refinement& refineme
   const std::vector<Eigen::Isometry3d>& refined = refinement.T_map_base;
   for (std::size_t k = 0; k < refined.size(); ++k) {
     const Keyframe& keyframe = record.keyframes[k];
-    poses[keyframe.stamp_ns] = refined[k];
+    const Eigen::Isometry3d T_base_rig(refinement.R_base_rig[k]);
+    poses[keyframe.stamp_ns] = refined[k] * T_base_rig;
     if (k == 0) continue;
     const Keyframe& before = record.keyframes[k - 1];
     const Eigen::Isometry3d T_map_odom = refined[k - 1] * before.T_odom_base.inverse();
@@ -75,7 +76,8 @@ PosesByStamp refinedPoses(const FlightRecord& record, const Refinement& refineme
       leg.push_back({frame.stamp_ns, T_map_odom * frame.T_odom_base});
     leg.push_back({keyframe.stamp_ns, T_map_odom * keyframe.T_odom_base});
     spread(refined[k], 0, leg);
-    for (std::size_t i = 1; i + 1 < leg.size(); ++i) poses[leg[i].stamp_ns] = leg[i].T_frame_body;
+    for (std::size_t i = 1; i + 1 < leg.size(); ++i)
+      poses[leg[i].stamp_ns] = leg[i].T_frame_body * T_base_rig;
   }
   return poses;
 }

@@ -16,10 +16,10 @@ namespace ardrone_vslam {
 /// spread in time. Frames before the record begins keep the fused pose.
 std::vector<Eigen::Isometry3d> refinedPath(const RunResult& run, const Refinement& refinement);
 
-/// T_map_base by the image's stamp [ns].
+/// T_map_rig by the image's stamp [ns]: base, turned by the error of the extrinsics.
 using PosesByStamp = std::unordered_map<std::int64_t, Eigen::Isometry3d>;
 
-/// The poses of a record's keyframes and of the frames between them that the filter may have kept.
+/// The rig at a record's keyframes and at the frames between them that the filter may have kept.
 PosesByStamp refinedPoses(const FlightRecord& record, const Refinement& refinement);
 
 }  // namespace ardrone_vslam

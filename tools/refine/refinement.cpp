@@ -74,8 +74,10 @@ Refinement refine(const FlightRecord& record, const std::vector<MapAnchor>& anch
   for (const double bound : kBounds) bundle.solve(bound, step);
   bundle.drop(kMostSigmas);
   bundle.solve(kBounds.back(), step);
-  for (std::size_t k = 0; k < record.keyframes.size(); ++k)
+  for (std::size_t k = 0; k < record.keyframes.size(); ++k) {
     refined.T_map_base.push_back(bundle.T_map_base(k));
+    refined.R_base_rig.push_back(bundle.R_base_rig(k));
+  }
   refined.points = bundle.points();
   refined.views = bundle.views();
   refined.views_left_out = bundle.dropped();

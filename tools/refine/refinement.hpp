@@ -15,6 +15,8 @@ namespace ardrone_vslam {
 /// What all of a flight says about its way and its points.
 struct Refinement {
   std::vector<Eigen::Isometry3d> T_map_base;  ///< of the record's keyframes
+  /// The error of the camera's extrinsics at each: the rig is base, turned by it.
+  std::vector<Eigen::Matrix3d> R_base_rig;
   std::vector<TrackPoint3d> points;
   /// SavedMap::anchor_covariance of the anchors that were named; empty where it cannot be told, or
   /// there are more than 1500 keyframes.
@@ -28,9 +30,9 @@ struct Refinement {
 using RefinementProgress = std::function<void(double share)>;
 
 /// Bundle adjustment (Triggs et al., 2000) of the keyframes' poses and all points at once, by their
-/// views, the odometry with the errors that the MSCKF believes it has, and heights. The scale is
-/// that of odometry and heights. The map stays where its first keyframe is. O(views) an iteration,
-/// and what the keyframes' sparse system takes.
+/// views, the odometry with the errors that the MSCKF believes it has, those of the extrinsics, and
+/// heights. The scale is that of odometry and heights. The map stays where its first keyframe is.
+/// O(views) an iteration, and what the keyframes' sparse system takes.
 /// @param anchors  of the flight's map: how well each is known is that of the keyframe before it
 /// @return nothing of a record without keyframes
 /// @throws std::runtime_error when the solver fails, or too few views agree

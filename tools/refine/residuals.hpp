@@ -26,11 +26,11 @@ Vector3<T> rotated(const T* rotation_vector, const Vector3<T>& v) {
 
 /// The rotation vector of exp(a) R exp(b)^T, of small angles but for R's.
 template <class T>
-Vector3<T> rotationBetween(const T* a, const Eigen::Matrix3d& R, const T* b) {
+Vector3<T> rotationBetween(const T* a, const Eigen::Matrix<T, 3, 3>& R, const T* b) {
   Eigen::Matrix<T, 3, 3> A, B;
   ceres::AngleAxisToRotationMatrix(a, A.data());
   ceres::AngleAxisToRotationMatrix(b, B.data());
-  const Eigen::Matrix<T, 3, 3> difference = A * R.cast<T>() * B.transpose();
+  const Eigen::Matrix<T, 3, 3> difference = A * R * B.transpose();
   Vector3<T> vector;
   ceres::RotationMatrixToAngleAxis(difference.data(), vector.data());
   return vector;
@@ -85,13 +85,24 @@ struct WayResidual {
   }
 };
 
-/// The odometry's attitude at a keyframe.
+/// The odometry's attitude at a keyframe, of base. The pose is that of the rig: base, turned by the
+/// error of the camera's extrinsics (a rotation vector, axes of base), where that is not exact.
 struct AttitudeResidual {
-  Eigen::Matrix3d R;  ///< R_map_base at first, times R_odom_base^T
+  Eigen::Matrix3d R_map_rig;  ///< at first
+  Eigen::Matrix3d R_odom_base;
   double sigma_rad;
 
   template <class T>
   bool operator()(const T* pose, const T* attitude, T* residual) const {
+    const Eigen::Matrix3d R = R_map_rig * R_odom_base.transpose();
+    return put<T, 3>(rotationBetween<T>(pose + 3, R.cast<T>(), attitude) / T(sigma_rad), residual);
+  }
+  template <class T>
+  bool operator()(const T* pose, const T* attitude, const T* extrinsics, T* residual) const {
+    Eigen::Matrix<T, 3, 3> R_base_rig;
+    ceres::AngleAxisToRotationMatrix(extrinsics, R_base_rig.data());
+    const Eigen::Matrix<T, 3, 3> R =
+        R_map_rig.cast<T>() * R_base_rig.transpose() * R_odom_base.transpose().cast<T>();
     return put<T, 3>(rotationBetween<T>(pose + 3, R, attitude) / T(sigma_rad), residual);
   }
 };

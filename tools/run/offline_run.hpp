@@ -36,7 +36,9 @@ struct RefinedRun {
   std::size_t points = 0;
   std::size_t views = 0;           ///< of points by keyframes, those that count
   std::size_t views_left_out = 0;  ///< as they contradict the others
-  double seconds = 0;              ///< that it took
+  /// Of the last camera: a rotation vector, axes of base. 0 where they were taken as exact.
+  Eigen::Vector3d extrinsics_error_rad{0, 0, 0};
+  double seconds = 0;  ///< that it took
 };
 
 /// One pass over a sequence with one odometry.

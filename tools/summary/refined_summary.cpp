@@ -36,6 +36,9 @@ void addRefinement(const RunResult& run, const Trajectory& truth, nlohmann::orde
   summary["refined_points"] = run.refined->points;
   summary["refined_views"] = run.refined->views;
   summary["refined_views_left_out"] = run.refined->views_left_out;
+  const Eigen::Vector3d extrinsics_error_deg = 180 / M_PI * run.refined->extrinsics_error_rad;
+  summary["refined_extrinsics_error_deg"] = {extrinsics_error_deg.x(), extrinsics_error_deg.y(),
+                                             extrinsics_error_deg.z()};
   summary["refine_seconds"] = run.refined->seconds;
 }
 

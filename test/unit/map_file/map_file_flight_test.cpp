@@ -41,6 +41,7 @@ TEST_F(MapFileFlightTest, WhatCannotBeIsLeftOutAndTheMapStays) {
       [](FlightRecord& f) { f.config.track_sigma_px = 0; },
       [](FlightRecord& f) { f.config.track_common_px = kNoNumber; },
       [](FlightRecord& f) { f.config.odometry.tilt_sigma_deg = -1; },
+      [](FlightRecord& f) { f.config.odometry.extrinsics_sigma_deg = kNoNumber; },
       [](FlightRecord& f) { f.keyframes.change(0).stamp_ns = -1; },
       [](FlightRecord& f) { f.keyframes.change(1).stamp_ns = f.keyframes[0].stamp_ns; },
       [](FlightRecord& f) { f.keyframes.change(1).T_odom_base.translation().x() = kNoNumber; },
@@ -58,6 +59,20 @@ TEST_F(MapFileFlightTest, WhatCannotBeIsLeftOutAndTheMapStays) {
       [](FlightRecord& f) { f.keyframes.change(1).passed[0].T_odom_base.linear()(0, 0) = 7; },
   };
   for (std::size_t i = 0; i < faults.size(); ++i) EXPECT_EQ(writtenAfter(faults[i]), 0U) << i;
+}
+
+TEST_F(MapFileFlightTest, ExtrinsicsThatAreEstimatedComeBehind) {
+  map_.flight.config.odometry.extrinsics_sigma_deg = 0.25;
+  writeMap(path_, map_);
+  EXPECT_EQ(readFile(path_).size(), bytes_.size() + 8);
+  EXPECT_EQ(readMap(path_, WithFlight::kYes).flight.config.odometry.extrinsics_sigma_deg, 0.25);
+  EXPECT_EQ(readMap(path_, WithFlight::kYes).flight.keyframes.size(), 2U);
+  auto sections = sections_;  // a file without them
+  ByteWriter bytes;
+  bytes.f64(-1);
+  sections[kFlightSection].payload += bytesOf(bytes);
+  EXPECT_NE(faultOfSections(sections).find("the noise of the extrinsics is negative"),
+            std::string::npos);
 }
 
 TEST_F(MapFileFlightTest, WhatCannotBeIsRefusedByName) {

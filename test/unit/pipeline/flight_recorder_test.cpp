@@ -188,15 +188,6 @@ TEST(FlightRecorder, InAPlaneTheHeightIsNone) {
   EXPECT_NEAR(flight.record().keyframes.at(0).height_m.value_or(1), 0, 1e-9);
 }
 
-TEST(FlightRecorder, ACameraWhoseMountingIsEstimatedIsNotRecorded) {
-  SlamConfig config;
-  config.msckf.odometry.extrinsics_sigma_deg = 1;
-  Flight flight(1'000'000, config);
-  flight.seeKeyframe(1);
-  EXPECT_FALSE(flight.record().is_whole);
-  EXPECT_TRUE(flight.record().keyframes.empty());
-}
-
 TEST(FlightRecorder, AFlightThatBeginsAnewIsNotWhole) {
   Flight flight;
   flight.seeKeyframe(1);
