@@ -147,8 +147,8 @@ int refineMap(const Options& o) {
     throw MapFileError(
         o.map +
         ": there are no views in it, so nothing can be refined: it was made by another command of "
-        "map_tool or an earlier version, in a loaded map, after a click, or its odometry began "
-        "anew");
+        "map_tool or an earlier version, in a loaded map, after a click, or it was carried, or its "
+        "odometry began anew");
   Refinement refinement;
   {
     constexpr std::size_t kOfOne = 100;
@@ -162,12 +162,12 @@ int refineMap(const Options& o) {
   std::printf("%zu keyframes, %zu points, %zu views; %zu views contradict them and are left out\n",
               refinement.T_map_base.size(), refinement.points.size(), refinement.views,
               refinement.views_left_out);
-  if (map.flight.config.odometry.extrinsics_sigma_deg > 0) {
+  if (refinement.extrinsics_sigma_rad) {
     const Eigen::Vector3d off_deg = 180 / M_PI * rotationVectorOf(refinement.R_base_rig.back());
-    std::printf(
-        "the camera is turned by (%.2f, %.2f, %.2f) degrees beside its extrinsics (a rotation "
-        "vector, axes of base)\n",
-        off_deg.x(), off_deg.y(), off_deg.z());
+    const Eigen::Vector3d sigma_deg = 180 / M_PI * *refinement.extrinsics_sigma_rad;
+    std::printf("the camera is turned beside its extrinsics, in degrees about x, y, z of base:");
+    for (int i = 0; i < 3; ++i) std::printf(" %.2f +- %.2f", off_deg[i], sigma_deg[i]);
+    std::printf("\n");
   }
   std::vector<double> moved_m;
   for (std::size_t i = 0; i < map.landmarks.size(); ++i)

@@ -10,8 +10,7 @@ namespace ardrone_vslam {
 namespace {
 
 constexpr std::size_t kDescriptorBytes = sizeof(Descriptor);
-constexpr double kBearingTolerance = 1e-3;    // of the norm
-constexpr std::size_t kLongestText = 10'000;  // characters
+constexpr double kBearingTolerance = 1e-3;  // of the norm
 
 std::string sizeFault(const char* name, std::size_t size, std::size_t expected) {
   if (size == expected) return {};
@@ -102,9 +101,6 @@ std::string faultOf(const Features& m) {
     return text("its focal_length is ", m.focal_length, " px; it must be within ", kShortestFocal,
                 " and ", kLongestFocal, " times the image width");
   }
-  if (m.changed_parameters.size() > kLongestText)
-    return text("its changed_parameters have ", m.changed_parameters.size(),
-                " characters; at most ", kLongestText, " can be");
   std::string fault = sizesFault(m);
   if (!fault.empty()) return fault;
   if (!allFinite(m.x) || !allFinite(m.y)) return "a pixel position is not finite";

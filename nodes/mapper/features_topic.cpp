@@ -16,9 +16,8 @@ void FeaturesTopic::subscribe(ros::NodeHandle& nh, int queue_size) {
 void FeaturesTopic::onFeatures(const FeaturesConstPtr& features) {
   has_come_ = true;
   gaps_.see(features->header.seq);
-  if (!accept(*features)) return;
-  accepted_ = features;
-  calls_.take(features);
+  newest_ = features;
+  if (accept(*features)) calls_.take(features);
 }
 
 bool FeaturesTopic::accept(const Features& features) {
@@ -51,11 +50,12 @@ bool FeaturesTopic::endSecond() {
 }
 
 void FeaturesTopic::fill(Status& status) const {
-  if (accepted_) {
-    status.images_dropped = accepted_->images_dropped;
-    status.images_dropped_queue = accepted_->images_dropped_queue;
-    status.images_without_camera_info = accepted_->images_without_camera_info;
-    status.changed_parameters = accepted_->changed_parameters;
+  if (newest_) {
+    constexpr std::size_t kLongest = 1000;  // characters; a good tracker's are fewer
+    status.images_dropped = newest_->images_dropped;
+    status.images_dropped_queue = newest_->images_dropped_queue;
+    status.images_without_camera_info = newest_->images_without_camera_info;
+    status.changed_parameters = newest_->changed_parameters.substr(0, kLongest);
   }
   status.dropped_bad_message = dropped_bad_message_;
   status.dropped_stamp = dropped_stamp_;

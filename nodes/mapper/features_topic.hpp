@@ -38,7 +38,7 @@ class FeaturesTopic {
   Calls calls_;
   StampGuard stamps_;
   GapCounter gaps_;
-  FeaturesConstPtr accepted_;  // the newest, with what the tracker says of itself
+  FeaturesConstPtr newest_;  // with what the tracker says of itself
   std::uint64_t dropped_bad_message_ = 0;
   std::uint64_t dropped_stamp_ = 0;
   bool has_come_ = false;  // within this second

@@ -13,6 +13,7 @@ from ardrone_vslam_evaluation.read_text import read_tum
 from map_campaign import SAME_STAMP_S, Campaign, show
 
 KINDS = ("flown", "refined")
+NOT_FOUND_EXIT = 3  # 1: a program failed
 FLIGHT = {"in flight": ("fused_ate_rmse_scale_removed_m", "fused_ate_rmse_aligned_m"),
           "refined": ("refined_ate_rmse_scale_removed_m", "refined_ate_rmse_aligned_m")}
 AGAIN = ("fused_ate_rmse_m", "map_scale_removed_m", "fused_ate_rmse_aligned_m", "nees_mean", "outside_3_sigma", "map_found_s")
@@ -103,7 +104,7 @@ def seeds_of(text):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="map_again", description=__doc__.split(";")[0] + ".", epilog="What follows -- is for replay.")
+    parser = argparse.ArgumentParser(prog="map_again", description=__doc__.split(";")[0] + ".", epilog="What follows -- is for replay. Exit code 3: a flight was not found.")
     parser.add_argument("sequence", help="a folder or bag with truth")
     parser.add_argument("--frames", metavar="A:B", help="those of the map's flight")
     parser.add_argument("--flight-frames", metavar="A:B", help="those of the flight in it; default: the same")
@@ -116,8 +117,9 @@ def main():
     parser.add_argument("--programs", metavar="FOLDER", required=True, help=argparse.SUPPRESS)
     parser.add_argument("--work", metavar="FOLDER", help="for runs and maps; default: map_again in the build folder")
     parser.add_argument("--version", action="store_true", help="of the package")  # scripts/map_again answers
-    arguments, replay = parser.parse_known_args()
-    arguments.replay = [word for word in replay if word != "--"]
+    end = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
+    arguments = parser.parse_args(sys.argv[1:end])
+    arguments.replay = sys.argv[end + 1:]
 
     os.makedirs(arguments.work, exist_ok=True)
     again = Again(Campaign(arguments.programs, os.path.abspath(arguments.work)), arguments)
@@ -126,7 +128,7 @@ def main():
     if arguments.json:
         with open(arguments.json, "w", encoding="utf-8") as file:
             json.dump(tries, file, indent=1)
-    return 0 if report(tries) else 3
+    return 0 if report(tries) else NOT_FOUND_EXIT
 
 
 if __name__ == "__main__":

@@ -60,6 +60,8 @@ std::vector<Bytes> seeds() {
   SavedMap with_flight = test::smallMap();
   with_flight.flight = test::smallFlight();
   all.push_back(bytesOf(fileOfMap(with_flight, folder)));
+  with_flight.flight.config.odometry.extrinsics_sigma_deg = 0.25;
+  all.push_back(bytesOf(fileOfMap(with_flight, folder)));
   for (int i = 0; i < 4; ++i)
     all.push_back(bytesOf(fileOfMap(test::randomMap(random, 2, 3), folder)));
   return all;

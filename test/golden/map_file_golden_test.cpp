@@ -14,6 +14,7 @@ namespace {
 
 const std::string kGolden = test::dataFile("maps/version_1.vmap");
 const std::string kGoldenFlight = test::dataFile("maps/version_1_flight.vmap");
+const std::string kGoldenExtrinsics = test::dataFile("maps/version_1_extrinsics.vmap");
 
 TEST(MapFileGolden, AMapIsWrittenAsTheSameBytesEverywhere) {
   const TemporaryFolder folder;
@@ -88,6 +89,20 @@ TEST(MapFileGolden, AFlightGoesAlong) {
   EXPECT_EQ(last.landmarks.at(0).landmark_id, 2U);
   EXPECT_EQ(last.landmarks.at(1).landmark_id, 4U);  // behind those of the file
   EXPECT_EQ(last.passed.at(0).stamp_ns, 925'000'000'000);
+}
+
+TEST(MapFileGolden, SoDoExtrinsicsThatAreEstimated) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("house.vmap");
+  SavedMap map = smallMap();
+  map.flight = smallFlight();
+  map.flight.config.odometry.extrinsics_sigma_deg = 0.25;
+  writeMap(path, map);
+  if (std::getenv("VSLAM_WRITE_GOLDEN_MAP") != nullptr) writeMap(kGoldenExtrinsics, map);
+  EXPECT_TRUE(readFile(path) == readFile(kGoldenExtrinsics));
+  map = readMap(kGoldenExtrinsics, WithFlight::kYes);
+  EXPECT_EQ(map.flight.config.odometry.extrinsics_sigma_deg, 0.25);
+  EXPECT_EQ(map.flight.keyframes.size(), 2U);
 }
 
 }  // namespace

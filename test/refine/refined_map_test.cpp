@@ -113,7 +113,7 @@ TEST(RefinedMap, WhatIsNotInTheRecordGoesWithTheAnchorBefore) {
 
 TEST(RefinedMap, AnchorsAreTurnedByTheErrorOfTheExtrinsics) {
   Refinement refinement = refinementOf(turned(0, {0, 3, 0}), turned(0, {2, 3, 0}));
-  refinement.R_base_rig.assign(2, turned(M_PI / 2, {0, 0, 0}).linear());
+  refinement.R_base_rig[0] = turned(M_PI / 2, {0, 0, 0}).linear();  // another camera follows
   const SavedMap map = refinedMap(twoAnchors(), twoKeyframes(), refinement);
   EXPECT_TRUE(map.anchors[0].T_map_rig.isApprox(turned(M_PI / 2, {1, 3, 0})));  // between the two
   EXPECT_TRUE(map.landmarks[0].position_map.isApprox(Eigen::Vector3d(1, 4, 0)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -54,6 +55,24 @@ TEST_F(ReplayRefine, TheWholeFlightKnowsMoreThanItsParts) {
   EXPECT_EQ(test::readFile(file("run/refined.tum")), refined);
   ASSERT_EQ(replay("--seed 1"), 0) << told();
   EXPECT_EQ(test::readFile(file("run/refined.tum")), "");  // an earlier run's files go
+}
+
+TEST_F(ReplayRefine, ACameraThatIsTurnedIsToldWithItsDeviation) {
+  const std::string map = file("turned.vmap");
+  ASSERT_EQ(replay("--seed 1 --refine --setup-fault pitch=1 --set mapper/extrinsics_sigma_deg=1 "
+                   "--save-map " +
+                   map),
+            0)
+      << told();
+  const auto summary = nlohmann::json::parse(test::readFile(file("run/summary.json")));
+  const Eigen::Vector3d off_deg(0, 1, 0);  // about base's y
+  for (int i = 0; i < 3; ++i) {
+    const double sigma_deg = summary["refined_extrinsics_sigma_deg"][i];
+    EXPECT_NEAR(summary["refined_extrinsics_error_deg"][i], off_deg[i], 2 * sigma_deg) << i;
+    EXPECT_LT(sigma_deg, 0.9) << "less than was known before";
+    EXPECT_GT(sigma_deg, 0.1);
+  }
+  EXPECT_LT(summary["refined_ate_rmse_m"], 0.6 * summary["fused_ate_rmse_m"].get<double>());
 }
 
 TEST_F(ReplayRefine, WhatItCannotRefineItSays) {

@@ -124,6 +124,7 @@ Eigen::MatrixXd Bundle::covariance(const std::vector<std::size_t>& keyframes) {
   weighViews(record_.config.track_common_px);
   std::vector<double*> wanted{odometry_.scaleError()};
   for (const std::size_t k : keyframes) wanted.push_back(poses_[k].data());
+  if (double* error = odometry_.extrinsicsError()) wanted.push_back(error);
   return covarianceOf(problem_, wanted, odometry_.chain(), pointBlocks());
 }
 

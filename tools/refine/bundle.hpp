@@ -32,7 +32,8 @@ class Bundle {
   Eigen::Isometry3d T_map_base(std::size_t keyframe) const;
   std::vector<TrackPoint3d> points() const;
   /// Of the odometry's scale error, and of position [m] and attitude (a rotation vector, axes of
-  /// map) [rad] of the rig at each of these keyframes. To be called last: views are weighed by all
+  /// map) [rad] of the rig at each of these keyframes; behind them of BundleOdometry's
+  /// extrinsicsError(), where there is one. To be called last: views are weighed by all
   /// that they share from then on. @throws std::runtime_error when nothing tells it
   /// @param keyframes  each once
   Eigen::MatrixXd covariance(const std::vector<std::size_t>& keyframes);

@@ -26,6 +26,8 @@ class BundleOdometry {
   /// The error of the extrinsics at a keyframe; the identity where they are exact.
   Eigen::Matrix3d R_base_rig(std::size_t keyframe) const;
   double* scaleError() { return &scale_error_; }
+  /// Of the last camera: a rotation vector, axes of base [rad]. None where they are exact.
+  double* extrinsicsError() { return cameras_.empty() ? nullptr : cameras_.back().error.data(); }
   /// Errors of attitude and velocity, each of which hangs on the one before it.
   std::vector<double*> chain();
 

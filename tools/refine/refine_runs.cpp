@@ -30,6 +30,7 @@ void refineRun(RunResult& run, const RefinementProgress& progress) {
   refined.views_left_out = refinement.views_left_out;
   if (!refinement.R_base_rig.empty())
     refined.extrinsics_error_rad = rotationVectorOf(refinement.R_base_rig.back());
+  refined.extrinsics_sigma_rad = refinement.extrinsics_sigma_rad;
   if (run.map) run.map = refinedMap(std::move(*run.map), run.record, refinement);
   refined.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }

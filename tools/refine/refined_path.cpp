@@ -66,9 +66,10 @@ PosesByStamp refinedPoses(const FlightRecord& record, const Refinement& refineme
   const std::vector<Eigen::Isometry3d>& refined = refinement.T_map_base;
   for (std::size_t k = 0; k < refined.size(); ++k) {
     const Keyframe& keyframe = record.keyframes[k];
-    const Eigen::Isometry3d T_base_rig(refinement.R_base_rig[k]);
-    poses[keyframe.stamp_ns] = refined[k] * T_base_rig;
+    poses[keyframe.stamp_ns] = refined[k] * Eigen::Isometry3d(refinement.R_base_rig[k]);
     if (k == 0) continue;
+    // Another camera begins with a keyframe.
+    const Eigen::Isometry3d T_base_rig(refinement.R_base_rig[k - 1]);
     const Keyframe& before = record.keyframes[k - 1];
     const Eigen::Isometry3d T_map_odom = refined[k - 1] * before.T_odom_base.inverse();
     std::vector<StampedPose> leg{{before.stamp_ns, refined[k - 1]}};

@@ -30,9 +30,9 @@ std::size_t keyframeOf(const MapAnchor& anchor, const FlightRecord& record) {
   return count == 0 ? 0 : count - 1;
 }
 
-/// Anchors err as their keyframes. Empty where it cannot be told.
-Eigen::MatrixXd anchorCovariance(const std::vector<MapAnchor>& anchors, const FlightRecord& record,
-                                 Bundle& bundle) {
+/// How well anchors, which err as their keyframes, and extrinsics are known, where it can be told.
+void addCovariance(const std::vector<MapAnchor>& anchors, const FlightRecord& record,
+                   Bundle& bundle, Refinement& refined) {
   constexpr Eigen::Index kPose = 6;
   std::map<std::size_t, Eigen::Index> column_of;
   std::vector<std::size_t> keyframes;
@@ -51,9 +51,12 @@ Eigen::MatrixXd anchorCovariance(const std::vector<MapAnchor>& anchors, const Fl
   }
   try {
     const Eigen::MatrixXd P = bundle.covariance(keyframes);
-    return J.leftCols(P.cols()) * P * J.leftCols(P.cols()).transpose();
+    const auto known = 1 + kPose * static_cast<Eigen::Index>(keyframes.size());
+    refined.anchor_covariance =
+        J.leftCols(known) * P.topLeftCorner(known, known) * J.leftCols(known).transpose();
+    if (P.cols() > known) refined.extrinsics_sigma_rad = P.diagonal().tail<3>().cwiseSqrt();
   } catch (const std::runtime_error&) {
-    return {};
+    refined.anchor_covariance.resize(0, 0);
   }
 }
 
@@ -86,7 +89,7 @@ Refinement refine(const FlightRecord& record, const std::vector<MapAnchor>& anch
                              std::to_string(record.keyframes.size()) +
                              " keyframes agree, which is too few to refine anything");
   if (!anchors.empty() && record.keyframes.size() <= kMostKnown)
-    refined.anchor_covariance = anchorCovariance(anchors, record, bundle);
+    addCovariance(anchors, record, bundle, refined);
   if (progress) progress(1);
   return refined;
 }

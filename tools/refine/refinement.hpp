@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "ardrone_vslam/flight_record.hpp"
@@ -17,6 +18,8 @@ struct Refinement {
   std::vector<Eigen::Isometry3d> T_map_base;  ///< of the record's keyframes
   /// The error of the camera's extrinsics at each: the rig is base, turned by it.
   std::vector<Eigen::Matrix3d> R_base_rig;
+  /// Of the last one, per axis of base, where anchor_covariance is known and it was estimated.
+  std::optional<Eigen::Vector3d> extrinsics_sigma_rad;
   std::vector<TrackPoint3d> points;
   /// SavedMap::anchor_covariance of the anchors that were named; empty where it cannot be told, or
   /// there are more than 1500 keyframes.

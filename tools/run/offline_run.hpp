@@ -38,7 +38,9 @@ struct RefinedRun {
   std::size_t views_left_out = 0;  ///< as they contradict the others
   /// Of the last camera: a rotation vector, axes of base. 0 where they were taken as exact.
   Eigen::Vector3d extrinsics_error_rad{0, 0, 0};
-  double seconds = 0;  ///< that it took
+  std::optional<Eigen::Vector3d>
+      extrinsics_sigma_rad;  ///< where it was asked how well all is known
+  double seconds = 0;        ///< that it took
 };
 
 /// One pass over a sequence with one odometry.

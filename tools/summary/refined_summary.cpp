@@ -36,9 +36,14 @@ void addRefinement(const RunResult& run, const Trajectory& truth, nlohmann::orde
   summary["refined_points"] = run.refined->points;
   summary["refined_views"] = run.refined->views;
   summary["refined_views_left_out"] = run.refined->views_left_out;
-  const Eigen::Vector3d extrinsics_error_deg = 180 / M_PI * run.refined->extrinsics_error_rad;
-  summary["refined_extrinsics_error_deg"] = {extrinsics_error_deg.x(), extrinsics_error_deg.y(),
-                                             extrinsics_error_deg.z()};
+  const auto inDegrees = [](const Eigen::Vector3d& rad) {
+    const Eigen::Vector3d deg = 180 / M_PI * rad;
+    return nlohmann::ordered_json{deg.x(), deg.y(), deg.z()};
+  };
+  const auto& sigma_rad = run.refined->extrinsics_sigma_rad;
+  summary["refined_extrinsics_error_deg"] = inDegrees(run.refined->extrinsics_error_rad);
+  summary["refined_extrinsics_sigma_deg"] = nullptr;
+  if (sigma_rad) summary["refined_extrinsics_sigma_deg"] = inDegrees(*sigma_rad);
   summary["refine_seconds"] = run.refined->seconds;
 }
 

@@ -108,8 +108,6 @@ INSTANTIATE_TEST_SUITE_P(
         Spoiled{"focal_length", [](Features& m) { m.focal_length = 0; }},
         Spoiled{"focal_length", [](Features& m) { m.focal_length = kFloatNaN; }},
         Spoiled{"50 times the image width", [](Features& m) { m.focal_length = 1e30F; }},
-        Spoiled{"changed_parameters have 10001 characters",
-                [](Features& m) { m.changed_parameters.assign(10'001, 'x'); }},
         Spoiled{"'y' has 9", [](Features& m) { m.y.pop_back(); }},
         Spoiled{"'score' has 11", [](Features& m) { m.score.push_back(1); }},
         Spoiled{"'track_id' has 0", [](Features& m) { m.track_id.clear(); }},
