@@ -10,7 +10,7 @@ import sys
 import numpy as np
 from ardrone_vslam_evaluation.associate import associate
 from ardrone_vslam_evaluation.read_text import read_tum
-from map_campaign import SAME_STAMP_S, Campaign, show
+from map_campaign import SAME_STAMP_S, Campaign, add_usual_options, show
 
 KINDS = ("flown", "refined")
 NOT_FOUND_EXIT = 3  # 1: a program failed
@@ -111,12 +111,7 @@ def main():
     parser.add_argument("--profile", default="drone", help="of the odometry; default: %(default)s")
     parser.add_argument("--seeds", type=seeds_of, default="0:19", metavar="A:B", help="a map each, and the next seeds a flight in each; default: %(default)s")
     parser.add_argument("--flights", type=int, default=20, metavar="N", help="in the one map of a single seed; default: %(default)s")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="programs at a time; default: %(default)s")
-    parser.add_argument("--json", metavar="FILE", help="all flights")
-    parser.add_argument("--no-build", action="store_true", help="with what was built before")
-    parser.add_argument("--programs", metavar="FOLDER", required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--work", metavar="FOLDER", help="for runs and maps; default: map_again in the build folder")
-    parser.add_argument("--version", action="store_true", help="of the package")  # scripts/map_again answers
+    add_usual_options(parser)
     end = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
     arguments = parser.parse_args(sys.argv[1:end])
     arguments.replay = sys.argv[end + 1:]

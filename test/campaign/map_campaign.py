@@ -188,18 +188,23 @@ def report(results):
     return is_well and not wrong and len(right) >= LEAST_FOUND * len(own) and len(found_s) >= LEAST_FOUND * len(errors_m)
 
 
+def add_usual_options(parser):
+    """Of scripts/map_campaign and scripts/map_again."""
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="programs at a time; default: %(default)s")
+    parser.add_argument("--json", metavar="FILE", help="all flights")
+    parser.add_argument("--no-build", action="store_true", help="with what was built before")
+    parser.add_argument("--programs", metavar="FOLDER", required=True, help=argparse.SUPPRESS)
+    parser.add_argument("--work", metavar="FOLDER", help="for flights and maps, some GB; default: %(prog)s in the build folder")
+    parser.add_argument("--version", action="store_true", help="of the package")  # the script answers
+
+
 def main():
     parser = argparse.ArgumentParser(prog="map_campaign", description=__doc__.split(";")[0] + ".")
     parser.add_argument("--starts", type=int, default=50, metavar="N", help="flights in one room's map; default: %(default)s")
     parser.add_argument("--rooms", type=int, default=20, metavar="N", help="that are alike; default: %(default)s")
     parser.add_argument("--starts-in-each", type=int, default=3, metavar="N", help="flights in each of these; default: %(default)s")
     parser.add_argument("--carries", type=int, default=20, metavar="N", help="flights that are carried elsewhere; default: %(default)s")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="programs at a time; default: %(default)s")
-    parser.add_argument("--json", metavar="FILE", help="all tries")
-    parser.add_argument("--no-build", action="store_true", help="with what was built before")
-    parser.add_argument("--programs", metavar="FOLDER", required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--work", metavar="FOLDER", help="for flights and maps, some GB; default: map_campaign in the build folder")
-    parser.add_argument("--version", action="store_true", help="of the package")  # scripts/map_campaign answers
+    add_usual_options(parser)
     arguments = parser.parse_args()
 
     os.makedirs(arguments.work, exist_ok=True)
