@@ -26,6 +26,18 @@ bool isCorridor(const std::string& world) {
   return world == "corridor";
 }
 
+/// Of base. It errs about the drone's axes, whose z is up; base itself may lie otherwise.
+OdometryRun simulateUpright(const Trajectory& truth, const Eigen::Matrix3d& R_body_base,
+                            const OdometryProfile& profile, std::uint64_t seed) {
+  Trajectory upright;
+  for (const StampedPose& pose : truth.poses())
+    upright.append({pose.stamp_ns, pose.T_frame_body * Eigen::Isometry3d(R_body_base.transpose())});
+  OdometryRun odometry = simulateOdometry(upright, profile, seed);
+  for (OdometryState& state : odometry.states)
+    state.T_odom_base = state.T_odom_base * Eigen::Isometry3d(R_body_base);
+  return odometry;
+}
+
 }  // namespace
 
 World makeWorldFor(const WorldOptions& options) {
@@ -44,7 +56,8 @@ WorldSequence::WorldSequence(const WorldOptions& options)
       world_(makeWorldFor(options)),
       camera_(options.camera, options.effects) {
   flyTruth();
-  if (options.odometry) odometry_ = simulateOdometry(truth_, *options.odometry, options.seed);
+  if (options.odometry)
+    odometry_ = simulateUpright(truth_, T_body_base().linear(), *options.odometry, options.seed);
   if (options.range_noise_m) {
     const auto range_m = [this](const Eigen::Isometry3d& T_map_base, std::int64_t stamp_ns) {
       return world_.rangeBelow_m(T_map_base, static_cast<double>(stamp_ns - kFirstStamp_ns) * 1e-9);
@@ -54,7 +67,7 @@ WorldSequence::WorldSequence(const WorldOptions& options)
 }
 
 Eigen::Isometry3d WorldSequence::T_world_base(double t_s) const {
-  return flight_->pose(t_s) * (options_.T_body_cam * options_.T_base_cam.inverse());
+  return flight_->pose(t_s) * T_body_base();
 }
 
 void WorldSequence::flyTruth() {

@@ -73,6 +73,9 @@ class WorldSequence : public Sequence {
 
  private:
   double seconds(std::size_t index) const { return static_cast<double>(index) / options_.rate_hz; }
+  Eigen::Isometry3d T_body_base() const {
+    return options_.T_body_cam * options_.T_base_cam.inverse();
+  }
   Eigen::Isometry3d T_world_base(double t_s) const;
   void flyTruth();
 

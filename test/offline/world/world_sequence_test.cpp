@@ -164,6 +164,22 @@ TEST(WorldSequence, BaseIsWhereItIsAskedForAndTheCameraFliesAlike) {
   EXPECT_TRUE(sameBytes(drone.image(9), camera.image(9)));
 }
 
+TEST(WorldSequence, OdometryErrsAboutTheDronesAxesWhereverBaseLooks) {
+  WorldOptions options = shortFlight(4, 1);
+  options.odometry = test::shippedProfile("drone");
+  options.T_body_cam = options.T_base_cam = cameraNamed("bottom").T_body_cam;
+  const WorldSequence drone(options);
+  options.T_base_cam = forwardCamera();  // base looks down
+  const WorldSequence camera(options);
+  const Eigen::Matrix3d R_body_base = (options.T_body_cam * options.T_base_cam.inverse()).linear();
+  ASSERT_LT(R_body_base(2, 0), -0.9);
+  ASSERT_EQ(camera.odometry().size(), drone.odometry().size());
+  for (std::size_t i = 0; i < drone.odometry().size(); ++i) {
+    const Eigen::Matrix3d expected = drone.odometry()[i].T_odom_base.linear() * R_body_base;
+    ASSERT_TRUE(camera.odometry()[i].T_odom_base.linear().isApprox(expected, 1e-9)) << i;
+  }
+}
+
 TEST(WorldSequence, SeedsDecide) {
   WorldOptions options = shortFlight(4, 1);
   options.odometry = test::shippedProfile("drone");
