@@ -9,8 +9,11 @@ namespace {
 
 /// From one frame to another, as best known without the keyframes about them.
 Eigen::Isometry3d way(const RunFrame& from, const RunFrame& to) {
-  // The filter holds a camera that rests, and takes jumps out of the odometry.
-  const bool is_fused = to.result.state == SlamState::kResting || to.result.odometry_step_m > 0;
+  // The filter holds a camera that rests, and takes jumps out of the odometry. As a rest begins, it
+  // may correct the pose.
+  const bool rests =
+      from.result.state == SlamState::kResting && to.result.state == SlamState::kResting;
+  const bool is_fused = rests || to.result.odometry_step_m > 0;
   const auto pose = [is_fused](const RunFrame& frame) {
     return is_fused ? frame.result.T_map_base : frame.result.T_odom_base;
   };
