@@ -17,6 +17,8 @@ namespace {
 // Of `track_common_px`: with a street's 3.5, which the filter needs, views would hardly count. How
 // well the result is known follows from all of it, as with the best weights: rather too small.
 constexpr double kMostCommon_px = 0.7;
+// Of a distance's logarithm, among those that are compared: half or twice as far.
+constexpr double kDistanceSigma = 0.7;
 
 /// The losses belong to the bundle: views share them.
 ceres::Problem::Options problemOptions() {
@@ -51,8 +53,19 @@ void Bundle::addViews() {
           view.weight.get(), poses_[sight.keyframe].data(), points_[i].position_map.data());
       views_of_[i].push_back(std::move(view));
     }
+    if (points_[i].distance_m > 0) addDistance(points_[i]);
   }
   weighViews(kMostCommon_px);
+}
+
+/// Compared with each other alone: they tell nothing of the scale.
+void Bundle::addDistance(TrackPoint3d& point) {
+  const std::size_t k = point.sights.front().keyframe;
+  const Keyframe& keyframe = record_.keyframes[k];
+  problem_.AddResidualBlock(
+      costOf<DistanceResidual, 1, 6, 3, 1>({keyframe.T_map_base * keyframe.T_base_cam.translation(),
+                                            point.distance_m, kDistanceSigma}),
+      nullptr, poses_[k].data(), point.position_map.data(), &distances_grown_);
 }
 
 void Bundle::weighViews(double most_common_px) {
@@ -94,7 +107,7 @@ void Bundle::drop(double most_sigmas) {
         problem_.RemoveResidualBlock(view.residual);
       }
     }
-    if (views.size() < kFewestViews) {
+    if (views.size() < points_[i].fewestViews()) {
       if (before > 0) problem_.RemoveParameterBlock(points_[i].position_map.data());
       sights.clear();
       views.clear();

@@ -47,6 +47,7 @@ class Bundle {
   };
 
   void addViews();
+  void addDistance(TrackPoint3d& point);
   void weighViews(double most_common_px);
   std::vector<double*> pointBlocks();
 
@@ -57,6 +58,7 @@ class Bundle {
   BundleOdometry odometry_;
   std::vector<TrackPoint3d> points_;
   std::vector<std::vector<View>> views_of_;  // of each point
+  double distances_grown_ = 0;               // all that are compared, by this factor's logarithm
   std::size_t dropped_ = 0;
 };
 

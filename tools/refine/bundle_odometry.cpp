@@ -21,6 +21,13 @@ double radians(double degrees) {
   return degrees * M_PI / 180;
 }
 
+/// What is up in map: a map of camera poses may have its y axis down, but base's z is up.
+Eigen::Vector3d upOf(const FlightRecord& record) {
+  Eigen::Vector3d up_map = Eigen::Vector3d::Zero();
+  for (const Keyframe& keyframe : record.keyframes) up_map += keyframe.T_map_base.linear().col(2);
+  return up_map.normalized();
+}
+
 ceres::CostFunction* priorOf(const Eigen::Vector3d& sigma) {
   return costOf<PriorResidual<3>, 3, 3>({sigma});
 }
@@ -36,6 +43,7 @@ BundleOdometry::BundleOdometry(const FlightRecord& record, KeyframeErrors& poses
     : record_(record),
       poses_(poses),
       problem_(problem),
+      up_map_(upOf(record)),
       biases_(record.keyframes.size()),
       attitudes_(record.keyframes.size()) {
   if (record.config.odometry.extrinsics_sigma_deg > 0) addExtrinsics();
@@ -63,6 +71,7 @@ void BundleOdometry::addExtrinsics() {
 void BundleOdometry::addAttitude(std::size_t k) {
   const Keyframe& keyframe = record_.keyframes[k];
   const AttitudeResidual residual{keyframe.T_map_base.linear(), keyframe.T_odom_base.linear(),
+                                  attitudeAxes_map(k),
                                   radians(record_.config.odometry.attitude_noise_deg)};
   double* pose = poses_[k].data();
   double* attitude = attitudes_[k].data();
@@ -72,6 +81,13 @@ void BundleOdometry::addAttitude(std::size_t k) {
     add(costOf<AttitudeResidual, 3, 6, 3, 3>(residual),
         {pose, attitude, cameras_[camera_of_[k]].error.data()});
   }
+}
+
+/// An accelerometer that errs tilts about base's axes. Yaw walks about what is up.
+Eigen::Matrix3d BundleOdometry::attitudeAxes_map(std::size_t keyframe) const {
+  Eigen::Matrix3d axes_map = record_.keyframes[keyframe].T_odom_base.linear();
+  axes_map.col(2) = up_map_;
+  return axes_map;
 }
 
 void BundleOdometry::addOdometry() {
@@ -118,6 +134,7 @@ void BundleOdometry::addStep(std::size_t to) {
   way.to_map = after.T_map_base.translation();
   way.way_odom_m = after.T_odom_base.translation() - before.T_odom_base.translation();
   way.R_odom_base = before.T_odom_base.linear();
+  way.attitude_axes_map = attitudeAxes_map(to - 1);
   way.duration_s = time_s * (1 - std::exp(-dt_s / time_s));  // of a bias that fades
   way.sigma_m = std::max(std::sqrt(after.way_variance_m2 + by_bias_m2), kLeast);
   add(costOf<WayResidual, 3, 6, 6, 3, 3, 1>(way),

@@ -40,6 +40,7 @@ class BundleOdometry {
 
   void addExtrinsics();
   void addOdometry();
+  Eigen::Matrix3d attitudeAxes_map(std::size_t keyframe) const;
   void addAttitude(std::size_t keyframe);
   void addStep(std::size_t to);
   void addHeights();
@@ -50,6 +51,7 @@ class BundleOdometry {
   ceres::Problem& problem_;
   std::vector<Extrinsics> cameras_;         // empty: they are exact
   std::vector<std::size_t> camera_of_;      // each keyframe
+  Eigen::Vector3d up_map_;                  // unit vector
   std::vector<Vector> biases_, attitudes_;  // of the odometry at the keyframes
   std::vector<double> floors_map_m_;
   double scale_error_ = 0;

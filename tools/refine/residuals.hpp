@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a refinement weighs against each other, as functors that Ceres derives by itself. Each
 // residual is of unit noise. A keyframe's error is a position [m] and a rotation vector on the left
-// [rad], axes of map, beside where it was at first; the odometry's attitude error is a rotation
-// vector likewise.
+// [rad], axes of map, beside where it was at first. The odometry's attitude error is a tilt about
+// base's x and y and a yaw about what is up [rad].
 #pragma once
 
 #include <ceres/autodiff_cost_function.h>
@@ -64,6 +64,21 @@ struct ViewResidual {
   }
 };
 
+/// How far away a point is from a keyframe, beside what all such distances have grown by.
+struct DistanceResidual {
+  Eigen::Vector3d camera_map;  ///< at first
+  double distance_m;           ///< likewise
+  double sigma;                ///< of the logarithm
+
+  template <class T>
+  bool operator()(const T* pose, const T* point, const T* grown, T* residual) const {
+    const Eigen::Map<const Vector3<T>> error(pose), point_map(point);
+    const Vector3<T> offset_map = point_map - error - camera_map.cast<T>();
+    residual[0] = (log(offset_map.norm() / T(distance_m)) - grown[0]) / T(sigma);
+    return true;
+  }
+};
+
 /// The odometry's way between two keyframes, with its errors: attitude, velocity bias (axes of
 /// base), scale. They are put onto the true way: taken off the odometry's, a smaller world would
 /// have less noise.
@@ -71,15 +86,17 @@ struct WayResidual {
   Eigen::Vector3d from_map, to_map;  ///< at first
   Eigen::Vector3d way_odom_m;
   Eigen::Matrix3d R_odom_base;
+  Eigen::Matrix3d attitude_axes_map;
   double duration_s, sigma_m;
 
   template <class T>
   bool operator()(const T* from, const T* to, const T* attitude, const T* bias, const T* scale,
                   T* residual) const {
     const Eigen::Map<const Vector3<T>> a(from), b(to), bias_base(bias);
-    const T back[3] = {-attitude[0], -attitude[1], -attitude[2]};
+    const Eigen::Map<const Vector3<T>> attitude_error(attitude);
+    const Vector3<T> back = -(attitude_axes_map.cast<T>() * attitude_error);
     const Vector3<T> way_map = b - a + (to_map - from_map).cast<T>();
-    const Vector3<T> reported = rotated<T>(back, way_map) * (T(1) + scale[0]) +
+    const Vector3<T> reported = rotated<T>(back.data(), way_map) * (T(1) + scale[0]) +
                                 R_odom_base.cast<T>() * bias_base * T(duration_s);
     return put<T, 3>((reported - way_odom_m.cast<T>()) / T(sigma_m), residual);
   }
@@ -90,12 +107,13 @@ struct WayResidual {
 struct AttitudeResidual {
   Eigen::Matrix3d R_map_rig;  ///< at first
   Eigen::Matrix3d R_odom_base;
+  Eigen::Matrix3d attitude_axes_map;
   double sigma_rad;
 
   template <class T>
   bool operator()(const T* pose, const T* attitude, T* residual) const {
-    const Eigen::Matrix3d R = R_map_rig * R_odom_base.transpose();
-    return put<T, 3>(rotationBetween<T>(pose + 3, R.cast<T>(), attitude) / T(sigma_rad), residual);
+    const T exact[3] = {T(0), T(0), T(0)};
+    return (*this)(pose, attitude, exact, residual);
   }
   template <class T>
   bool operator()(const T* pose, const T* attitude, const T* extrinsics, T* residual) const {
@@ -103,7 +121,9 @@ struct AttitudeResidual {
     ceres::AngleAxisToRotationMatrix(extrinsics, R_base_rig.data());
     const Eigen::Matrix<T, 3, 3> R =
         R_map_rig.cast<T>() * R_base_rig.transpose() * R_odom_base.transpose().cast<T>();
-    return put<T, 3>(rotationBetween<T>(pose + 3, R, attitude) / T(sigma_rad), residual);
+    const Eigen::Map<const Vector3<T>> attitude_error(attitude);
+    const Vector3<T> error_map = attitude_axes_map.cast<T>() * attitude_error;
+    return put<T, 3>(rotationBetween<T>(pose + 3, R, error_map.data()) / T(sigma_rad), residual);
   }
 };
 

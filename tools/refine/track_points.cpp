@@ -8,6 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "trajectory/metrics.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -15,6 +17,7 @@ constexpr double kLeastParallax = 10;  // sigmas of a ray: a distance is known t
 // Further off than poses of a few seconds can be: a track that jumped, a wrong landmark.
 constexpr double kOffTrack_rad = 0.02;
 constexpr double kOffLandmark_rad = 0.1;
+constexpr std::size_t kFewPoints = 10;  // in a keyframe
 
 Sight sightOf(const KeyframeView& view, std::size_t index, const Keyframe& keyframe) {
   const Eigen::Vector3d bearing_cam = view.bearing_cam.cast<double>();
@@ -128,6 +131,63 @@ TrackPoint3d jointPoint(std::uint32_t landmark_id, const std::vector<const Sight
   return point;
 }
 
+double distance_m(const TrackPoint3d& point, const Sight& sight, const FlightRecord& record) {
+  return (point.position_map - rayOf(sight, record).origin_map).norm();
+}
+
+/// How far away what each keyframe sees is, in the median; 0: it sees few points.
+std::vector<double> distances_m(const FlightRecord& record,
+                                const std::vector<TrackPoint3d>& points) {
+  std::vector<std::vector<double>> seen_m(record.keyframes.size());
+  for (const TrackPoint3d& point : points) {
+    for (const Sight& sight : point.sights)
+      seen_m[sight.keyframe].push_back(distance_m(point, sight, record));
+  }
+  std::vector<double> medians_m;
+  for (const std::vector<double>& one : seen_m)
+    medians_m.push_back(one.size() < kFewPoints ? 0 : quantile(one, 0.5));
+  return medians_m;
+}
+
+/// The nearest entry that is not 0; the number of entries when there is none.
+std::size_t nearestKnown(const std::vector<double>& values, std::size_t index) {
+  const std::size_t count = values.size();
+  for (std::size_t off = 0; off < count; ++off) {
+    if (index + off < count && values[index + off] > 0) return index + off;
+    if (off <= index && values[index - off] > 0) return index - off;
+  }
+  return count;
+}
+
+/// Of these tracks those that a keyframe with few points sees.
+void addPresumed(const FlightRecord& record, const std::vector<const Sights*>& tracks,
+                 std::vector<TrackPoint3d>& points) {
+  const std::vector<double> known_m = distances_m(record, points);
+  const std::size_t placed = points.size();
+  std::vector<bool> is_compared(record.keyframes.size(), false);
+  for (const Sights* sights : tracks) {
+    const bool is_wanted = std::any_of(sights->begin(), sights->end(), [&](const Sight& sight) {
+      return known_m[sight.keyframe] == 0;
+    });
+    const std::size_t near = nearestKnown(known_m, sights->front().keyframe);
+    if (!is_wanted || sights->size() < kFewestPresumedViews || near == known_m.size()) continue;
+    is_compared[near] = true;
+    TrackPoint3d point;
+    point.is_presumed = true;
+    point.distance_m = known_m[near];
+    point.sights = *sights;
+    const MapRay first = rayOf(sights->front(), record);
+    point.position_map = first.origin_map + point.distance_m * first.direction_map;
+    points.push_back(std::move(point));
+  }
+  for (std::size_t i = 0; i < placed; ++i) {
+    TrackPoint3d& point = points[i];
+    if (std::any_of(point.sights.begin(), point.sights.end(),
+                    [&](const Sight& sight) { return is_compared[sight.keyframe]; }))
+      point.distance_m = distance_m(point, point.sights.front(), record);
+  }
+}
+
 }  // namespace
 
 std::vector<TrackPoint3d> pointsOf(const FlightRecord& record) {
@@ -135,6 +195,7 @@ std::vector<TrackPoint3d> pointsOf(const FlightRecord& record) {
   const auto landmark_of_track = landmarksOf(record);
   std::map<std::uint32_t, std::vector<const Sights*>> of_landmark;
   std::vector<TrackPoint3d> points;
+  std::vector<const Sights*> without_parallax;
   for (const auto& [id, sights] : tracks) {
     const auto found = landmark_of_track.find(id);
     TrackPoint3d point;
@@ -143,13 +204,18 @@ std::vector<TrackPoint3d> pointsOf(const FlightRecord& record) {
       point.landmark_id = found->second;
       of_landmark[found->second].push_back(&sights);
     }
-    if (place(record, point)) points.push_back(std::move(point));
+    if (place(record, point)) {
+      points.push_back(std::move(point));
+    } else {
+      without_parallax.push_back(&sights);
+    }
   }
   for (const auto& [id, its_tracks] : of_landmark) {
     if (its_tracks.size() < 2) continue;
     TrackPoint3d point = jointPoint(id, its_tracks, record);
     if (place(record, point)) points.push_back(std::move(point));
   }
+  addPresumed(record, without_parallax, points);
   return points;
 }
 
