@@ -32,7 +32,7 @@ struct CornerDetectorConfig {
   // No parameters: what the thesis's experiments, benchmarks and tests vary. The defaults were the
   // best or the cheapest there.
   int arc_length_px = 12;    ///< contiguous circle pixels that make a corner: 9 to 12
-  int threshold = 35;        ///< grey-level difference of a circle pixel; unused where it adapts
+  int threshold = 35;        ///< grey-level difference of a circle pixel; the start when it adapts
   int threshold_max = 120;   ///< highest that adaptation chooses
   int sampling_passes = 16;  ///< pixels tested in each 4x4 block, 1 to 16: 16 finds every corner
   Suppression suppression = Suppression::kLocalClimb;  ///< of neighbouring corners

@@ -31,6 +31,12 @@ const CornerDetectorConfig& checked(const CornerDetectorConfig& config) {
     faults.push_back("threshold_min is " + text(config.threshold_min) +
                      " but threshold_max is only " + text(config.threshold_max) +
                      "; set threshold_min to at most threshold_max");
+  } else if (config.adapt_threshold &&
+             (config.threshold < config.threshold_min || config.threshold > config.threshold_max)) {
+    faults.push_back("threshold is " + text(config.threshold) +
+                     " but must be between threshold_min (" + text(config.threshold_min) +
+                     ") and threshold_max (" + text(config.threshold_max) +
+                     "); widen that range or switch adapt_threshold off");
   }
   if (!faults.empty()) throw ConfigError(faults);
   return config;

@@ -13,8 +13,8 @@ constexpr int kMostShares = 4;  ///< so that one textured cell alone does not tr
 void CornerThresholds::reset(const CornerDetectorConfig& config, int cell_count) {
   config_ = config;
   share_ = std::max(1, config.features_per_frame / cell_count);
-  const int first = config.adapt_threshold ? config.threshold_min : config.threshold;
-  threshold_.assign(static_cast<std::size_t>(cell_count), static_cast<std::uint8_t>(first));
+  threshold_.assign(static_cast<std::size_t>(cell_count),
+                    static_cast<std::uint8_t>(config.threshold));
 }
 
 void CornerThresholds::adapt(const CornersByCell& corners) {

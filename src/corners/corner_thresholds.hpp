@@ -19,8 +19,7 @@ namespace ardrone_vslam {
 /// of it. So low thresholds after dark images are undone by the first bright one.
 class CornerThresholds {
  public:
-  /// Starts all cells at `config.threshold`; where they adapt, as low as they may go, so that the
-  /// first image has all its corners: too many are undone by the next.
+  /// Starts all cells at `config.threshold`.
   void reset(const CornerDetectorConfig& config, int cell_count);
 
   int at(int cell) const { return threshold_[static_cast<std::size_t>(cell)]; }

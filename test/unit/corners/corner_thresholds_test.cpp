@@ -6,22 +6,13 @@
 namespace ardrone_vslam {
 namespace {
 
-/// One cell, a share of 10 corners, whose threshold has risen to 35.
+/// One cell, a share of 10 corners.
 class CornerThresholdsTest : public testing::Test {
  protected:
   CornerThresholdsTest() {
     config_.features_per_frame = 10;
     cells_.reset(100, 100, 100);
     thresholds_.reset(config_, 1);
-    std::vector<Corner> corners(15, Corner{5, 5, 35});
-    corners.resize(25, Corner{5, 5, 8});
-    show(corners);
-  }
-
-  void show(const std::vector<Corner>& corners) {
-    CornersByCell by_cell;
-    by_cell.group(corners, cells_);
-    thresholds_.adapt(by_cell);
   }
 
   /// Shows it an image that has `count` corners at the present threshold, their scores one apart,
@@ -32,7 +23,9 @@ class CornerThresholdsTest : public testing::Test {
       corners.push_back(
           {static_cast<std::int16_t>(i), 5, static_cast<std::uint8_t>(thresholds_.at(0) + i)});
     }
-    show(corners);
+    CornersByCell by_cell;
+    by_cell.group(corners, cells_);
+    thresholds_.adapt(by_cell);
     return thresholds_.at(0);
   }
 
@@ -41,9 +34,8 @@ class CornerThresholdsTest : public testing::Test {
   CornerThresholds thresholds_;
 };
 
-TEST_F(CornerThresholdsTest, StartsSoLowThatTheFirstImageHasAllItsCorners) {
-  thresholds_.reset(config_, 1);
-  EXPECT_EQ(thresholds_.at(0), config_.threshold_min);
+TEST_F(CornerThresholdsTest, StartsAtTheConfiguredOne) {
+  EXPECT_EQ(thresholds_.at(0), 35);
 }
 
 TEST_F(CornerThresholdsTest, StaysInsideTheBand) {
@@ -71,7 +63,10 @@ TEST_F(CornerThresholdsTest, StaysWithinItsLimits) {
 }
 
 TEST_F(CornerThresholdsTest, ManyEqualCornersDoNotStarveTheCell) {
-  show(std::vector<Corner>(50, Corner{5, 5, 35}));
+  std::vector<Corner> corners(50, Corner{5, 5, 35});
+  CornersByCell by_cell;
+  by_cell.group(corners, cells_);
+  thresholds_.adapt(by_cell);
   EXPECT_EQ(thresholds_.at(0), 35);  // 36 would leave none
 }
 

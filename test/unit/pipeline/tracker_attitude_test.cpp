@@ -12,6 +12,7 @@ std::vector<Descriptor> describe(bool use_attitude, std::optional<float> rotatio
   static const test::TestImage image = test::generatedImage(320, 240);
   TrackerConfig config;
   config.use_attitude = use_attitude;
+  config.corners.threshold = 8;
   Tracker tracker(config, test::pinhole(320, 240, 300));
   ImageFeatures features;
   tracker.process(image.view(), 1, features, {}, rotation_rad);

@@ -13,6 +13,7 @@ namespace {
 ImageFeatures featuresOf(const test::TestImage& image, int budget) {
   TrackerConfig config;
   config.corners.features_per_frame = budget;
+  config.corners.threshold = config.corners.threshold_min;
   Tracker tracker(config, test::pinhole(image.width_px, image.height_px, image.width_px));
   ImageFeatures features;
   tracker.process(image.view(), 1, features);
