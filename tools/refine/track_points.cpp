@@ -169,8 +169,9 @@ void addPresumed(const FlightRecord& record, const std::vector<const Sights*>& t
     const bool is_wanted = std::any_of(sights->begin(), sights->end(), [&](const Sight& sight) {
       return known_m[sight.keyframe] == 0;
     });
+    if (!is_wanted || sights->size() < kFewestPresumedViews) continue;
     const std::size_t near = nearestKnown(known_m, sights->front().keyframe);
-    if (!is_wanted || sights->size() < kFewestPresumedViews || near == known_m.size()) continue;
+    if (near == known_m.size()) continue;
     is_compared[near] = true;
     TrackPoint3d point;
     point.is_presumed = true;

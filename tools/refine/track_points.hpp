@@ -13,8 +13,8 @@ namespace ardrone_vslam {
 /// Root of what is known of a ray's direction [1/rad]: of unit noise is root * (true - measured).
 using SightRoot = Eigen::Matrix<double, 2, 3>;
 
-constexpr std::size_t kFewestViews = 3;  ///< two rays nearly always meet somewhere
-constexpr std::size_t kFewestPresumedViews = 2;
+constexpr std::size_t kFewestViews = 3;          ///< two rays nearly always meet somewhere
+constexpr std::size_t kFewestPresumedViews = 2;  ///< one compares with nothing
 
 /// A keyframe's view of a point.
 struct Sight {
@@ -42,7 +42,8 @@ struct TrackPoint3d {
 /// that lie beside each other: the landmark is a point of its own, seen at the ends of these
 /// tracks, and known as well as a match is. Keyframes that see few such points, as those of a
 /// flight that begins at rest, see the tracks without parallax, too. These are presumed to be as
-/// far away as what the nearest other keyframe sees, with which they are to be compared. O(views).
+/// far away as what the nearest other keyframe sees, with which they are to be compared.
+/// O(views), and keyframes for each that is presumed.
 std::vector<TrackPoint3d> pointsOf(const FlightRecord& record);
 
 }  // namespace ardrone_vslam
