@@ -3,8 +3,10 @@
 publishes, with stamps of its own that do not depend on the machine's speed."""
 import threading
 import time
+import xmlrpc.client
 
 import numpy as np
+import rosgraph
 import rospy
 from ardrone_vslam.msg import Status
 from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
@@ -75,6 +77,15 @@ def pose_of(pose):
     return matrix(pose.position, pose.orientation)
 
 
+def is_heard(topic):
+    """Whether somebody subscribes to it, and all who do are connected to who publishes it."""
+    me = rospy.get_name()
+    master = rosgraph.Master(me)
+    nodes = [node for name, nodes in master.getSystemState()[1] if name == topic for node in nodes]
+    inputs = [xmlrpc.client.ServerProxy(master.lookupNode(node)).getBusInfo(me)[2] for node in nodes if node != me]
+    return bool(inputs) and all(any(direction == "i" and name == topic for _, _, direction, _, name, *_ in one) for one in inputs)
+
+
 def play(recorders):
     """Lets the paused player of replay.launch begin, once all recorders are connected."""
     end_s = time.monotonic() + TIMEOUT_S
@@ -118,6 +129,7 @@ class Drone:
         self._odometry = rospy.Publisher(odometry, Odometry, queue_size=100)
         self._mountings = [] if mountings is None else mountings
         self._tf = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        self._features = rospy.resolve_name(vslam + "/features")
         self.pose = Recorder(vslam + "/pose", PoseWithCovarianceStamped)
         self.status = Recorder(vslam + "/status", Status)
         self.log = Recorder("/rosout", Log)
@@ -126,13 +138,12 @@ class Drone:
         return self.prefix + "/" + name if self.prefix else name
 
     def connect(self):
-        """Waits until the nodelets listen."""
+        """Waits until the nodelets listen, to the drone and to each other."""
         end_s = time.monotonic() + TIMEOUT_S
-        publishers = [self._images, self._infos, self._odometry, self._tf]
-        while any(p.get_num_connections() == 0 for p in publishers):
+        topics = [p.resolved_name for p in (self._images, self._infos, self._odometry, self._tf)] + [self._features]
+        while not all(map(is_heard, topics)):
             if time.monotonic() > end_s:
-                raise RuntimeError("the nodelets do not subscribe to " + ", ".join(
-                    p.name for p in publishers if p.get_num_connections() == 0))
+                raise RuntimeError("the nodelets do not subscribe to " + ", ".join(t for t in topics if not is_heard(t)))
             time.sleep(0.05)
 
     def mount_camera(self, forward_m=0.21, camera="camera_optical", left_px=0):
