@@ -32,6 +32,7 @@ constexpr double kNsPerS = 1e9;
 
 struct Options {
   double hours = 24;
+  double way_s = ThereAndBack::kLap_s;
   double report_minutes = 0;  // 0: as the hours suggest
   double wall_limit_s = 0;    // 0: none
   double first_stamp_s = 1;
@@ -150,7 +151,7 @@ std::vector<SoakRow> fly(const Options& o, ThereAndBack& flight, Pipeline& pipel
 int run(const Options& o) {
   PipelineConfig config =
       loadConfig(o.config.empty() ? findConfigFile("ardrone_onboard.yaml") : o.config, o.overrides);
-  ThereAndBack flight(o.seed);
+  ThereAndBack flight(o.way_s, o.seed);
   Pipeline pipeline(config, o, flight);
   const std::vector<SoakRow> rows = fly(o, flight, pipeline);
   const std::vector<std::string> faults = faultsOf(rows, {});
@@ -167,6 +168,12 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--hours", o.hours, "of flight at 30 Hz")
       ->capture_default_str()
       ->check(numberWithin(0.001, 1e6));
+  app.add_option(
+         "--way-seconds", o.way_s,
+         "of images, flown there and back: one lap from rest to rest; other than 21.5: laps "
+         "that turn round at once. 2.3 MB each")
+      ->capture_default_str()
+      ->check(numberWithin(1, 3600));
   app.add_option("--report-minutes", o.report_minutes,
                  "of flight from report to report; default: 60, 5 below 12 hours, an eighth of the "
                  "flight below one hour")
@@ -195,7 +202,7 @@ void addOptions(CLI::App& app, Options& o) {
 int main(int argc, char** argv) {
   using namespace ardrone_vslam;
   CLI::App app{
-      "Flies a rendered lap there and back for hours, through tracker and mapper, as fast as it "
+      "Flies rendered laps there and back for hours, through tracker and mapper, as fast as it "
       "goes. Exit code 1 when memory, handles, threads, the error or NEES grow.",
       "soak"};
   test::Options options;

@@ -10,7 +10,6 @@
 namespace ardrone_vslam::test {
 namespace {
 
-constexpr double kLap_s = 21.5;  // the whole of it: there the drone is at rest
 constexpr double kNoise_grey = 2;
 constexpr std::size_t kNoiseOffsets = 1 << 20;
 
@@ -27,22 +26,22 @@ CameraIntrinsics smallCamera() {
 
 }  // namespace
 
-ThereAndBack::ThereAndBack(std::uint64_t seed)
+ThereAndBack::ThereAndBack(double way_s, std::uint64_t seed)
     : camera_(smallCamera()), T_base_cam_(arDroneFrontMount()), random_(seed) {
   WorldOptions options;
-  options.flight = "laps_then_hover";
+  options.flight = way_s == kLap_s ? "laps_then_hover" : "laps";
   options.camera = camera_;
   options.effects.noise_grey = 0;
-  // One image more: both ends of the lap are in it.
-  options.duration_s = kLap_s + 1.0 / kImages_hz;
-  WorldSequence lap(options);
-  for (std::size_t i = 0; i < lap.size(); ++i) {
-    images_.push_back(lap.image(i));
-    T_map_base_of_images_.push_back(lap.truth().poses()[i].T_frame_body);
+  // One image more: both ends of the way are in it.
+  options.duration_s = way_s + 1.0 / kImages_hz;
+  WorldSequence way(options);
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    images_.push_back(way.image(i));
+    T_map_base_of_images_.push_back(way.truth().poses()[i].T_frame_body);
   }
   // Base is the middle of the drone.
-  for (int i = 0; i <= std::lround(kLap_s * kPoses_hz); ++i)
-    T_map_base_.push_back(lap.flight().pose(static_cast<double>(i) / kPoses_hz));
+  for (int i = 0; i <= std::lround(way_s * kPoses_hz); ++i)
+    T_map_base_.push_back(way.flight().pose(static_cast<double>(i) / kPoses_hz));
   noise_.resize(images_.front().total() + kNoiseOffsets);
   for (std::int8_t& value : noise_)
     value = static_cast<std::int8_t>(std::lround(kNoise_grey * random_.normal()));

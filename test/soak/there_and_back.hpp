@@ -13,16 +13,20 @@
 
 namespace ardrone_vslam::test {
 
-/// A flight without end from the images of one lap: the lap is flown forth, then back on the same
-/// way, and so on. It is at rest at both ends. Images are rendered once, without noise; each that
-/// is asked for has noise of its own, as what repeats exactly would be taken for new evidence.
+/// A flight without end from the images of one way: it is flown forth, then back, and so on. Images
+/// are rendered once, without noise; each that is asked for has noise of its own, as what repeats
+/// exactly would be taken for new evidence.
 class ThereAndBack {
  public:
   static constexpr int kImages_hz = 30;
   static constexpr int kPoses_hz = 200;
 
-  /// Renders, which takes some seconds. @param seed  of the noise
-  explicit ThereAndBack(std::uint64_t seed);
+  static constexpr double kLap_s = 21.5;  ///< one lap, at rest at both ends
+
+  /// Renders, which takes some seconds a lap, and 2.3 MB a second.
+  /// @param way_s  kLap_s, or else so long of laps without a rest, which turn round at once
+  /// @param seed  of the noise
+  ThereAndBack(double way_s, std::uint64_t seed);
 
   /// Of the whole flight's images from 0 on; good until the next call.
   ImageView image(std::uint64_t index);
@@ -37,10 +41,10 @@ class ThereAndBack {
 
  private:
   template <class Item>
-  static const Item& at(const std::vector<Item>& lap, std::uint64_t index) {
-    const std::uint64_t last = lap.size() - 1;
+  static const Item& at(const std::vector<Item>& way, std::uint64_t index) {
+    const std::uint64_t last = way.size() - 1;
     const std::uint64_t there = index % (2 * last);
-    return lap[there <= last ? there : 2 * last - there];
+    return way[there <= last ? there : 2 * last - there];
   }
 
   CameraIntrinsics camera_;
