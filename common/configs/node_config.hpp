@@ -89,6 +89,22 @@ void visitParameters(OutputsConfig& c, Visitor&& visit) {
   visit(ParameterInfo{"publish_tf", "switch", 0, 0, "send tf map -> odom"}, c.publish_tf);
 }
 
+/// When a file gets the map in flight.
+struct AutosaveConfig {
+  double autosave_s = 60;
+
+  /// @return 0: only at the end
+  double period_s() const { return autosave_s > 0 ? std::max(autosave_s, 1.0) : 0; }
+};
+
+template <class Visitor>
+void visitParameters(AutosaveConfig& c, Visitor&& visit) {
+  visit(ParameterInfo{"autosave_s", "s", 0, 86400,
+                      "how often `save_map` gets the map in flight: what a crash may cost. Also "
+                      "read by vslam_onboard; below 1 counts as 1, 0: only at the end"},
+        c.autosave_s);
+}
+
 struct MapperNodeConfig {
   std::string map_frame = "map";
   std::string odom_frame;  // empty: the odometry's header.frame_id
@@ -97,7 +113,7 @@ struct MapperNodeConfig {
   OutputsConfig outputs;
   std::string map_file;  // empty: none
   std::string save_map;  // empty: none
-  double autosave_s = 60;
+  AutosaveConfig autosave;
   int queue_size = 10;
 };
 
@@ -124,16 +140,8 @@ void visitParameters(MapperNodeConfig& c, Visitor&& visit) {
                       "`localise_only`; relative paths as those of `map_file`. Also read by "
                       "vslam_onboard; empty: none"},
         c.save_map);
-  visit(ParameterInfo{"autosave_s", "s", 0, 86400,
-                      "how often `save_map` gets the map in flight: what a crash may cost. Also "
-                      "read by vslam_onboard; below 1 counts as 1, 0: only at the end"},
-        c.autosave_s);
+  visitParameters(c.autosave, visit);
   visit(ParameterInfo{"queue_size", "images", 1, 10000, effects::kQueue}, c.queue_size);
-}
-
-/// @return 0: only at the end
-inline double autosavePeriod_s(const MapperNodeConfig& c) {
-  return c.autosave_s > 0 ? std::max(c.autosave_s, 1.0) : 0;
 }
 
 struct OdometryFusionNodeConfig {

@@ -30,8 +30,24 @@ void visitParameters(HeightConfig& c, Visitor&& visit) {
         c.height_sigma_m);
 }
 
+/// How a map of an earlier flight is used.
+struct LoadedMapConfig {
+  bool localise_only = false;
+};
+
+template <class Visitor>
+void visitParameters(LoadedMapConfig& c, Visitor&& visit) {
+  visit(
+      ParameterInfo{
+          "localise_only", "switch", 0, 0,
+          "a loaded map is never changed, and counts as exact: what it errs by is added to "
+          "the pose's covariance. Without a loaded map there are no landmarks then. In flight it "
+          "counts from the next `load_map` or `reset` on"},
+      c.localise_only);
+}
+
 /// What the filter believes of odometry, rays and landmarks, and when it uses them.
-struct MsckfConfig {
+struct MsckfConfig : LoadedMapConfig {
   OdometryNoiseConfig odometry;
   double track_sigma_px = 1;
   double track_common_px = 0.7;
@@ -41,7 +57,6 @@ struct MsckfConfig {
   /// Landmarks of one place err alike: together they are not taken as better than so many
   /// independent ones. No parameter.
   int fix_independent_landmarks = 10;
-  bool localise_only = false;
   HeightConfig height;
 
   // No parameter, but varied by tests.
@@ -76,12 +91,7 @@ void visitParameters(MsckfConfig& c, Visitor&& visit) {
                       "landmarks of an anchor younger than this share the present drift and do not "
                       "correct it"},
         c.fix_min_age_s);
-  visit(
-      ParameterInfo{
-          "localise_only", "switch", 0, 0,
-          "a loaded map is never changed, and counts as exact: what it errs by is added to "
-          "the pose's covariance. Without a loaded map there are no landmarks then"},
-      c.localise_only);
+  visitParameters(static_cast<LoadedMapConfig&>(c), visit);
 }
 
 }  // namespace ardrone_vslam

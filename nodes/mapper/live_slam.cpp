@@ -18,15 +18,19 @@ std::string differenceOf(const SavedMap& map, const CameraIdentity& camera) {
 
 }  // namespace
 
+LiveSlam::InUse::InUse(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam)
+    : slam(config, T_base_cam),
+      recorder(config, T_base_cam, kMostOfFlight_bytes),
+      loaded_map(config.msckf) {}
+
 void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& T_base_cam,
                          const std::string& base, const std::string& frame) {
-  if (slam_) {
-    slam_->changeCamera(T_base_cam);
-    recorder_->useCamera(T_base_cam);
+  if (in_use_) {
+    in_use_->slam.changeCamera(T_base_cam);
+    in_use_->recorder.useCamera(T_base_cam);
   } else {
-    slam_ = std::make_unique<Slam>(config_, T_base_cam);
-    recorder_.emplace(config_, T_base_cam, kMostOfFlight_bytes);
-    if (loaded_) slam_->load(*loaded_);
+    in_use_.emplace(config_, T_base_cam);
+    if (loaded_) in_use_->slam.load(*loaded_);
   }
   setup_.useCamera(T_base_cam, base, frame);
   camera_ = camera;
@@ -35,55 +39,58 @@ void LiveSlam::useCamera(const CameraIdentity& camera, const Eigen::Isometry3d& 
 
 void LiveSlam::useMap(std::shared_ptr<const SavedMap> loaded) {
   std::string fault = faultOfMaps(config_, loaded ? loaded->landmarks.size() : 0);
-  if (fault.empty() && loaded && slam_) fault = differenceOf(*loaded, camera_);
+  if (fault.empty() && loaded && in_use_) fault = differenceOf(*loaded, camera_);
   if (loaded && !fault.empty()) throw MapFileError(fault);
   loaded_ = std::move(loaded);
 }
 
 std::string LiveSlam::mapFault(const CameraIdentity& camera) const {
-  return loaded_ && !slam_ ? differenceOf(*loaded_, camera) : "";
+  return loaded_ && !in_use_ ? differenceOf(*loaded_, camera) : "";
 }
 
 MapSnapshot LiveSlam::save() const {
-  if (slam_ && !slam_->hasWholeMap())
+  if (in_use_ && !in_use_->slam.hasWholeMap())
     throw MapFileError(std::string("nothing is saved: ") + explain(SlamState::kSearchingMap));
-  MapSnapshot map = slam_ ? slam_->save() : MapSnapshot();
+  MapSnapshot map = in_use_ ? in_use_->slam.save() : MapSnapshot();
   if (map.landmarks.empty()) throw MapFileError("there is no landmark to save: fly first");
-  map.all_but_landmarks.flight = recorder_->record();
+  map.all_but_landmarks.flight = in_use_->recorder.record();
   return map;
 }
 
 void LiveSlam::lookNear(const PlaceHint& hint) {
-  if (!slam_) throw MapFileError("no image has come yet; say it again when one has");
-  slam_->lookNear(hint);
+  if (!in_use_) throw MapFileError("no image has come yet; say it again when one has");
+  in_use_->slam.lookNear(hint);
 }
 
-void LiveSlam::limit(const LandmarkMapConfig& landmark_map, const FrameBudgetConfig& frame_budget) {
-  SlamConfig limited = config_;
-  limited.landmark_map = landmark_map;
-  limited.frame_budget = frame_budget;
-  const std::string fault = faultOfMaps(limited, loaded_ ? loaded_->landmarks.size() : 0);
+void LiveSlam::change(const LandmarkMapConfig& landmark_map, const FrameBudgetConfig& frame_budget,
+                      const LoadedMapConfig& loaded_map) {
+  SlamConfig changed = config_;
+  changed.landmark_map = landmark_map;
+  changed.frame_budget = frame_budget;
+  changed.msckf.localise_only = loaded_map.localise_only || (in_use_ && isMapFixed());
+  const std::string fault = faultOfMaps(changed, loaded_ ? loaded_->landmarks.size() : 0);
   if (loaded_ && !fault.empty()) throw std::invalid_argument(fault);
-  if (slam_) slam_->limit(landmark_map, frame_budget);
-  config_ = limited;
+  if (in_use_) in_use_->slam.limit(landmark_map, frame_budget);
+  changed.msckf.localise_only = loaded_map.localise_only;
+  config_ = changed;
 }
 
 void LiveSlam::endMap() {
   ++counts_.restarts;
-  slam_.reset();
+  in_use_.reset();
   answered_ns_ = 0;
 }
 
 const FrameResult& LiveSlam::process(const Features& message, OdometryState odometry,
                                      const OdometryBuffer& odometries) {
   toFeatures(message, features_);
-  setup_.see(features_, odometries, *slam_);
+  setup_.see(features_, odometries, in_use_->slam);
   odometry.stamp_ns = features_.stamp_ns;  // the pose keeps the image's stamp
   times_ms_ = {};
   StageTimer timer(times_ms_);
   const FrameResult& result =
-      slam_->process(features_, odometry, timer.hook(), StageTimer::clock());
-  recorder_->see(features_, odometry, result, slam_->landmarks());
+      in_use_->slam.process(features_, odometry, timer.hook(), StageTimer::clock());
+  in_use_->recorder.see(features_, odometry, result, in_use_->slam.landmarks());
   has_answered_ = true;
   if (result.height == HeightOutcome::kRejected) ++counts_.heights_rejected;
   for (std::size_t i = 0; i < counts_.left_out.size(); ++i)

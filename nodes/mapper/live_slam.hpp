@@ -24,7 +24,7 @@ class LiveSlam {
   LiveSlam(const SlamConfig& config, Warnings& warnings)
       : config_(config), setup_(config.image_time_offset_s, warnings) {}
 
-  bool hasMap() const { return slam_ != nullptr; }
+  bool hasMap() const { return in_use_.has_value(); }
   /// As useCamera() was told last.
   const CameraIdentity& camera() const { return camera_; }
   const Eigen::Isometry3d& T_base_cam() const { return T_base_cam_; }
@@ -38,13 +38,16 @@ class LiveSlam {
   void useMap(std::shared_ptr<const SavedMap> loaded);
   /// What tells this camera from the loaded map's; empty when nothing does, and without such a map.
   std::string mapFault(const CameraIdentity& camera) const;
+  /// With localise_only there is nothing new to save.
+  bool isMapFixed() const { return (in_use_ ? in_use_->loaded_map : config_.msckf).localise_only; }
   /// The map for a file. @throws MapFileError when there is none, or none of the loaded map's frame
   MapSnapshot save() const;
   /// @throws std::exception when there is no map to look in
   void lookNear(const PlaceHint& hint);
-  /// Of the map in use and of later ones.
+  /// Of the map in use and of later ones. @param loaded_map  of later ones alone
   /// @throws std::invalid_argument where landmarks of a map that is not to be changed would go
-  void limit(const LandmarkMapConfig& landmark_map, const FrameBudgetConfig& frame_budget);
+  void change(const LandmarkMapConfig& landmark_map, const FrameBudgetConfig& frame_budget,
+              const LoadedMapConfig& loaded_map);
   void countCameraChange() { ++counts_.camera_changes; }
   void endMap();
 
@@ -57,7 +60,7 @@ class LiveSlam {
   const ImageFeatures& features() const { return features_; }
   double milliseconds(Stage stage) const { return times_ms_[static_cast<std::size_t>(stage)]; }
   /// @pre hasMap()
-  const Slam& slam() const { return *slam_; }
+  const Slam& slam() const { return in_use_->slam; }
   /// Stamp of the newest image in the map; 0: none.
   std::int64_t answered_ns() const { return answered_ns_; }
   /// To be called once a second. @return whether an image was answered within it
@@ -76,10 +79,18 @@ class LiveSlam {
   void fill(Status& status) const;
 
  private:
+  /// From the begin of a map to its end.
+  struct InUse {
+    InUse(const SlamConfig& config, const Eigen::Isometry3d& T_base_cam);
+
+    Slam slam;
+    FlightRecorder recorder;
+    LoadedMapConfig loaded_map;  ///< as it began
+  };
+
   SlamConfig config_;
   std::shared_ptr<const SavedMap> loaded_;
-  std::unique_ptr<Slam> slam_;
-  std::optional<FlightRecorder> recorder_;  // of the map in use
+  std::optional<InUse> in_use_;
   SetupReport setup_;
   CameraIdentity camera_;
   Eigen::Isometry3d T_base_cam_ = Eigen::Isometry3d::Identity();

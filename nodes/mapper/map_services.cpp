@@ -3,7 +3,6 @@
 
 #include <ros/console.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -12,9 +11,8 @@
 namespace ardrone_vslam {
 namespace {
 
-constexpr char kMadeBy[] = "mapper " ARDRONE_VSLAM_VERSION;
 constexpr std::chrono::seconds kPatience(10);  // for the mapper's thread
-constexpr double kFirstKept_s = 10;
+constexpr double kKeepTick_s = 0.2;            // how late a file may be kept
 constexpr double kSayEvery_s = 60;
 
 std::filesystem::path folderOfMaps() {
@@ -38,20 +36,19 @@ std::string pathOf(const std::string& name) {
 
 }  // namespace
 
-MapServices::MapServices(const ros::NodeHandle& private_nh, Calls calls, const Kept& kept)
+MapServices::MapServices(const ros::NodeHandle& private_nh, Calls calls, const std::string& kept)
     : calls_(std::move(calls)),
       nh_(private_nh),
-      kept_(kept.file.empty() ? "" : (folderOfMaps() / kept.file).string()),
+      kept_(kept.empty() ? "" : (folderOfMaps() / kept).string()),
       spinner_(1, &queue_) {
   nh_.setCallbackQueue(&queue_);
   servers_ = {nh_.advertiseService("save_map", &MapServices::onSave, this),
               nh_.advertiseService("load_map", &MapServices::onLoad, this),
               nh_.advertiseService("reset", &MapServices::onReset, this)};
   initial_pose_ = nh_.subscribe("/initialpose", 1, &MapServices::onInitialPose, this);
-  const double every_s = kept.every_s;
-  if (!kept_.empty() && every_s > 0)
-    timer_ = nh_.createWallTimer(ros::WallDuration(std::min(kFirstKept_s, every_s)),
-                                 [this, every_s](const ros::WallTimerEvent&) { onTimer(every_s); });
+  if (!kept_.path().empty())
+    timer_ = nh_.createWallTimer(ros::WallDuration(kKeepTick_s),
+                                 [this](const ros::WallTimerEvent&) { onTimer(); });
   spinner_.start();
 }
 
@@ -63,11 +60,11 @@ MapServices::~MapServices() {
     tasks_.clear();
   }
   spinner_.stop();
-  if (kept_.empty()) return;
+  if (kept_.path().empty() || calls_.is_fixed()) return;
   try {
-    keep(calls_.save());
+    kept_.keep(calls_.save());
   } catch (const std::exception& e) {
-    ROS_WARN_STREAM("save_map: " << kept_ << " gets no map at the end: " << e.what());
+    ROS_WARN_STREAM("save_map: " << kept_.path() << " gets no map at the end: " << e.what());
   }
 }
 
@@ -113,49 +110,36 @@ void MapServices::onInitialPose(const InitialPose& pose) {
   }
 }
 
-MapSnapshot MapServices::mapOfMapper() {
+std::optional<MapSnapshot> MapServices::mapOfMapper(bool also_fixed) {
   // The task may outlive this call, when it has given up.
-  const auto map = std::make_shared<MapSnapshot>();
-  inMapperThread([this, map] { *map = calls_.save(); });
+  const auto map = std::make_shared<std::optional<MapSnapshot>>();
+  inMapperThread([this, map, also_fixed] {
+    if (also_fixed || !calls_.is_fixed()) *map = calls_.save();
+  });
   return std::move(*map);
 }
 
-void MapServices::onTimer(double every_s) {
-  MapSnapshot map;
+void MapServices::onTimer() {
+  if (!kept_.isDue()) return;
+  std::optional<MapSnapshot> map;
   try {
-    map = mapOfMapper();
+    map = mapOfMapper(false);
   } catch (const std::exception& e) {
     ROS_INFO_STREAM_THROTTLE(kSayEvery_s, "save_map: " << e.what());
     return;
   }
   try {
-    keep(std::move(map));
-    timer_.setPeriod(ros::WallDuration(every_s));
+    if (map) kept_.keep(std::move(*map));
   } catch (const std::exception& e) {
     ROS_WARN_STREAM_THROTTLE(kSayEvery_s, "save_map: " << e.what());
   }
 }
 
-void MapServices::keep(MapSnapshot map) {
-  const std::int64_t stamp_ns = map.all_but_landmarks.stamp_ns;
-  if (stamp_ns == kept_ns_) return;
-  const std::filesystem::path path(kept_);
-  std::error_code error;
-  std::filesystem::create_directories(path.parent_path(), error);
-  // There may be an earlier flight's map, or this one's before it began anew.
-  if (kept_ns_ == 0) {
-    const std::filesystem::path before(kept_ + ".before");
-    if (std::filesystem::exists(path, error)) std::filesystem::remove(before, error);
-    std::filesystem::create_hard_link(path, before, error);
-  }
-  writeMap(kept_, std::move(map).map(), kMadeBy);
-  kept_ns_ = stamp_ns;
-}
-
 bool MapServices::onSave(MapFile::Request& request, MapFile::Response& response) {
   try {
     const std::string path = pathOf(request.name);
-    const std::size_t landmarks = writeMap(path, mapOfMapper().map(), kMadeBy);
+    const std::size_t landmarks =
+        writeMap(path, std::move(*mapOfMapper(true)).map(), kMadeByMapper);
     response.message = std::to_string(landmarks) + " landmarks written to " + path;
     response.success = 1;
   } catch (const std::exception& e) {

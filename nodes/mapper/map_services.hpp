@@ -8,15 +8,16 @@
 #include <ros/spinner.h>
 #include <std_srvs/Trigger.h>
 
-#include <atomic>
 #include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ardrone_vslam/saved_map.hpp"
+#include "mapper/kept_map.hpp"
 
 namespace ardrone_vslam {
 
@@ -30,25 +31,21 @@ class MapServices {
   /// Called in the mapper's thread.
   struct Calls {
     std::function<MapSnapshot()> save;  ///< @throws MapFileError when there is nothing to save
+    std::function<bool()> is_fixed;     ///< nothing new in the map: no file is kept
     std::function<void(std::shared_ptr<const SavedMap>)> use;  ///< nothing: an empty map
     std::function<void(const InitialPose&)> look_near;  ///< @throws std::exception with the reason
   };
 
-  /// A file that gets the map.
-  struct Kept {
-    std::string file;    ///< as open()'s; empty: none
-    double every_s = 0;  ///< in flight, first after 10 s at most; 0: only at the end
-  };
-
-  MapServices(const ros::NodeHandle& private_nh, Calls calls, const Kept& kept);
+  /// @param kept  file that gets the map in flight and at the end, as open()'s; empty: none
+  MapServices(const ros::NodeHandle& private_nh, Calls calls, const std::string& kept);
   ~MapServices();
   MapServices(const MapServices&) = delete;
   MapServices& operator=(const MapServices&) = delete;
 
   /// Does what services wait for. In the mapper's thread, often.
   void serve();
-  /// The map begins anew: the file that is kept goes on as NAME.before.
-  void beginAnew() { kept_ns_ = 0; }
+  /// The file that gets the map.
+  KeptMap& kept() { return kept_; }
 
   /// @param file  a path; relative ones begin in the folder of maps. @throws MapFileError
   static std::shared_ptr<const SavedMap> open(const std::string& file);
@@ -58,9 +55,9 @@ class MapServices {
   bool onLoad(MapFile::Request& request, MapFile::Response& response);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void onInitialPose(const InitialPose& pose);
-  void onTimer(double every_s);
-  void keep(MapSnapshot map);
-  MapSnapshot mapOfMapper();
+  void onTimer();
+  /// @return nothing when the map is fixed, which counts for the file that is kept
+  std::optional<MapSnapshot> mapOfMapper(bool also_fixed);
   void inMapperThread(const std::function<void()>& work);
 
   Calls calls_;
@@ -71,8 +68,7 @@ class MapServices {
   ros::NodeHandle nh_;
   std::vector<ros::ServiceServer> servers_;
   ros::Subscriber initial_pose_;
-  std::string kept_;                      // path; empty: none
-  std::atomic<std::int64_t> kept_ns_{0};  // SavedMap::stamp_ns of what it has of this map
+  KeptMap kept_;
   ros::WallTimer timer_;
   ros::AsyncSpinner spinner_;
 };

@@ -61,11 +61,10 @@ void MapperNodelet::makeMaps() {
     if (!hint.value) throw MapFileError(hint.fault);
     slam_->lookNear(*hint.value);
   };
-  const MapperNodeConfig& node = settings().node;
-  const bool keeps = !settings().slam.msckf.localise_only;
-  maps_ = std::make_unique<MapServices>(
-      getPrivateNodeHandle(), std::move(calls),
-      MapServices::Kept{keeps ? node.save_map : "", autosavePeriod_s(node)});
+  calls.is_fixed = [this] { return slam_->isMapFixed(); };
+  maps_ = std::make_unique<MapServices>(getPrivateNodeHandle(), std::move(calls),
+                                        settings().node.save_map);
+  maps_->kept().setPeriod(settings().node.autosave.period_s());
   try {
     const std::string fault = faultOfMaps(settings().slam);
     if (!settings().node.save_map.empty() && !fault.empty()) throw MapFileError(fault);
@@ -117,8 +116,9 @@ void MapperNodelet::start() {
   odometry_->subscribe(nh);
   features_->subscribe(nh, settings().node.queue_size);
   parameters_->offer([this](const MapperChanges& changes) {
-    slam_->limit(changes.landmark_map, changes.frame_budget);
+    slam_->change(changes.landmark_map, changes.frame_budget, changes.loaded_map);
     outputs_->change(changes.outputs);
+    maps_->kept().setPeriod(changes.autosave.period_s());
   });
 }
 
@@ -209,7 +209,7 @@ void MapperNodelet::restartAt(std::int64_t stamp_ns, const std::string& topic) {
 void MapperNodelet::beginMapAnew(const std::string& why) {
   warnings_.event(why + ": the map begins anew");
   slam_->endMap();
-  maps_->beginAnew();
+  maps_->kept().beginAnew();
   odometry_->watch().beginMapAnew();
   outputs_->clear();
 }

@@ -24,8 +24,10 @@ MapperParameters::MapperParameters(const ros::NodeHandle& private_nh, Warnings& 
 }
 
 void MapperParameters::offer(ParameterChanges<MapperChanges>::Use use) {
-  const MapperChanges now{at_start_.slam.landmark_map, at_start_.slam.frame_budget,
-                          at_start_.node.outputs};
+  const SlamConfig& slam = at_start_.slam;
+  const MapperNodeConfig& node = at_start_.node;
+  const MapperChanges now{slam.landmark_map, slam.frame_budget, slam.msckf, node.outputs,
+                          node.autosave};
   changes_ = std::make_unique<ParameterChanges<MapperChanges>>(private_nh_, now, warnings_,
                                                                std::move(use));
 }

@@ -21,14 +21,18 @@ struct MapperSettings {
 struct MapperChanges {
   LandmarkMapConfig landmark_map;
   FrameBudgetConfig frame_budget;
+  LoadedMapConfig loaded_map;
   OutputsConfig outputs;
+  AutosaveConfig autosave;
 };
 
 template <class Visitor>
 void visitParameters(MapperChanges& c, Visitor&& visit) {
   visitParameters(c.landmark_map, visit);
   visitParameters(c.frame_budget, visit);
+  visitParameters(c.loaded_map, visit);
   visitParameters(c.outputs, visit);
+  visitParameters(c.autosave, visit);
 }
 
 /// The mapper's parameters: as read at its start, and as changed since.

@@ -137,7 +137,7 @@ Settings loadSettings(const std::string& path, const std::vector<std::string>& o
   s.odometry_wait_s = mapper_node.odometry_wait_s;
   s.map_file = mapper_node.map_file;
   s.save_map = mapper_node.save_map;
-  s.autosave_s = autosavePeriod_s(mapper_node);
+  s.autosave_s = mapper_node.autosave.period_s();
   return s;
 }
 

@@ -19,7 +19,7 @@ struct Settings {
   double odometry_wait_s = 0;  ///< mapper/odometry_wait_s
   std::string map_file;        ///< mapper/map_file
   std::string save_map;        ///< mapper/save_map
-  double autosave_s = 0;       ///< autosavePeriod_s()
+  double autosave_s = 0;       ///< AutosaveConfig::period_s()
 };
 
 /// Reads a configuration file (an empty path: the defaults), then each "section/key=value" of

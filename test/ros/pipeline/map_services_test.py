@@ -5,6 +5,7 @@ odometry; so is the next flight, which leaves the file as it is."""
 import json
 import math
 import os
+import pathlib
 import shutil
 import subprocess
 import sys
@@ -15,6 +16,7 @@ import rospy
 import rostest
 from ardrone_vslam.msg import Status
 from ardrone_vslam.srv import MapFile
+from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from std_srvs.srv import Trigger
 
@@ -152,11 +154,44 @@ class MapServicesTest(unittest.TestCase):
 
     def test_4_the_map_is_kept_in_flight(self):
         self.drone.fly(1)
+        self.assert_kept()
+
+    def test_4a_when_it_is_kept_changes_in_flight(self):
+        mapper = Client("/vslam/mapper", timeout=TIMEOUT_S)
+        mapper.update_configuration({"autosave_s": 0})
+        kept = pathlib.Path(KEPT).read_bytes()
+        self.drone.fly(1)
+        self.assert_stays(kept)
+        mapper.update_configuration({"autosave_s": 1})
+        self.assert_kept()
+
+    def test_4b_localise_only_counts_from_load_map_on(self):
+        mapper = Client("/vslam/mapper", timeout=TIMEOUT_S)
+        self.drone.steps = 10
+        for is_fixed in (True, False):
+            mapper.update_configuration({"localise_only": is_fixed})
+            answer = call("load_map", MapFile, "rostest.vmap")
+            self.assertTrue(answer.success, answer.message)
+            self.drone.steps = 10
+            self.assertIsNotNone(self.drone.fly(20)[-1])
+            self.assertNotEqual(self.status().state_name, "searching_map")
+            loaded, kept = self.status().landmarks, pathlib.Path(KEPT).read_bytes()
+            self.drone.fly(80)  # out of what is mapped
+            self.assertEqual(self.status().landmarks == loaded, is_fixed)
+            if is_fixed:
+                self.assertEqual(loaded, landmarks_in(os.path.join(os.path.dirname(KEPT), "rostest.vmap")))
+                self.assert_stays(kept)
+
+    def assert_kept(self):
         landmarks = self.status().landmarks
         end_s = time.monotonic() + TIMEOUT_S  # of a second
         while time.monotonic() < end_s and landmarks_in(KEPT) != landmarks:
             time.sleep(0.2)
         self.assertEqual(landmarks_in(KEPT), landmarks)
+
+    def assert_stays(self, kept):
+        time.sleep(2)  # in which it would have been saved
+        self.assertEqual(pathlib.Path(KEPT).read_bytes(), kept)
 
     def test_5_the_map_is_kept_at_the_end(self):
         self.drone.fly(1)
@@ -177,8 +212,7 @@ class MapServicesTest(unittest.TestCase):
         return drone
 
     def test_6_the_next_flight_leaves_it_as_it_is(self):
-        with open(KEPT, "rb") as file:
-            kept = file.read()
+        kept = pathlib.Path(KEPT).read_bytes()
         drone = self.launch("next", "map:=kept.vmap", "localise_only:=true", "save_map:=kept.vmap", "autosave_s:=1")
         drone.is_turned, drone.steps = True, 10
         drone.fly(1)
@@ -188,9 +222,7 @@ class MapServicesTest(unittest.TestCase):
         self.assertLess(abs(pose.position.y - drone.position_m()), 2 * STEP_M)
         self.assertIsNotNone(drone.fly(80)[-1])  # out of what is mapped
         self.assertEqual(status_of(drone).landmarks, landmarks_in(KEPT))
-        time.sleep(2)  # in which it would have been saved
-        with open(KEPT, "rb") as file:
-            self.assertEqual(file.read(), kept)
+        self.assert_stays(kept)
 
     def test_7_a_map_of_another_camera_stops_a_flight_before_it_begins(self):
         drone = self.launch("other", "map:=other.vmap")

@@ -14,7 +14,8 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from drone import TIMEOUT_S, Drone  # noqa: E402
 
 OF_TRACKER = {"features_per_frame": 1000, "cell_size_px": 80, "threshold_min": 8, "track_search_radius_px": 80.0}
-OF_MAPPER = {"max_landmarks": 200000, "max_map_mb": 0, "frame_budget_ms": 0.0, "transform_tolerance_s": 0.2, "publish_tf": True}
+OF_MAPPER = {"max_landmarks": 200000, "max_map_mb": 0, "frame_budget_ms": 0.0, "localise_only": False, "transform_tolerance_s": 0.2,
+             "publish_tf": True, "autosave_s": 60.0}
 
 
 def values_of(client):
