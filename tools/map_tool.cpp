@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -80,13 +81,25 @@ int exportMap(const Options& o) {
   return 0;
 }
 
+/// What is written has no views: in place of the map, nothing could be refined any more.
+void checkOut(const Options& o) {
+  for (const std::string& in : {o.map, o.other}) {
+    std::error_code error;
+    if (std::filesystem::equivalent(in, o.out, error))
+      throw UsageError("--out " + o.out + " is the map that is read: name another file");
+  }
+  checkWritable(o.out);
+}
+
 int pruneMap(const Options& o) {
+  checkOut(o);
   const SavedMap map = readMap(o.map);
   return writePart(o, prune(map, o.rules), map.landmarks.size(),
                    "loosen --least-seen or --most-sigma-m");
 }
 
 int crop(const Options& o) {
+  checkOut(o);
   const Eigen::Map<const Eigen::Vector3d> from_m(o.from_m.data());
   const Eigen::Map<const Eigen::Vector3d> to_m(o.to_m.data());
   if ((from_m.array() >= to_m.array()).any())
@@ -100,6 +113,7 @@ int crop(const Options& o) {
 }
 
 int mergeMaps(const Options& o) {
+  checkOut(o);
   const SavedMap a = readMap(o.map);
   const SavedMap b = readMap(o.other);
   const std::string fault = mergeFault(a, b);
@@ -141,7 +155,7 @@ int refineMap(const Options& /*o*/) {
 }
 #else
 int refineMap(const Options& o) {
-  checkWritable(o.out);
+  checkOut(o);
   const SavedMap map = readMap(o.map, WithFlight::kYes);
   if (map.flight.keyframes.empty())
     throw MapFileError(

@@ -204,6 +204,7 @@ RunMaps mapsOf(const Options& o, const Sequence& sequence, const PipelineConfig&
   const bool is_saved = !o.maps.saved.empty();
   RunMaps maps{std::nullopt, is_saved, is_saved || o.maps.is_refined};
   if (!fault.empty() && (maps.is_recorded || !o.maps.loaded.empty())) throw UsageError(fault);
+  if (is_saved) checkWritable(o.maps.saved);
   if (!o.maps.loaded.empty())
     maps.loaded = loadMap(o.maps.loaded, sequence.camera(), config.mapper);
   return maps;
@@ -279,8 +280,7 @@ int run(const Options& o) {
   if (!unfinished.hasWritten()) removeEarlierRun(o.out);
   append(reportRuns(*sequence, odometries, results, report), faults);
   if (const auto& map = results.front().map)
-    std::cout << "map of " << writeMap(o.maps.saved, *map, "replay " ARDRONE_VSLAM_VERSION)
-              << " landmarks written to " << o.maps.saved << '\n';
+    append(o.maps.save(*map, "replay " ARDRONE_VSLAM_VERSION), faults);
   std::cout << "written to " << o.out << '\n';
   if (o.report) writeRunPage(evaluate_script, o.out);
   for (const std::string& text : faults) tell(text);

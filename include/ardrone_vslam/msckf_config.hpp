@@ -42,7 +42,7 @@ void visitParameters(LoadedMapConfig& c, Visitor&& visit) {
           "localise_only", "switch", 0, 0,
           "a loaded map is never changed, and counts as exact: what it errs by is added to "
           "the pose's covariance. Without a loaded map there are no landmarks then. In flight it "
-          "counts from the next `load_map` or `reset` on"},
+          "counts when the map begins anew: by `load_map`, `reset`, or stamps that do"},
       c.localise_only);
 }
 

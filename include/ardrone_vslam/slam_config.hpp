@@ -229,7 +229,7 @@ struct SlamConfig {
 };
 
 /// Why a configuration can neither load nor save maps; empty when it can.
-/// @param landmarks  of a map that is to be loaded, or is: with `localise_only` none may go
+/// @param landmarks  of a map that is to be loaded: all of it is
 std::string faultOfMaps(const SlamConfig& config, std::size_t landmarks = 0);
 
 /// Of `image_time_offset_s`, also the tracker's.

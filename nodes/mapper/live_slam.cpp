@@ -67,11 +67,10 @@ void LiveSlam::change(const LandmarkMapConfig& landmark_map, const FrameBudgetCo
   SlamConfig changed = config_;
   changed.landmark_map = landmark_map;
   changed.frame_budget = frame_budget;
-  changed.msckf.localise_only = loaded_map.localise_only || (in_use_ && isMapFixed());
+  changed.msckf.localise_only = loaded_map.localise_only;
   const std::string fault = faultOfMaps(changed, loaded_ ? loaded_->landmarks.size() : 0);
   if (loaded_ && !fault.empty()) throw std::invalid_argument(fault);
   if (in_use_) in_use_->slam.limit(landmark_map, frame_budget);
-  changed.msckf.localise_only = loaded_map.localise_only;
   config_ = changed;
 }
 

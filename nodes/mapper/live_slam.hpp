@@ -45,7 +45,7 @@ class LiveSlam {
   /// @throws std::exception when there is no map to look in
   void lookNear(const PlaceHint& hint);
   /// Of the map in use and of later ones. @param loaded_map  of later ones alone
-  /// @throws std::invalid_argument where landmarks of a map that is not to be changed would go
+  /// @throws std::invalid_argument where the loaded map would be too large
   void change(const LandmarkMapConfig& landmark_map, const FrameBudgetConfig& frame_budget,
               const LoadedMapConfig& loaded_map);
   void countCameraChange() { ++counts_.camera_changes; }

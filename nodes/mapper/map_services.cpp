@@ -11,6 +11,7 @@
 namespace ardrone_vslam {
 namespace {
 
+constexpr char kMadeBy[] = "mapper " ARDRONE_VSLAM_VERSION;
 constexpr std::chrono::seconds kPatience(10);  // for the mapper's thread
 constexpr double kKeepTick_s = 0.2;            // how late a file may be kept
 constexpr double kSayEvery_s = 60;
@@ -39,7 +40,7 @@ std::string pathOf(const std::string& name) {
 MapServices::MapServices(const ros::NodeHandle& private_nh, Calls calls, const std::string& kept)
     : calls_(std::move(calls)),
       nh_(private_nh),
-      kept_(kept.empty() ? "" : (folderOfMaps() / kept).string()),
+      kept_(kept.empty() ? "" : (folderOfMaps() / kept).string(), kMadeBy),
       spinner_(1, &queue_) {
   nh_.setCallbackQueue(&queue_);
   servers_ = {nh_.advertiseService("save_map", &MapServices::onSave, this),
@@ -62,7 +63,7 @@ MapServices::~MapServices() {
   spinner_.stop();
   if (kept_.path().empty() || calls_.is_fixed()) return;
   try {
-    kept_.keep(calls_.save());
+    kept_.keep(calls_.save(), kept_.number());
   } catch (const std::exception& e) {
     ROS_WARN_STREAM("save_map: " << kept_.path() << " gets no map at the end: " << e.what());
   }
@@ -110,26 +111,27 @@ void MapServices::onInitialPose(const InitialPose& pose) {
   }
 }
 
-std::optional<MapSnapshot> MapServices::mapOfMapper(bool also_fixed) {
+MapServices::Taken MapServices::mapOfMapper(bool also_fixed) {
   // The task may outlive this call, when it has given up.
-  const auto map = std::make_shared<std::optional<MapSnapshot>>();
-  inMapperThread([this, map, also_fixed] {
-    if (also_fixed || !calls_.is_fixed()) *map = calls_.save();
+  const auto taken = std::make_shared<Taken>();
+  inMapperThread([this, taken, also_fixed] {
+    taken->number = kept_.number();
+    if (also_fixed || !calls_.is_fixed()) taken->map = calls_.save();
   });
-  return std::move(*map);
+  return std::move(*taken);
 }
 
 void MapServices::onTimer() {
   if (!kept_.isDue()) return;
-  std::optional<MapSnapshot> map;
+  Taken taken;
   try {
-    map = mapOfMapper(false);
+    taken = mapOfMapper(false);
   } catch (const std::exception& e) {
     ROS_INFO_STREAM_THROTTLE(kSayEvery_s, "save_map: " << e.what());
     return;
   }
   try {
-    if (map) kept_.keep(std::move(*map));
+    if (taken.map) kept_.keep(std::move(*taken.map), taken.number);
   } catch (const std::exception& e) {
     ROS_WARN_STREAM_THROTTLE(kSayEvery_s, "save_map: " << e.what());
   }
@@ -138,8 +140,7 @@ void MapServices::onTimer() {
 bool MapServices::onSave(MapFile::Request& request, MapFile::Response& response) {
   try {
     const std::string path = pathOf(request.name);
-    const std::size_t landmarks =
-        writeMap(path, std::move(*mapOfMapper(true)).map(), kMadeByMapper);
+    const std::size_t landmarks = writeMap(path, std::move(*mapOfMapper(true).map).map(), kMadeBy);
     response.message = std::to_string(landmarks) + " landmarks written to " + path;
     response.success = 1;
   } catch (const std::exception& e) {

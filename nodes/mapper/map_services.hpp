@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "ardrone_vslam/saved_map.hpp"
-#include "mapper/kept_map.hpp"
+#include "map_files/kept_map.hpp"
 
 namespace ardrone_vslam {
 
@@ -51,13 +51,18 @@ class MapServices {
   static std::shared_ptr<const SavedMap> open(const std::string& file);
 
  private:
+  struct Taken {
+    std::optional<MapSnapshot> map;
+    int number = 0;  ///< KeptMap::number() then
+  };
+
   bool onSave(MapFile::Request& request, MapFile::Response& response);
   bool onLoad(MapFile::Request& request, MapFile::Response& response);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void onInitialPose(const InitialPose& pose);
   void onTimer();
-  /// @return nothing when the map is fixed, which counts for the file that is kept
-  std::optional<MapSnapshot> mapOfMapper(bool also_fixed);
+  /// @return no map when it is fixed, which counts for the file that is kept
+  Taken mapOfMapper(bool also_fixed);
   void inMapperThread(const std::function<void()>& work);
 
   Calls calls_;

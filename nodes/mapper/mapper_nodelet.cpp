@@ -119,6 +119,8 @@ void MapperNodelet::start() {
     slam_->change(changes.landmark_map, changes.frame_budget, changes.loaded_map);
     outputs_->change(changes.outputs);
     maps_->kept().setPeriod(changes.autosave.period_s());
+    if (changes.loaded_map.localise_only != slam_->isMapFixed())
+      warnings_.event("localise_only counts when the map begins anew: by load_map or reset");
   });
 }
 

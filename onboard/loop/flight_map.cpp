@@ -12,6 +12,8 @@
 #include <new>
 #include <utility>
 
+#include "files/set_aside.hpp"
+
 namespace ardrone_vslam {
 namespace {
 
@@ -30,9 +32,16 @@ SavedMap mapOf(const Slam& slam, std::optional<FlightRecorder>& recorder) {
   return map;
 }
 
+/// @param is_first  of this flight: what an earlier one left goes on as NAME.before
+std::size_t write(const std::string& path, const SavedMap& map, bool is_first) {
+  const std::string fault = is_first ? setAside(path) : "";
+  if (!fault.empty()) throw MapFileError(fault);
+  return writeMap(path, map, kMadeBy);
+}
+
 /// In the child, which has memory of its own. @return its exit code
-int writeInChild(const std::string& path, const Slam& slam,
-                 std::optional<FlightRecorder>& recorder) {
+int writeInChild(const std::string& path, const Slam& slam, std::optional<FlightRecorder>& recorder,
+                 bool is_first) {
   constexpr int kLast = 19;  // after everything else
   constexpr int kMostDescriptors = 256;
   ::setpriority(PRIO_PROCESS, 0, kLast);
@@ -41,7 +50,7 @@ int writeInChild(const std::string& path, const Slam& slam,
   try {
     const SavedMap map = mapOf(slam, recorder);
     if (map.landmarks.empty()) return kNothingToSave;
-    writeMap(path, map, kMadeBy);
+    write(path, map, is_first);
     return 0;
   } catch (const MapFileError& e) {
     std::fprintf(stderr, "vslam_onboard: in flight: %s\n", e.what());
@@ -118,7 +127,7 @@ void FlightMap::saveInFlight(const Slam& slam, std::int64_t now_ns) {
   if (slam.landmarks().empty() && !slam.isSearching()) return;
   next_save_ns_ = now_ns + period_ns;
   child_ = ::fork();
-  if (child_ == 0) ::_exit(writeInChild(files_.saved, slam, recorder_));
+  if (child_ == 0) ::_exit(writeInChild(files_.saved, slam, recorder_, !is_saved_));
   if (child_ > 0) return;
   child_ = 0;
   say(files_.saved, std::string("the map is not saved in flight: ") + std::strerror(errno));
@@ -140,7 +149,7 @@ std::string FlightMap::saveAtEnd(const Slam& slam) {
   if (is_given_up_) return path + " stays as it was when the flight's map began anew";
   const SavedMap map = mapOf(slam, recorder_);
   if (map.landmarks.empty()) return path + " stays as it was: the flight has no landmark";
-  return std::to_string(writeMap(path, map, kMadeBy)) + " landmarks written to " + path;
+  return std::to_string(write(path, map, !is_saved_)) + " landmarks written to " + path;
 }
 
 void FlightMap::waitForChild(int options) {

@@ -24,8 +24,8 @@ std::string faultOfMaps(const SlamConfig& config, std::size_t landmarks) {
   if (config.estimator != EstimatorKind::kMsckf)
     return "maps are loaded and saved with estimator msckf alone: set estimator to msckf";
   const auto most = static_cast<std::size_t>(config.landmark_map.most());
-  if (!config.msckf.localise_only || landmarks <= most) return {};
-  return "with localise_only the map keeps all that it has, which is " + std::to_string(landmarks) +
+  if (landmarks <= most) return {};
+  return "the map has " + std::to_string(landmarks) +
          " landmarks, and max_landmarks (or max_map_mb) allows " + std::to_string(most) +
          ": set it higher, or make the map smaller by map_tool prune --most";
 }

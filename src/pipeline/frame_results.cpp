@@ -80,7 +80,7 @@ const char* explain(SlamState state) {
   switch (state) {
     case SlamState::kBuildingMap:
       return "no landmark yet: they appear when the camera has moved past what it sees by a few "
-             "hundredths of the distance";
+             "hundredths of the distance; with localise_only and without a loaded map never";
     case SlamState::kLocalised:
       return "";
     case SlamState::kTooFewLandmarks:

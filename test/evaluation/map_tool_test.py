@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shutil
 import subprocess
 import unittest
 
@@ -99,6 +100,24 @@ class MapTool(TestWithFolder):
         with open(self.path(name)) as file:
             return [[float(row[axis]) for axis in ("x_m", "y_m", "z_m")] for row in csv.DictReader(file)]
 
+    def test_replay_leaves_a_map_where_it_has_none(self):
+        with open(self.path("first.vmap"), "rb") as file:
+            before = file.read()
+        for frames, name, sentence in (("0:10", "first.vmap", "has no landmark, so no map is written"), ("0:250", "none/x.vmap", "cannot be written")):
+            done = call(REPLAY, self.path("laps"), "--frames", frames, "--odometry-profile", "drone", "--save-map", self.path(name), "--out", self.path("short"))
+            self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+            self.assertIn(sentence, done.stderr)
+            self.assertEqual(os.path.exists(self.path("short")), frames == "0:10", "told before the flight")
+            shutil.rmtree(self.path("short"), ignore_errors=True)
+        with open(self.path("first.vmap"), "rb") as file:
+            self.assertEqual(file.read(), before)
+
+    def test_a_map_too_large_is_refused_whole(self):
+        done = call(REPLAY, self.path("laps"), "--frames", "250:420", "--odometry-profile", "drone", "--map", self.path("first.vmap"), "--set",
+                    "mapper/max_landmarks=100", "--out", self.path("short"))
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn("max_landmarks (or max_map_mb) allows 100", done.stderr)
+
     def test_export(self):
         count = self.facts("first.vmap")["landmarks"]
         for name, lines in (("map.csv", count + 1), ("map.ply", count + 9)):
@@ -142,6 +161,9 @@ class MapTool(TestWithFolder):
     def test_wrong_usage(self):
         self.refused(2, "subcommand", self.path("first.vmap"))
         self.refused(2, "--out", "prune", self.path("first.vmap"))
+        for command in (("refine",), ("prune",), ("crop", "--from", -1, -1, -1, "--to", 1, 1, 1), ("merge", self.path("second.vmap"))):
+            self.refused(2, "is the map that is read", command[0], self.path("first.vmap"), *command[1:], "--out", self.path("first.vmap"))
+        self.assertGreater(self.facts("first.vmap")["keyframes"], 20, "views are lost")
         self.refused(2, "--most", "prune", self.path("first.vmap"), "--most", 0, "--out", self.path("no.vmap"))
         self.refused(2, "--most-sigma-m", "prune", self.path("first.vmap"), "--most-sigma-m", "nan", "--out", self.path("no.vmap"))
 

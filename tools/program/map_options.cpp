@@ -2,6 +2,7 @@
 #include "program/map_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <iostream>
 
 namespace ardrone_vslam {
 
@@ -16,6 +17,18 @@ void MapOptions::addTo(CLI::App& app) {
                "then optimise the whole flight at once: refined.tum beside fused.tum, and "
                "--save-map writes the refined map")
       ->excludes("--map");
+}
+
+std::vector<std::string> MapOptions::save(const SavedMap& map, const char* made_by) const {
+  if (map.landmarks.empty())
+    return {"the flight has no landmark, so no map is written to " + saved};
+  try {
+    const std::size_t landmarks = writeMap(saved, map, made_by);
+    std::cout << "map of " << landmarks << " landmarks written to " << saved << '\n';
+    return {};
+  } catch (const MapFileError& e) {
+    return {e.what()};
+  }
 }
 
 }  // namespace ardrone_vslam

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "ardrone_vslam/saved_map.hpp"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the library is called so
 class App;
@@ -18,6 +21,9 @@ struct MapOptions {
 
   /// @pre the program has an option --seeds: a map is of one flight
   void addTo(CLI::App& app);
+  /// Writes the map to `saved`, and says so on stdout. @param made_by  program and version
+  /// @return why there is none; empty when there is
+  std::vector<std::string> save(const SavedMap& map, const char* made_by) const;
 };
 
 }  // namespace ardrone_vslam

@@ -51,6 +51,14 @@ TEST_F(FlightMapTest, IsSavedAtTheEnd) {
   EXPECT_EQ(said_, std::to_string(map.landmarks.size()) + " landmarks written to " + file("map"));
 }
 
+TEST_F(FlightMapTest, WhatAnEarlierFlightLeftIsKept) {
+  writeFile(file("map"), "yesterday's");
+  settings_.autosave_s = 1e-9;
+  EXPECT_EQ(fly(), "");
+  EXPECT_GT(readMap(file("map")).landmarks.size(), 50U);
+  EXPECT_EQ(readFile(file("map") + ".before"), "yesterday's");
+}
+
 TEST_F(FlightMapTest, IsSavedInFlightAndNoPoseIsAnother) {
   settings_.autosave_s = 3600;
   OnboardLoop(settings_, stop_.ends[0]).run();

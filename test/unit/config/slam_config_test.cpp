@@ -84,15 +84,13 @@ TEST(SlamConfig, FloorPointsNeedAHeightAndTheMsckf) {
   EXPECT_EQ(faultsOf(config).size(), 2U) << "the height is none of its, either";
 }
 
-TEST(SlamConfig, AMapThatStaysAsItIsMustNotBeTooLarge) {
+TEST(SlamConfig, ALoadedMapMustNotBeTooLarge) {
   constexpr std::size_t kMost = 10;
   SlamConfig config;
   config.landmark_map.max_landmarks = kMost;
-  EXPECT_TRUE(faultOfMaps(config, kMost + 1).empty()) << "some go";
-  config.msckf.localise_only = true;
   EXPECT_TRUE(faultOfMaps(config, kMost).empty());
   const std::string fault = faultOfMaps(config, kMost + 1);
-  for (const char* word : {"localise_only", "11 landmarks", "allows 10:", "prune --most"})
+  for (const char* word : {"11 landmarks", "allows 10:", "prune --most"})
     EXPECT_NE(fault.find(word), std::string::npos) << fault << "\nhas no " << word;
   SavedMap map;
   map.landmarks.resize(kMost + 1);
