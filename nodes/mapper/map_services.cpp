@@ -88,8 +88,9 @@ void MapServices::inMapperThread(const std::function<void()>& work) {
   }
   if (done.wait_for(kPatience) == std::future_status::timeout) {
     const std::lock_guard<std::mutex> lock(mutex_);
+    const bool has_begun = tasks_.empty();  // then it will end, too
     tasks_.clear();
-    throw MapFileError("the mapper was too busy to answer within 10 s; try again");
+    if (!has_begun) throw MapFileError("the mapper was too busy to answer within 10 s; try again");
   }
   try {
     done.get();
