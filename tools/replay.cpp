@@ -204,7 +204,6 @@ RunMaps mapsOf(const Options& o, const Sequence& sequence, const PipelineConfig&
   const bool is_saved = !o.maps.saved.empty();
   RunMaps maps{std::nullopt, is_saved, is_saved || o.maps.is_refined};
   if (!fault.empty() && (maps.is_recorded || !o.maps.loaded.empty())) throw UsageError(fault);
-  if (is_saved) checkWritable(o.maps.saved);
   if (!o.maps.loaded.empty())
     maps.loaded = loadMap(o.maps.loaded, sequence.camera(), config.mapper);
   return maps;
@@ -262,6 +261,7 @@ int run(const Options& o) {
   const std::vector<RunOdometry> odometries = odometriesOf(*sequence, o);
   const RunMaps maps = mapsOf(o, *sequence, config);
   makeRunFolder(o.out);
+  if (!o.maps.saved.empty()) checkWritable(o.maps.saved);
   const std::string evaluate_script = o.report ? findEvaluateScript() : "";
   const auto tell = [](const std::string& text) { std::cerr << "replay: " << text << '\n'; };
   const ReportOptions report{o.out, !o.seeds.empty(), nameOf(config.mapper.estimator), tell};

@@ -107,7 +107,7 @@ class MapTool(TestWithFolder):
             done = call(REPLAY, self.path("laps"), "--frames", frames, "--odometry-profile", "drone", "--save-map", self.path(name), "--out", self.path("short"))
             self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
             self.assertIn(sentence, done.stderr)
-            self.assertEqual(os.path.exists(self.path("short")), frames == "0:10", "told before the flight")
+            self.assertEqual(os.path.exists(self.path("short/summary.json")), frames == "0:10", "told before the flight")
             shutil.rmtree(self.path("short"), ignore_errors=True)
         with open(self.path("first.vmap"), "rb") as file:
             self.assertEqual(file.read(), before)
