@@ -113,13 +113,12 @@ void MapServices::onInitialPose(const InitialPose& pose) {
 }
 
 MapServices::Taken MapServices::mapOfMapper(bool also_fixed) {
-  // The task may outlive this call, when it has given up.
-  const auto taken = std::make_shared<Taken>();
-  inMapperThread([this, taken, also_fixed] {
-    taken->number = kept_.number();
-    if (also_fixed || !calls_.is_fixed()) taken->map = calls_.save();
+  Taken taken;
+  inMapperThread([&] {
+    taken.number = kept_.number();
+    if (also_fixed || !calls_.is_fixed()) taken.map = calls_.save();
   });
-  return std::move(*taken);
+  return taken;
 }
 
 void MapServices::onTimer() {

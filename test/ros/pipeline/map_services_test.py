@@ -167,7 +167,6 @@ class MapServicesTest(unittest.TestCase):
 
     def test_4b_localise_only_counts_from_load_map_on(self):
         mapper = Client("/vslam/mapper", timeout=TIMEOUT_S)
-        self.drone.steps = 10
         for is_fixed in (True, False):
             mapper.update_configuration({"localise_only": is_fixed})
             answer = call("load_map", MapFile, "rostest.vmap")

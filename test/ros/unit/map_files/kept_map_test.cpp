@@ -2,13 +2,13 @@
 #include "map_files/kept_map.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "files/set_aside.hpp"
+#include "support/read_file.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ardrone_vslam {
 namespace {
@@ -23,25 +23,13 @@ MapSnapshot mapUntil(std::int64_t stamp_ns) {
   return MapSnapshot(std::move(map));
 }
 
-std::string contentsOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 class KeptMapTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("kept_map." + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-    path_ = (folder_ / "kept.vmap").string();
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// SavedMap::stamp_ns of a file.
   std::int64_t stampIn(const std::string& ending = "") { return readMap(path_ + ending).stamp_ns; }
 
-  fs::path folder_;
-  std::string path_;
+  TemporaryFolder folder_;
+  std::string path_ = folder_.file("kept.vmap");
 };
 
 TEST_F(KeptMapTest, TheFileHasTheNewestOfOneMap) {
@@ -95,8 +83,8 @@ TEST_F(KeptMapTest, AFileIsSetAsideAsItIsAndStays) {
     fs::remove(path_);  // as writeMap() replaces it: else the link would be changed, too
     std::ofstream(path_) << text;
     EXPECT_EQ(setAside(path_), "");
-    EXPECT_EQ(contentsOf(path_), text);
-    EXPECT_EQ(contentsOf(path_ + ".before"), text);
+    EXPECT_EQ(test::readFile(path_), text);
+    EXPECT_EQ(test::readFile(path_ + ".before"), text);
   }
   EXPECT_FALSE(fs::exists(path_ + ".before.part"));
 }
@@ -105,7 +93,7 @@ TEST_F(KeptMapTest, WhatAKilledRunLeftIsNoHindrance) {
   std::ofstream(path_) << "one";
   std::ofstream(path_ + ".before.part") << "half";
   EXPECT_EQ(setAside(path_), "");
-  EXPECT_EQ(contentsOf(path_ + ".before"), "one");
+  EXPECT_EQ(test::readFile(path_ + ".before"), "one");
 }
 
 }  // namespace
