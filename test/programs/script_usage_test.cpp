@@ -59,6 +59,8 @@ TEST_F(ScriptUsage, DemoNamesTheValueThatIsMissing) {
   }
   EXPECT_EQ(script("demo --seconds ten"), 2);
   expectOutput({"demo: --seconds 'ten'", "number"});
+  EXPECT_EQ(script("demo --headless-screenshot " + folder_.file("picture")), 2);
+  expectOutput({"demo: --headless-screenshot", ".png or .gif"});
 }
 
 TEST_F(ScriptUsage, PlayBagNamesTheBagThatIsNotThere) {
