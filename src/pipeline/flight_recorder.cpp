@@ -27,6 +27,10 @@ Eigen::Matrix2d informationOf(const ImageFeatures& features, std::size_t i,
   return variance_px2.inverse() * squared(focal_px);
 }
 
+// With 64 bits. With 32 it is less, but every processor is to keep the same keyframes.
+constexpr std::size_t kKeyframe_bytes = 528;
+static_assert(sizeof(Keyframe) <= kKeyframe_bytes, "what is kept takes more than is counted");
+
 }  // namespace
 
 struct FlightRecorder::State {
@@ -103,7 +107,7 @@ struct FlightRecorder::State {
 
   /// From then on it stays as it is: later frames that fit would be far apart.
   bool isFullWith(const ImageFeatures& features, const Landmarks& landmarks) {
-    const std::size_t most = bytes + sizeof(Keyframe) + features.size() * sizeof(KeyframeView) +
+    const std::size_t most = bytes + kKeyframe_bytes + features.size() * sizeof(KeyframeView) +
                              landmarks.size() * sizeof(LandmarkTrack);
     is_full = is_full || most > most_bytes;
     return is_full;
@@ -126,7 +130,7 @@ struct FlightRecorder::State {
   /// Begins what lies between it and the one after.
   void keep() {
     record.keyframes.push_back(next);
-    bytes += sizeof(Keyframe) + next.views.size() * sizeof(KeyframeView) +
+    bytes += kKeyframe_bytes + next.views.size() * sizeof(KeyframeView) +
              next.landmarks.size() * sizeof(LandmarkTrack);
     next.views.clear();
     next.landmarks.clear();
